@@ -1,0 +1,28 @@
+# Flags that every target gets. The floating-point ones are part of the determinism contract (docs/pipeline.md):
+# no contraction to FMA, no value-changing optimisation; sqrt may be inlined since no code here reads errno or traps.
+add_library(kadr_flags INTERFACE)
+target_include_directories(kadr_flags INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+target_compile_options(kadr_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
+  -ffp-contract=off -fno-fast-math -fno-math-errno -fno-trapping-math)
+target_compile_definitions(kadr_flags INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY
+  KADR_VERSION="${PROJECT_VERSION}")
+if(KADR_SANITIZE)
+  target_compile_options(kadr_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+  target_link_options(kadr_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+# kadr_folder(NAME DEPENDS ...): the static library of one folder, from every .cpp below it but tool mains.
+function(kadr_folder name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;EXCLUDE" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  foreach(pattern ${ARG_EXCLUDE})
+    list(FILTER sources EXCLUDE REGEX ${pattern})
+  endforeach()
+  if(sources)
+    add_library(kadr_${name} STATIC ${sources})
+    target_link_libraries(kadr_${name} PUBLIC kadr_flags ${ARG_DEPENDS})
+  else()
+    add_library(kadr_${name} INTERFACE)
+    target_link_libraries(kadr_${name} INTERFACE kadr_flags ${ARG_DEPENDS})
+  endif()
+endfunction()

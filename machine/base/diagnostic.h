@@ -1,0 +1,93 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "machine/base/codes.h"
+
+namespace kadr {
+
+/// A place in a text: 1-based line and 1-based byte column; length in bytes. line == 0: no place.
+struct Span {
+  std::uint32_t file = 0;  ///< index in a SourceSet
+  std::uint32_t line = 0;
+  std::uint32_t column = 0;
+  std::uint32_t length = 0;
+  constexpr bool operator==(const Span&) const = default;
+};
+
+/// A text as read: a control program, machine or scenario file. The bytes stay as they are (no line-end conversion).
+class SourceText {
+ public:
+  /// A text already in memory.
+  SourceText(std::string name, std::string text);
+  /// Maps a file read-only; throws std::system_error with the path if it can't be opened ("-" reads standard input).
+  static SourceText open(const std::string& path);
+
+  SourceText(SourceText&&) noexcept;
+  SourceText& operator=(SourceText&&) noexcept;
+  ~SourceText();
+
+  const std::string& name() const { return name_; }  ///< as the user gave it
+  std::string_view text() const { return text_; }
+  /// Line by 1-based number, without its line end; empty beyond the end. The line index is built at the first call.
+  std::string_view line(std::uint32_t number) const;
+
+ private:
+  struct Storage;
+  std::string name_;
+  std::unique_ptr<Storage> storage_;
+  std::string_view text_;
+  mutable std::vector<std::size_t> line_starts_;
+};
+
+/// The texts that spans point into.
+class SourceSet {
+ public:
+  std::uint32_t add(SourceText text);  ///< returns the file index for Span::file
+  const SourceText& operator[](std::uint32_t file) const { return *texts_.at(file); }
+  std::size_t size() const { return texts_.size(); }
+
+ private:
+  std::vector<std::unique_ptr<SourceText>> texts_;
+};
+
+enum class Severity : std::uint8_t { note, warning, error };
+
+/// One message to the user. `label` stands at the caret and carries the measured value.
+struct Diagnostic {
+  Code code;
+  Severity severity = Severity::error;
+  Span span;
+  std::string message;             ///< headline; usually code_entry(code).title with names filled in
+  std::string label;               ///< at the caret: what was measured
+  std::vector<std::string> notes;  ///< allowed value and the setting it comes from, further facts
+  std::string help;                ///< what would be right
+};
+
+/// Diagnostics in the order found. Reading goes on after an error; nothing moves while has_errors().
+class Diagnostics {
+ public:
+  void add(Diagnostic d);
+  bool has_errors() const { return errors_ > 0; }
+  std::size_t errors() const { return errors_; }
+  std::size_t warnings() const { return warnings_; }
+  const std::vector<Diagnostic>& list() const { return list_; }
+
+ private:
+  std::vector<Diagnostic> list_;
+  std::size_t errors_ = 0;
+  std::size_t warnings_ = 0;
+};
+
+/// The human form with source line and caret (docs/pipeline.md shows one). No colour codes unless `colour`.
+std::string render_human(const Diagnostic& d, const SourceSet& sources, bool colour = false);
+/// One line: part.ngc:42:6: error: message: label [K2107]
+std::string render_gcc(const Diagnostic& d, const SourceSet& sources);
+/// "2 errors, 1 warning"
+std::string count_text(std::size_t errors, std::size_t warnings);
+
+}  // namespace kadr

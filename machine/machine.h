@@ -1,0 +1,125 @@
+#pragma once
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "machine/base/axes.h"
+#include "machine/base/count.h"
+#include "machine/base/diagnostic.h"
+
+/// The machine: facts that are true before a program is loaded. Read by all, changed by none.
+/// Units: `_u` is the axis's own unit, mm for a linear and degrees for a rotary axis.
+namespace kadr::machine {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+enum class AxisKind : std::uint8_t { linear, rotary };
+enum class MotorModel : std::uint8_t { rigid, spring, stepper };
+enum class IntegratorKind : std::uint8_t { smooth, reference, oracle };
+enum class TickFeed : std::uint8_t { linear, constant };
+enum class AxisLimitRule : std::uint8_t { enforce, report };
+enum class OnAlarm : std::uint8_t { report, stop };
+
+/// Two masses on one axis (paper 001, eq. 5-6). SI: kg, N/m, N s/m; for a rotary axis kg m^2, N m/rad, N m s/rad.
+struct TwoMassModel {
+  MotorModel motor = MotorModel::rigid;
+  double base_mass = 0;          ///< m0: motor and carriage, > 0
+  double link_mass = 0;          ///< m1: flexible part, > 0
+  double link_stiffness = 0;     ///< k, > 0
+  double link_damping = 0;       ///< c, >= 0
+  double base_friction = 0;      ///< b0, viscous, >= 0
+  double motor_stiffness = 0;    ///< Km of `spring`, > 0
+  double motor_damping = 0;      ///< bm, >= 0
+  double holding_force = 0;      ///< F_hold of `stepper`, > 0
+  double tooth_pitch_u = 0;      ///< `stepper`: motion per electrical period (four full steps), mm or deg, > 0
+};
+
+struct AxisModel {
+  char letter = 'X';
+  AxisKind kind = AxisKind::linear;
+  double step_u = 0;                               ///< one motor step, > 0
+  double soft_min_u = -kInfinity;
+  double soft_max_u = kInfinity;
+  double home_u = 0;                               ///< machine position at program start
+  double max_feed_u_s = 0;                         ///< also the rapid rate
+  double max_accel_u_s2 = 0;
+  double max_jerk_u_s3 = kInfinity;                ///< inf: trapezoidal profile
+  double junction_accel_u_s2 = 0;                  ///< allowed acceleration step at a corner (over one tau)
+  double junction_jerk_u_s3 = kInfinity;           ///< allowed jerk at a corner (over one tau)
+  bool has_plant = false;                          ///< false: not modelled, moves as `rigid` without a link
+  TwoMassModel plant;
+};
+
+struct ClockModel {
+  std::int64_t base_hz = 10'000'000;  ///< a multiple of 1 MHz
+  Ticks control_tick{10'000};         ///< tau in base ticks, <= 65536
+  double tau_s() const { return static_cast<double>(control_tick.value) / static_cast<double>(base_hz); }
+};
+
+/// Limits along the tool path of X Y Z, in mm; axis limits hold besides.
+struct PathLimits {
+  double max_feed_mm_s = kInfinity;
+  double max_accel_mm_s2 = kInfinity;
+  double max_jerk_mm_s3 = kInfinity;
+  double centripetal_accel_mm_s2 = kInfinity;
+  double arc_end_tolerance_mm = 0.01;      ///< radius difference accepted between an arc's start and end
+  double arc_end_tolerance_relative = 0.001;
+};
+
+struct PlannerSettings {
+  bool whole_ticks = true;                          ///< motion ends on a control tick (paper 003, eq. 2)
+  AxisLimitRule axis_limits = AxisLimitRule::enforce;
+  TickFeed tick_feed = TickFeed::linear;
+  double tool_change_s = 0;                         ///< dwell that M6 costs
+};
+
+struct PlantSettings {
+  IntegratorKind integrator = IntegratorKind::smooth;
+  double tolerance_um = 1e-8;
+};
+
+struct LogSettings {
+  bool ticks = true;              ///< KADR_TICKS
+  bool steps = true;              ///< KADR_STEPS
+  int block_ticks = 32;           ///< control ticks per exact message, 16..64
+  double viewer_rate_hz = 100;    ///< KADR_FEED, KADR_AXIS_*; 0 switches them off
+};
+
+struct MachineModel {
+  std::string name;
+  ClockModel clock;
+  std::vector<AxisModel> axis;  ///< [machine axes], 1..9, in the order of the file
+  PathLimits path;
+  PlannerSettings planner;
+  PlantSettings plant;
+  LogSettings log;
+  OnAlarm on_alarm = OnAlarm::report;
+  AxisValues home2{};           ///< G30 position, machine coordinates
+
+  /// Index in `axis` by letter, -1 if the machine has no such axis.
+  int find_axis(char letter) const;
+};
+
+/// A machine file that was read, with the text its spans point to.
+struct MachineFile {
+  MachineModel model;
+  std::string text;
+};
+
+/// Reads a machine file (TOML; docs in machine/files/mill3.toml). All mistakes of the file are told at once.
+/// @param sources   the text is added here, so that diagnostics can be rendered
+/// @param overrides "key=value" settings from the command line, same keys as in the file
+tl::expected<MachineFile, Diagnostics> read_machine(SourceText text, SourceSet& sources,
+                                                    const std::vector<std::string>& overrides = {});
+
+/// A machine that ships with kadr: "mill3", "winder4", "rig1", "robot7"; empty text if there is none of that name.
+std::string_view shipped_machine(std::string_view name);
+std::vector<std::string_view> shipped_machine_names();
+
+/// Every value in force with its origin (file:line, default, command line), as TOML with comments.
+std::string render_machine(const MachineFile& file);
+
+}  // namespace kadr::machine
