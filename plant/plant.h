@@ -1,0 +1,73 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "machine/machine.h"
+#include "machine/step_batch.h"
+
+/// The flexible machine: two masses per axis, driven by the step pulses of each control tick (paper 001, eq. 5-6).
+///
+///   m1 (x0'' + x1'') + c x1' + k x1 = 0
+///   m0 x0'' = F_motor - b0 x0' + k x1 + c x1'           tool position on the axis = x0 + x1
+///   F_motor = Km (x_step - x0) - bm x0'                          spring
+///           = -F_hold sin(2 pi (x0 - x_step)/pitch) - bm x0'     stepper
+///   rigid: x0 follows the command (StepBatch's AxisCommand, cubic between the tick's ends) exactly
+namespace kadr::plant {
+
+/// State of one axis at the end of a control tick, in axis units (mm or deg).
+struct AxisState {
+  double base_u = 0;          ///< x0, absolute machine position
+  double base_u_s = 0;        ///< v0
+  double link_u = 0;          ///< x1, link relative to base
+  double link_u_s = 0;        ///< v1
+  double motor_force = 0;     ///< N, or N m for a rotary axis
+};
+
+/// A numerical fault: the run ends, the log stays readable.
+struct PlantError {
+  std::string flag;       ///< CVODE's name of its return flag, or our own
+  ControlTicks tick;
+  int axis = -1;
+  std::string detail;
+};
+
+/// Lost steps, found at the tick's end: the motor lags by more than half a tooth pitch.
+struct LostSteps {
+  int axis = 0;
+  ControlTicks tick;
+  Steps steps;            ///< signed, since the last report
+};
+
+/// Per axis energy since the start, joules; closes: motor work = kinetic + spring + dissipated.
+struct EnergyBalance {
+  double motor_work_J = 0;
+  double kinetic_J = 0;
+  double spring_J = 0;
+  double dissipated_J = 0;
+};
+
+/// Integrators smooth (CVODE on a smooth command plus the exact response to the residual staircase), reference
+/// (CVODE re-initialised at every pulse) and oracle (closed form, linear motors only) stand behind this one class.
+class Plant {
+ public:
+  /// @throws nothing; a machine whose axes have no plant gives states that equal the command
+  explicit Plant(const machine::MachineModel& machine);
+  Plant(Plant&&) noexcept;
+  ~Plant();
+  /// Moves all axes through one control tick. batch.axis has the machine's axes in order.
+  tl::expected<void, PlantError> advance(const StepBatch& batch);
+  const std::vector<AxisState>& state() const;       ///< [axes], at the end of the last tick
+  const std::vector<LostSteps>& lost_steps() const;  ///< found in the last tick
+  EnergyBalance energy(int axis) const;
+  /// Jumps to rest at the given positions (start of a run, emergency stop).
+  void reset(const std::vector<double>& position_u);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kadr::plant
