@@ -1,0 +1,57 @@
+#pragma once
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "emulator/log/records.h"
+#include "emulator/log/run_log.h"
+#include "gcode/gcode.h"
+#include "machine/machine.h"
+#include "planner/planner.h"
+
+/// The cycle: program -> path -> law -> step pulses -> plant -> log, event to event.
+namespace kadr::emulator {
+
+/// What happens between motions, in program order.
+struct ProgramEvent {
+  gcode::Block block;             ///< dwell, spindle, coolant, tool, message, stop, end
+  std::size_t after_segment = 0;  ///< number of path segments before it
+};
+
+/// A program read, planned and verified-ready; everything the cycle needs.
+struct Job {
+  SourceSet sources;
+  std::uint32_t program = 0;                ///< index of the program in sources
+  machine::MachineFile machine;
+  std::vector<ProgramEvent> events;         ///< ascending in after_segment
+  planner::Path path{0};
+  planner::FeedPlan plan;                   ///< laws of the runs, in path order, pauses not included
+  std::uint32_t blocks = 0;                 ///< motion blocks
+  double motion_s = 0, dwell_s = 0;
+};
+
+/// Reads and interprets a program, checks soft limits, plans. Diagnostics go to `diagnostics` (errors: no plan is made).
+/// @return false if there were errors
+bool prepare(Job& job, Diagnostics& diagnostics);
+
+struct RunOptions {
+  bool plant = true;
+  int threads = 1;                          ///< 1, or 2: the second encodes and writes; same bytes
+  double until_s = machine::kInfinity;      ///< stop after that much machine time
+  std::function<void(double done_fraction, std::uint32_t line, double sim_s)> progress;  ///< called about every 1000 ticks
+  const std::atomic<bool>* interrupt = nullptr;   ///< set by a signal handler
+};
+
+/// How a run ended apart from its summary.
+struct RunFailure {
+  std::string what;               ///< sentence for the user
+  bool world = false;             ///< disk, network (exit 2); else numerics (exit 3)
+};
+
+/// Runs a prepared job; records go to `log` (may be null).
+tl::expected<RunSummary, RunFailure> run(const Job& job, RunLog* log, const RunOptions& options);
+
+}  // namespace kadr::emulator

@@ -1,0 +1,43 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "emulator/log/records.h"
+
+namespace kadr::emulator {
+
+/// The world's fault while writing: path, reason, and up to which tick the file is valid.
+struct LogError {
+  std::string path;
+  std::string reason;
+  Ticks valid_until;
+};
+
+/// Where the cycle's records go. The cycle calls in tick order; one call per control tick.
+class RunLog {
+ public:
+  virtual ~RunLog() = default;
+  virtual tl::expected<void, LogError> begin(const RunHeader& header) = 0;
+  virtual tl::expected<void, LogError> block(const BlockRecord& record) = 0;
+  virtual tl::expected<void, LogError> tick(const TickRecord& record, const StepBatch& batch) = 0;
+  virtual tl::expected<void, LogError> event(const EventRecord& record) = 0;
+  virtual tl::expected<void, LogError> diagnostic(const Diagnostic& d, Ticks tick) = 0;
+  virtual tl::expected<void, LogError> end(const RunSummary& summary) = 0;
+};
+
+/// Size of a log in bytes before it is written, from planned time and pulse count.
+std::int64_t estimate_log_bytes(const machine::MachineModel& machine, double planned_s, std::int64_t pulses,
+                                std::size_t blocks);
+
+struct LcmLogOptions {
+  std::string path;         ///< event log to write ("" : none). Written as path + ".part", renamed by end()
+  std::string publish_url;  ///< LCM provider to publish to besides ("" : none); "ttl=0" is added to a udpm URL without a ttl
+};
+
+/// LCM event log with simulated time stamps (docs/log_format.md). Blocks of control ticks are encoded on the calling thread.
+tl::expected<std::unique_ptr<RunLog>, LogError> open_lcm_log(const LcmLogOptions& options);
+
+}  // namespace kadr::emulator
