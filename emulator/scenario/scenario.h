@@ -1,0 +1,131 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "emulator/emulator.h"
+
+/// Scenarios: a program, a machine and what must come out. The same cases serve tests, benchmarks, demos and
+/// documents.
+///
+/// A scenario is a folder with a scenario.toml (docs in scenarios/README.md):
+///
+///   format = 1
+///   name = "pocket"
+///   summary = "a pocket with arcs and rounded corners"
+///   program = "program.ngc"                 # beside this file; or { wind = "hoop", radius_mm = 50, ... }
+///   machine = "mill3"                       # a machine that ships with kadr, or a .toml file beside this
+///   one settings = ["planner.whole_ticks=true"] # as --set on the command line [expect] time_s = 4.211
+///   within_s = 0.001
+///   steps_hash = "9f1c07ab5d2e4431"
+///   alarms = { K5001 = 2 }                  # code = count; no alarm may come that is not named here
+///   diagnostics = ["K1203", "K2107"]        # of a program that must be refused, in order
+///   [expect.axis.X]
+///   pulses = 24000
+///   residual_um = [0.0, 5.0]                # least and most
+namespace kadr::emulator {
+
+/// Least and most of a measured value, axis units (mm or deg).
+struct Bounds {
+  double least_u = 0;
+  double most_u = 0;
+};
+
+struct AxisExpectation {
+  char letter = 'X';
+  std::optional<std::int64_t> pulses;     ///< counted, both directions
+  std::optional<std::int64_t> end_steps;  ///< lattice node at the end, from machine zero
+  std::optional<Bounds> vibration;        ///< AxisSummary::peak_vibration_u
+  std::optional<Bounds> residual;         ///< AxisSummary::residual_u
+};
+
+/// What must come out. Errors and alarms that are not named here always fail the scenario.
+struct Expectations {
+  std::optional<double> time_s;  ///< machine time of the whole run
+  double within_s = 0;           ///< allowed difference of time_s
+  std::optional<std::uint64_t> steps_hash;
+  std::vector<std::pair<Code, std::int64_t>> alarms;  ///< code and count, ascending
+  std::vector<Code> diagnostics;                      ///< errors and warnings of a refused program, in order
+  std::vector<AxisExpectation> axis;
+};
+
+/// A scenario file as read; nothing of it has run.
+struct Scenario {
+  std::string file;    ///< path of scenario.toml as given
+  std::string folder;  ///< its folder; program and machine are looked for there
+  std::string text;    ///< scenario.toml as read
+  std::string name;
+  std::string summary;
+  std::string program_name;       ///< file name without folders; "wind_hoop.ngc" of a generated one
+  std::string program_path;       ///< path to open; empty if the program is generated
+  std::string generated_program;  ///< text of a generated program
+  std::string machine;            ///< name of a shipped machine, or a path to open
+  bool machine_is_file = false;
+  std::vector<std::string> settings;  ///< "key=value"
+  Expectations expect;
+};
+
+/// Reads a scenario file. All its mistakes are told at once; unknown keys are errors.
+/// @param sources  the text is added here, so that diagnostics can be rendered
+/// @param path     of scenario.toml, or of its folder
+/// @return the scenario, or the diagnostics
+/// @throws std::system_error if the file can't be opened
+tl::expected<Scenario, Diagnostics> read_scenario(const std::string& path, SourceSet& sources);
+
+/// Opens program and machine of a scenario into a job, ready for prepare(). Diagnostics of the machine file
+/// are added.
+/// @return false if there were errors
+/// @throws std::system_error if a file can't be opened
+bool open_job(const Scenario& scenario, Job& job, Diagnostics& diagnostics);
+
+/// One compared value.
+struct ScenarioCheck {
+  std::string what;      ///< "time", "pulses X", "steps hash", "alarms", "diagnostics", ...
+  std::string expected;  ///< as printed
+  std::string measured;
+  bool passed = false;
+};
+
+struct ScenarioResult {
+  std::string name;
+  std::string file;
+  std::vector<ScenarioCheck> checks;
+  std::string failure;      ///< why nothing could be compared: unreadable file, numerical fault; else empty
+  std::string diagnostics;  ///< rendered for people; empty if there were none
+  std::vector<Code> codes;  ///< of the program's errors and warnings, in order
+  std::vector<std::pair<Code, std::int64_t>> alarms;  ///< code and count, ascending
+  std::optional<RunSummary> summary;                  ///< empty if the program was refused
+  double machine_s = 0;                               ///< machine time of the run
+  bool passed() const;
+};
+
+/// Runs one scenario and compares. Never throws for a fault of the scenario: that is `failure`.
+ScenarioResult run_scenario(const Scenario& scenario, const RunOptions& options = {});
+/// The same from a path; a file that can't be read is a failed result.
+ScenarioResult run_scenario(const std::string& path, const RunOptions& options = {});
+
+/// The scenario files under the given paths: a scenario.toml, its folder, or a folder of such folders.
+/// Sorted by path; with no paths those under "scenarios".
+/// @throws std::system_error for a path that does not exist or holds no scenario
+std::vector<std::string> find_scenarios(const std::vector<std::string>& paths);
+
+/// One line: "passed  01_first_cut   4.211 s  12 checks", and below a failed one what differs, line by line.
+std::string render_result(const ScenarioResult& result);
+/// Last line: "8 passed, 1 failed".
+std::string render_totals(const std::vector<ScenarioResult>& results);
+/// JUnit XML of all results; `time` is machine time, so that equal runs give equal bytes.
+std::string render_junit(const std::vector<ScenarioResult>& results);
+/// JSON of all results: [{"name":..., "passed":..., "machine_s":..., "checks":[...]}].
+std::string render_json(const std::vector<ScenarioResult>& results);
+
+/// scenario.toml with every stated expectation replaced by what was measured (comments and order stay); where
+/// [expect] is missing, one is added with time, hash and pulses. Bounds are left alone: they are a person's
+/// judgement.
+std::string updated_text(const Scenario& scenario, const ScenarioResult& result);
+
+}  // namespace kadr::emulator
