@@ -33,9 +33,19 @@ struct Job {
   double motion_s = 0, dwell_s = 0;
 };
 
-/// Reads and interprets a program, checks soft limits, plans. Diagnostics go to `diagnostics` (errors: no plan is made).
-/// @return false if there were errors
-bool prepare(Job& job, Diagnostics& diagnostics);
+/// Whether a soft limit that the program leaves is an error (`kadr check`: the answer is no) or a warning (`kadr run`:
+/// the emulator shows what happens and raises an alarm there).
+enum class SoftLimitRule : std::uint8_t { error, warning };
+
+/// Reads and interprets job.sources[job.program] for job.machine, plans it and checks soft limits. Diagnostics go to
+/// `diagnostics`, all of the program at once.
+/// @return false if there were errors before planning; job.plan is not valid then
+bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = SoftLimitRule::error);
+
+/// Planned time by what held the feed, longest first; dwells count as "dwell".
+std::vector<LimitShare> limit_shares(const Job& job);
+/// "program", "junction", "axis X speed", ...
+std::string limited_by_text(planner::LimitedBy reason, int axis, const machine::MachineModel& machine);
 
 struct RunOptions {
   bool plant = true;

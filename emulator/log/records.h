@@ -37,6 +37,16 @@ struct BlockRecord {
   std::string limited_by;          ///< e.g. "program", "axis X speed"
 };
 
+/// What a motion block did, at the first control tick at which another block has begun; only of blocks that were under way at
+/// the end of at least one control tick.
+struct BlockEndRecord {
+  Ticks tick;
+  std::uint32_t block = 0;
+  std::uint32_t line = 0;
+  std::vector<double> peak_link_u;      ///< [axes] largest |x1| at control ticks
+  std::vector<double> peak_following_u; ///< [axes] largest |tool - command| at control ticks
+};
+
 /// One control tick, at its end. Axis arrays live in the batch (commands) and `axis` (plant).
 struct TickRecord {
   ControlTicks tick;               ///< the tick that ended

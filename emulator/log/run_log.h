@@ -23,6 +23,7 @@ class RunLog {
   virtual tl::expected<void, LogError> begin(const RunHeader& header) = 0;
   virtual tl::expected<void, LogError> block(const BlockRecord& record) = 0;
   virtual tl::expected<void, LogError> tick(const TickRecord& record, const StepBatch& batch) = 0;
+  virtual tl::expected<void, LogError> block_end(const BlockEndRecord& record) = 0;
   virtual tl::expected<void, LogError> event(const EventRecord& record) = 0;
   virtual tl::expected<void, LogError> diagnostic(const Diagnostic& d, Ticks tick) = 0;
   virtual tl::expected<void, LogError> end(const RunSummary& summary) = 0;

@@ -1,0 +1,43 @@
+#include "emulator/cycle/soft_limits.h"
+
+#include <fmt/format.h>
+
+namespace kadr::emulator {
+namespace {
+
+const char* unit(const machine::AxisModel& axis) { return axis.kind == machine::AxisKind::rotary ? "deg" : "mm"; }
+
+/// Commands and limits are decimals; a position that is a limit but for rounding is inside.
+constexpr double kSlack_u = 1e-9;
+
+void report(const planner::PathSegment& segment, const machine::AxisModel& axis, double reached_u, double limit_u,
+            SoftLimitRule rule, Diagnostics& diagnostics) {
+  Diagnostic d{Code::soft_limit, rule == SoftLimitRule::error ? Severity::error : Severity::warning, segment.span,
+               fmt::format("axis {} leaves its soft limits", axis.letter),
+               fmt::format("{} reaches {:.3f} {}, {:.3f} {} beyond the limit", axis.letter, reached_u, unit(axis),
+                           std::abs(reached_u - limit_u), unit(axis)),
+               {},
+               {}};
+  d.notes.push_back(fmt::format("allowed {:.3f} to {:.3f} {} (axis {} range_{}, machine coordinates)",
+                                axis.soft_min_u, axis.soft_max_u, unit(axis), axis.letter, unit(axis)));
+  diagnostics.add(std::move(d));
+}
+
+}  // namespace
+
+void check_soft_limits(const planner::Path& path, const machine::MachineModel& machine, SoftLimitRule rule,
+                       Diagnostics& diagnostics) {
+  for (std::size_t a = 0; a < machine.axis.size(); ++a) {
+    const machine::AxisModel& axis = machine.axis[a];
+    if (axis.soft_min_u == -machine::kInfinity && axis.soft_max_u == machine::kInfinity) continue;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const auto [low_u, high_u] = planner::axis_extent(path, i, static_cast<int>(a));
+      if (high_u > axis.soft_max_u + kSlack_u)
+        report(path.segments[i], axis, high_u, axis.soft_max_u, rule, diagnostics);
+      if (low_u < axis.soft_min_u - kSlack_u)
+        report(path.segments[i], axis, low_u, axis.soft_min_u, rule, diagnostics);
+    }
+  }
+}
+
+}  // namespace kadr::emulator
