@@ -24,23 +24,27 @@ struct ProgramEvent {
 /// A program read, planned and verified-ready; everything the cycle needs.
 struct Job {
   SourceSet sources;
-  std::uint32_t program = 0;                ///< index of the program in sources
+  std::uint32_t program = 0;  ///< index of the program in sources
   machine::MachineFile machine;
-  std::vector<ProgramEvent> events;         ///< ascending in after_segment
+  std::vector<ProgramEvent> events;  ///< ascending in after_segment
   planner::Path path{0};
-  planner::FeedPlan plan;                   ///< laws of the runs, in path order, pauses not included
-  std::uint32_t blocks = 0;                 ///< motion blocks
+  planner::FeedPlan plan;    ///< laws of the runs, in path order, pauses not included
+  std::uint32_t blocks = 0;  ///< motion blocks
   double motion_s = 0, dwell_s = 0;
 };
 
-/// Whether a soft limit that the program leaves is an error (`kadr check`: the answer is no) or a warning (`kadr run`:
-/// the emulator shows what happens and raises an alarm there).
+/// Whether a soft limit that the program leaves is an error (`kadr check`: the answer is no) or a warning
+/// (`kadr run`: the emulator shows what happens and raises an alarm there).
 enum class SoftLimitRule : std::uint8_t { error, warning };
 
-/// Reads and interprets job.sources[job.program] for job.machine, plans it and checks soft limits. Diagnostics go to
-/// `diagnostics`, all of the program at once.
+/// Reads and interprets job.sources[job.program] for job.machine, plans it and checks soft limits.
+/// Diagnostics go to `diagnostics`, all of the program at once.
 /// @return false if there were errors before planning; job.plan is not valid then
 bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = SoftLimitRule::error);
+
+/// Time that a dwell or tool change holds the machine, seconds; a whole number of control ticks where motions
+/// end on them too. 0 for everything else.
+double hold_time_s(const gcode::Block& block, const machine::MachineModel& machine);
 
 /// Planned time by what held the feed, longest first; dwells count as "dwell".
 std::vector<LimitShare> limit_shares(const Job& job);
@@ -49,16 +53,17 @@ std::string limited_by_text(planner::LimitedBy reason, int axis, const machine::
 
 struct RunOptions {
   bool plant = true;
-  int threads = 1;                          ///< 1, or 2: the second encodes and writes; same bytes
-  double until_s = machine::kInfinity;      ///< stop after that much machine time
-  std::function<void(double done_fraction, std::uint32_t line, double sim_s)> progress;  ///< called about every 1000 ticks
-  const std::atomic<bool>* interrupt = nullptr;   ///< set by a signal handler
+  int threads = 1;                      ///< 1, or 2: the second encodes and writes; same bytes
+  double until_s = machine::kInfinity;  ///< stop after that much machine time
+  std::function<void(double done_fraction, std::uint32_t line, double sim_s)>
+      progress;                                  ///< called about every 1000 ticks
+  const std::atomic<bool>* interrupt = nullptr;  ///< set by a signal handler
 };
 
 /// How a run ended apart from its summary.
 struct RunFailure {
-  std::string what;               ///< sentence for the user
-  bool world = false;             ///< disk, network (exit 2); else numerics (exit 3)
+  std::string what;    ///< sentence for the user
+  bool world = false;  ///< disk, network (exit 2); else numerics (exit 3)
 };
 
 /// Runs a prepared job; records go to `log` (may be null).

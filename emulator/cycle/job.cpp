@@ -30,8 +30,10 @@ bool needs_rest(BlockKind kind) {
     case BlockKind::change_tool:
     case BlockKind::program_stop:
     case BlockKind::optional_stop:
-    case BlockKind::program_end: return true;
-    default: return false;
+    case BlockKind::program_end:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -55,17 +57,6 @@ gcode::InterpretOptions interpret_options(const machine::MachineModel& machine) 
   return options;
 }
 
-/// Time that an event holds the machine, seconds; whole control ticks where motions end on them too.
-double pause_s(const Block& block, const machine::MachineModel& machine) {
-  const double wish_s = block.kind == BlockKind::dwell         ? block.dwell_s
-                        : block.kind == BlockKind::change_tool ? machine.planner.tool_change_s
-                                                               : 0.0;
-  if (!(wish_s > 0) || !machine.planner.whole_ticks) return std::max(wish_s, 0.0);
-  const double tau_s = machine.clock.tau_s();
-  // 1e-9: a dwell of whole ticks stays what it is although it was read from decimals
-  return std::ceil(wish_s / tau_s - 1e-9) * tau_s;
-}
-
 /// Puts the standstills of dwells and tool changes into the law, and shifts all that comes after.
 void insert_pauses(Job& job) {
   planner::FeedPlan& plan = job.plan;
@@ -84,7 +75,7 @@ void insert_pauses(Job& job) {
     pieces.back().begin_s += shift_s;
   };
   for (const ProgramEvent& event : job.events) {
-    const double hold_s = pause_s(event.block, job.machine.model);
+    const double hold_s = hold_time_s(event.block, job.machine.model);
     if (!(hold_s > 0)) continue;
     const double at_u = job.path.size() == 0 ? 0.0 : job.path.start_s_u[event.after_segment];
     shift_segments(event.after_segment);
@@ -110,6 +101,16 @@ void insert_pauses(Job& job) {
 }
 
 }  // namespace
+
+double hold_time_s(const Block& block, const machine::MachineModel& machine) {
+  const double wish_s = block.kind == BlockKind::dwell         ? block.dwell_s
+                        : block.kind == BlockKind::change_tool ? machine.planner.tool_change_s
+                                                               : 0.0;
+  if (!(wish_s > 0) || !machine.planner.whole_ticks) return std::max(wish_s, 0.0);
+  const double tau_s = machine.clock.tau_s();
+  // 1e-9: a dwell of whole ticks stays what it is although it was read from decimals
+  return std::ceil(wish_s / tau_s - 1e-9) * tau_s;
+}
 
 bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
   const machine::MachineModel& machine = job.machine.model;
@@ -160,7 +161,8 @@ std::vector<LimitShare> limit_shares(const Job& job) {
     const bool rest = piece.speed_u_s == 0 && piece.accel_u_s2 == 0 && piece.jerk_u_s3 == 0;
     const std::string name =
         rest ? "dwell" : limited_by_text(piece.limited_by, piece.limiting_axis, job.machine.model);
-    auto it = std::find_if(shares.begin(), shares.end(), [&](const LimitShare& s) { return s.limited_by == name; });
+    auto it =
+        std::find_if(shares.begin(), shares.end(), [&](const LimitShare& s) { return s.limited_by == name; });
     if (it == shares.end()) it = shares.insert(shares.end(), LimitShare{name, 0.0});
     it->time_s += piece.duration_s;
   }

@@ -5,17 +5,21 @@
 namespace kadr::emulator {
 namespace {
 
-const char* unit(const machine::AxisModel& axis) { return axis.kind == machine::AxisKind::rotary ? "deg" : "mm"; }
+const char* unit(const machine::AxisModel& axis) {
+  return axis.kind == machine::AxisKind::rotary ? "deg" : "mm";
+}
 
 /// Commands and limits are decimals; a position that is a limit but for rounding is inside.
 constexpr double kSlack_u = 1e-9;
 
-void report(const planner::PathSegment& segment, const machine::AxisModel& axis, double reached_u, double limit_u,
-            SoftLimitRule rule, Diagnostics& diagnostics) {
-  Diagnostic d{Code::soft_limit, rule == SoftLimitRule::error ? Severity::error : Severity::warning, segment.span,
+void report(const planner::PathSegment& segment, const machine::AxisModel& axis, double reached_u,
+            double limit_u, SoftLimitRule rule, Diagnostics& diagnostics) {
+  Diagnostic d{Code::soft_limit,
+               rule == SoftLimitRule::error ? Severity::error : Severity::warning,
+               segment.span,
                fmt::format("axis {} leaves its soft limits", axis.letter),
-               fmt::format("{} reaches {:.3f} {}, {:.3f} {} beyond the limit", axis.letter, reached_u, unit(axis),
-                           std::abs(reached_u - limit_u), unit(axis)),
+               fmt::format("{} reaches {:.3f} {}, {:.3f} {} beyond the limit", axis.letter, reached_u,
+                           unit(axis), std::abs(reached_u - limit_u), unit(axis)),
                {},
                {}};
   d.notes.push_back(fmt::format("allowed {:.3f} to {:.3f} {} (axis {} range_{}, machine coordinates)",

@@ -1,0 +1,372 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "emulator/cycle/log_thread.h"
+#include "emulator/cycle/monitor.h"
+#include "emulator/emulator.h"
+#include "emulator/interpolator/interpolator.h"
+#include "plant/plant.h"
+
+namespace kadr::emulator {
+namespace {
+
+using gcode::BlockKind;
+
+/// Base tick at which the path reaches s inside this control tick: the inverse of TickMotion's linear feed.
+Ticks tick_at(const planner::TickMotion& m, double s_u, const machine::ClockModel& clock) {
+  const std::int64_t begin = m.tick.value * clock.control_tick.value;
+  const double left_u = s_u - m.s_begin_u;
+  const double span_ticks = m.move_end_ticks - m.move_begin_ticks;
+  if (!(left_u > 0) || !(span_ticks > 0)) return {begin};
+  const double span_s = span_ticks / static_cast<double>(clock.base_hz);
+  const double accel_u_s2 = (m.ramp_end_u_s - m.ramp_begin_u_s) / span_s;
+  const double root = std::sqrt(std::max(0.0, m.ramp_begin_u_s * m.ramp_begin_u_s + 2 * accel_u_s2 * left_u));
+  const double t_s = 2 * left_u / (m.ramp_begin_u_s + root);
+  const double ticks = m.move_begin_ticks + std::min(t_s, span_s) * static_cast<double>(clock.base_hz);
+  return {begin + std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(ticks)), 0,
+                                           clock.control_tick.value)};
+}
+
+const char* event_kind(BlockKind kind) {
+  switch (kind) {
+    case BlockKind::dwell:
+      return "dwell";
+    case BlockKind::spindle_speed:
+    case BlockKind::spindle_clockwise:
+    case BlockKind::spindle_counterclockwise:
+    case BlockKind::spindle_stop:
+      return "spindle";
+    case BlockKind::mist_on:
+    case BlockKind::mist_off:
+    case BlockKind::flood_on:
+    case BlockKind::flood_off:
+      return "coolant";
+    case BlockKind::select_tool:
+    case BlockKind::change_tool:
+      return "tool";
+    case BlockKind::message:
+      return "message";
+    case BlockKind::feed_override:
+    case BlockKind::speed_override:
+      return "lock";
+    default:
+      return "stop";
+  }
+}
+
+std::string event_text(const gcode::Block& b) {
+  switch (b.kind) {
+    case BlockKind::dwell:
+      return fmt::format("dwell {:.6g} s", b.dwell_s);
+    case BlockKind::spindle_speed:
+      return fmt::format("spindle speed {:.6g} rpm", b.value);
+    case BlockKind::spindle_clockwise:
+      return fmt::format("spindle clockwise {:.6g} rpm", b.value);
+    case BlockKind::spindle_counterclockwise:
+      return fmt::format("spindle counter-clockwise {:.6g} rpm", b.value);
+    case BlockKind::spindle_stop:
+      return "spindle stop";
+    case BlockKind::mist_on:
+      return "mist on";
+    case BlockKind::mist_off:
+      return "mist off";
+    case BlockKind::flood_on:
+      return "flood on";
+    case BlockKind::flood_off:
+      return "flood off";
+    case BlockKind::select_tool:
+      return fmt::format("select tool {}", b.number);
+    case BlockKind::change_tool:
+      return fmt::format("change to tool {}", b.number);
+    case BlockKind::feed_override:
+      return b.number ? "feed override enabled" : "feed override locked";
+    case BlockKind::speed_override:
+      return b.number ? "spindle override enabled" : "spindle override locked";
+    case BlockKind::program_stop:
+      return "program stop";
+    case BlockKind::optional_stop:
+      return "optional stop";
+    case BlockKind::program_end:
+      return "program end";
+    default:
+      return b.text;
+  }
+}
+
+double event_value(const gcode::Block& b) {
+  switch (b.kind) {
+    case BlockKind::dwell:
+      return b.dwell_s;
+    case BlockKind::spindle_speed:
+    case BlockKind::spindle_clockwise:
+    case BlockKind::spindle_counterclockwise:
+      return b.value;
+    default:
+      return b.number;
+  }
+}
+
+const char* motion_name(const planner::PathSegment& s) {
+  return s.rapid ? "rapid" : s.kind == planner::SegmentKind::arc ? "arc" : "line";
+}
+
+/// The run loop: one control tick after the other, from the motion source through interpolator and plant to
+/// the log.
+class Cycle {
+ public:
+  Cycle(const Job& job, RunLog* log, const RunOptions& options)
+      : job_(job),
+        machine_(job.machine.model),
+        options_(options),
+        log_(log),
+        source_(job.plan.law, machine_),
+        interpolator_(job.path, machine_),
+        monitor_(job.path, machine_) {
+    batch_.axis.resize(machine_.axis.size());
+    if (options.plant && std::any_of(machine_.axis.begin(), machine_.axis.end(),
+                                     [](const machine::AxisModel& a) { return a.has_plant; })) {
+      plant_.emplace(machine_);
+      std::vector<double> start_u;
+      for (std::size_t a = 0; a < machine_.axis.size(); ++a)
+        start_u.push_back(job.path.size() > 0 ? job.path.node(0)[a] : machine_.axis[a].home_u);
+      plant_->reset(start_u);
+    }
+  }
+
+  tl::expected<RunSummary, RunFailure> run() {
+    std::string outcome = "complete";
+    std::int64_t k = 0;
+    for (; !done(); ++k) {
+      if (options_.interrupt && options_.interrupt->load(std::memory_order_relaxed)) {
+        outcome = "interrupted";
+        break;
+      }
+      if (static_cast<double>(k) * machine_.clock.tau_s() >= options_.until_s) {
+        outcome = "stopped by --until";
+        break;
+      }
+      if (auto failure = advance(k)) {
+        if (failure->world) return tl::unexpected(*failure);
+        outcome = "plant error";
+        ++k;
+        break;
+      }
+      if (machine_.on_alarm == machine::OnAlarm::stop && monitor_.alarms() > 0) {
+        outcome = "alarm";
+        ++k;
+        break;
+      }
+      if (options_.progress && k % 1000 == 999) report_progress();
+    }
+    return finish(outcome, k);
+  }
+
+ private:
+  bool done() const { return source_.finished() && next_event_ == job_.events.size() && !job_pending(); }
+  bool job_pending() const { return ready_at_ > now_; }
+
+  /// One control tick. A failure of the plant is logged and ends the run; one of the log is the world's.
+  std::optional<RunFailure> advance(std::int64_t k) {
+    motion_ = source_.advance(planner::OperatorInput{});
+    batch_.tick = motion_.tick;
+    interpolator_.advance(motion_, batch_);
+    hash_.add(batch_);
+    now_ = Ticks{(k + 1) * machine_.clock.control_tick.value};
+    collect_starts();
+
+    std::optional<plant::PlantError> plant_error;
+    if (plant_) {
+      if (auto moved = plant_->advance(batch_); !moved) plant_error = moved.error();
+    }
+    if (plant_error) return plant_failure(*plant_error);
+    TickView view{&motion_, &batch_, plant_ ? &plant_->state() : nullptr, segment(),
+                  interpolator_.passed_joint()};
+    monitor_.tick(view, events_, block_ends_);
+    if (plant_) monitor_.lost_steps(plant_->lost_steps(), now_, events_);
+    if (motion_.s_end_u > motion_.s_begin_u) ++motion_ticks_;
+    return log_tick();
+  }
+
+  std::size_t segment() const {
+    return job_.path.size() == 0 ? 0 : std::min(interpolator_.segment(), job_.path.size() - 1);
+  }
+
+  /// Blocks that begin and program events that happen in this tick, in tick order (blocks first).
+  void collect_starts() {
+    while (next_block_ < job_.path.size() && (motion_.s_end_u > job_.path.start_s_u[next_block_] ||
+                                              (motion_.s_end_u > motion_.s_begin_u && next_block_ == 0))) {
+      block_starts_.push_back(tick_at(motion_, job_.path.start_s_u[next_block_], machine_.clock));
+      ++next_block_;
+    }
+    for (; next_event_ < job_.events.size(); ++next_event_) {
+      const ProgramEvent& event = job_.events[next_event_];
+      const double at_u = job_.path.size() == 0 ? 0.0 : job_.path.start_s_u[event.after_segment];
+      if (motion_.s_end_u < at_u) break;
+      if (event.after_segment != reached_joint_) {
+        reached_joint_ = event.after_segment;
+        ready_at_ = std::max(ready_at_, tick_at(motion_, at_u, machine_.clock));
+      }
+      if (ready_at_ > now_) break;
+      add_program_event(event);
+    }
+  }
+
+  void add_program_event(const ProgramEvent& event) {
+    EventRecord e;
+    e.tick = ready_at_;
+    e.block = event.after_segment == 0 ? 0 : job_.path.segments[event.after_segment - 1].block;
+    e.span = event.block.span;
+    e.kind = event_kind(event.block.kind);
+    e.value = event_value(event.block);
+    e.text = event_text(event.block);
+    events_.push_back(std::move(e));
+    const double hold_s = hold_time_s(event.block, machine_);
+    ready_at_ += Ticks{
+        static_cast<std::int64_t>(std::floor(hold_s * static_cast<double>(machine_.clock.base_hz) + 0.5))};
+  }
+
+  std::optional<RunFailure> plant_failure(const plant::PlantError& error) {
+    EventRecord e;
+    e.tick = now_;
+    e.kind = "alarm";
+    e.code = Code::plant_numerics;
+    e.axis = error.axis;
+    e.text = fmt::format("{}: {}", error.flag, error.detail);
+    if (job_.path.size() > 0) e.span = job_.path.segments[segment()].span;
+    events_.push_back(e);
+    ++plant_alarms_;
+    if (auto failure = log_small_records()) return failure;
+    return RunFailure{e.text, false};
+  }
+
+  std::optional<RunFailure> keep(const tl::expected<void, LogError>& written) {
+    if (written) return std::nullopt;
+    const LogError& e = written.error();
+    const double valid_s =
+        static_cast<double>(e.valid_until.value) / static_cast<double>(machine_.clock.base_hz);
+    return RunFailure{fmt::format("{}: {}; the log is valid up to tick {} ({:.6f} s)", e.path, e.reason,
+                                  e.valid_until.value, valid_s),
+                      true};
+  }
+
+  std::optional<RunFailure> log_small_records() {
+    std::optional<RunFailure> failure;
+    if (log_) {
+      const std::size_t first = next_block_ - block_starts_.size();
+      std::size_t e = 0;
+      for (std::size_t b = 0; b < block_starts_.size() && !failure; ++b) {
+        for (; e < events_.size() && events_[e].tick < block_starts_[b] && !failure; ++e)
+          failure = keep(log_->event(events_[e]));
+        if (!failure) failure = keep(log_->block(block_record(first + b, block_starts_[b])));
+      }
+      for (; e < events_.size() && !failure; ++e) failure = keep(log_->event(events_[e]));
+      for (std::size_t i = 0; i < block_ends_.size() && !failure; ++i)
+        failure = keep(log_->block_end(block_ends_[i]));
+    }
+    block_starts_.clear();
+    events_.clear();
+    block_ends_.clear();
+    return failure;
+  }
+
+  std::optional<RunFailure> log_tick() {
+    if (auto failure = log_small_records()) return failure;
+    if (!log_) return std::nullopt;
+    TickRecord record;
+    record.tick = motion_.tick;
+    record.block = job_.path.size() == 0 ? 0 : job_.path.segments[segment()].block;
+    record.motion = &motion_;
+    record.position_steps = &interpolator_.position_steps();
+    record.axis = plant_ ? &plant_->state() : nullptr;
+    return keep(log_->tick(record, batch_));
+  }
+
+  BlockRecord block_record(std::size_t i, Ticks tick) const {
+    const planner::PathSegment& s = job_.path.segments[i];
+    const planner::SegmentPlan& p = job_.plan.segments[i];
+    BlockRecord r;
+    r.tick = tick;
+    r.block = s.block;
+    r.span = s.span;
+    r.text = std::string(job_.sources[job_.program].line(s.span.line));
+    r.motion = motion_name(s);
+    const double feed_per_s = s.feed_length_u / s.length_u;
+    r.length_u = s.feed_length_u;
+    r.programmed_u_s = s.rapid ? 0.0 : s.feed_u_s * feed_per_s;
+    r.planned_peak_u_s = p.peak_u_s * feed_per_s;
+    r.planned_end_u_s = p.end_u_s * feed_per_s;
+    r.planned_s = p.end_time_s - p.begin_time_s;
+    r.limited_by = limited_by_text(p.limited_by, p.limiting_axis, machine_);
+    return r;
+  }
+
+  void report_progress() const {
+    const double length_u = job_.path.length_u();
+    const std::uint32_t line = job_.path.size() == 0 ? 0 : job_.path.segments[segment()].span.line;
+    options_.progress(length_u > 0 ? motion_.s_end_u / length_u : 1.0, line,
+                      static_cast<double>(now_.value) / static_cast<double>(machine_.clock.base_hz));
+  }
+
+  tl::expected<RunSummary, RunFailure> finish(const std::string& outcome, std::int64_t control_ticks) {
+    now_ = Ticks{control_ticks * machine_.clock.control_tick.value};
+    monitor_.finish(now_, events_, block_ends_);
+    if (auto failure = log_small_records()) return tl::unexpected(*failure);
+    RunSummary summary;
+    summary.outcome = outcome;
+    summary.ticks = now_;
+    summary.control_ticks = ControlTicks{control_ticks};
+    summary.blocks = job_.blocks;
+    monitor_.summarize(summary);
+    for (std::size_t a = 0; a < summary.axis.size(); ++a) {
+      const double node_u = job_.path.size() == 0 ? machine_.axis[a].home_u : job_.path.node(0)[a];
+      summary.axis[a].end_steps = lattice_node(node_u, machine_.axis[a].step_u) + summary.axis[a].net_steps;
+    }
+    for (std::size_t i = 0; i < job_.path.size() && i < next_block_; ++i)
+      summary.path_u += job_.path.segments[i].feed_length_u;
+    summary.motion_s = static_cast<double>(motion_ticks_) * machine_.clock.tau_s();
+    summary.dwell_s = job_.dwell_s;
+    summary.mean_feed_u_s = summary.motion_s > 0 ? summary.path_u / summary.motion_s : 0.0;
+    summary.steps_hash = hash_.digest();
+    summary.limited_by = limit_shares(job_);
+    summary.alarms += plant_alarms_;
+    summary.exit_code = summary.alarms > 0 ? 3 : 0;
+    if (log_)
+      if (auto failure = keep(log_->end(summary))) return tl::unexpected(*failure);
+    return summary;
+  }
+
+  const Job& job_;
+  const machine::MachineModel& machine_;
+  const RunOptions& options_;
+  RunLog* log_;
+  planner::LawSource source_;
+  CrossingInterpolator interpolator_;
+  std::optional<plant::Plant> plant_;
+  Monitor monitor_;
+  StepHash hash_;
+  StepBatch batch_;
+  planner::TickMotion motion_{};
+  Ticks now_, ready_at_;
+  std::size_t next_block_ = 0, next_event_ = 0;
+  std::size_t reached_joint_ = static_cast<std::size_t>(-1);
+  std::vector<Ticks> block_starts_;
+  std::vector<EventRecord> events_;
+  std::vector<BlockEndRecord> block_ends_;
+  std::int64_t motion_ticks_ = 0;
+  std::size_t plant_alarms_ = 0;
+};
+
+}  // namespace
+
+tl::expected<RunSummary, RunFailure> run(const Job& job, RunLog* log, const RunOptions& options) {
+  if (log && options.threads > 1) {
+    const auto threaded = make_threaded_log(*log);
+    return Cycle(job, threaded.get(), options).run();
+  }
+  return Cycle(job, log, options).run();
+}
+
+}  // namespace kadr::emulator
