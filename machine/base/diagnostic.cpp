@@ -1,0 +1,162 @@
+#include "machine/base/diagnostic.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "machine/base/utf8.h"
+
+namespace kadr {
+
+void Diagnostics::add(Diagnostic d) {
+  if (d.severity == Severity::error) ++errors_;
+  if (d.severity == Severity::warning) ++warnings_;
+  list_.push_back(std::move(d));
+}
+
+namespace {
+
+/// Widest excerpt of a source line that is printed, in code points; longer lines are cut around the caret.
+constexpr std::size_t kExcerpt = 160;
+
+std::string_view severity_name(Severity severity) {
+  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
+}
+
+/// Text that may quote the user's bytes, safe for one line of a terminal.
+std::string clean(std::string_view text) {
+  std::size_t column = 0;
+  return displayable(text, column);
+}
+
+std::string message_of(const Diagnostic& d) {
+  return clean(d.message.empty() ? code_entry(d.code).title : std::string_view(d.message));
+}
+
+/// Terminal styles; all empty when colour is off.
+struct Style {
+  std::string_view severity, place, bold, off;
+};
+
+Style style_of(Severity severity, bool colour) {
+  if (!colour) return {};
+  const std::string_view word = severity == Severity::error     ? "\x1b[1;31m"
+                                : severity == Severity::warning ? "\x1b[1;33m"
+                                                                : "\x1b[1;36m";
+  return {word, "\x1b[1;34m", "\x1b[1m", "\x1b[0m"};
+}
+
+/// A source line split at the span: what stands before, at and after the carets.
+struct Excerpt {
+  std::string_view before, marked, after;
+  bool cut_before = false, cut_after = false;
+};
+
+/// Number of bytes that `count` code points take from the text's beginning.
+std::size_t bytes_of(std::string_view text, std::size_t count) {
+  std::size_t at = 0;
+  while (count-- > 0 && at < text.size()) at += decode_utf8(text, at).bytes;
+  return at;
+}
+
+Excerpt excerpt(std::string_view line, const Span& span) {
+  const std::size_t begin = std::min<std::size_t>(span.column > 0 ? span.column - 1 : 0, line.size());
+  const std::size_t length = std::min<std::size_t>(span.length, line.size() - begin);
+  Excerpt e{line.substr(0, begin), line.substr(begin, length), line.substr(begin + length)};
+
+  // generated programs have lines of any length: keep what a screen can show round the caret
+  const std::size_t before = count_code_points(e.before);
+  if (before > kExcerpt / 2) {
+    e.before.remove_prefix(bytes_of(e.before, before - kExcerpt / 2));
+    e.cut_before = true;
+  }
+  const std::size_t marked = bytes_of(e.marked, kExcerpt / 2);
+  if (marked < e.marked.size()) {
+    e.marked = e.marked.substr(0, marked);
+    e.after = {};
+    e.cut_after = true;
+  }
+  const std::size_t after = bytes_of(e.after, kExcerpt / 2);
+  if (after < e.after.size()) {
+    e.after = e.after.substr(0, after);
+    e.cut_after = true;
+  }
+  return e;
+}
+
+/// The line, and below it the carets with the label.
+void append_excerpt(std::string& out, const Diagnostic& d, std::string_view line, std::size_t gutter,
+                    const Style& style) {
+  const Excerpt e = excerpt(line, d.span);
+  std::size_t column = e.cut_before ? 3 : 0;
+  const std::string before = (e.cut_before ? "..." : "") + displayable(e.before, column);
+  const std::size_t caret_begin = column;
+  const std::string marked = displayable(e.marked, column);
+  const std::size_t carets = std::max<std::size_t>(column - caret_begin, 1);
+  const std::string after = displayable(e.after, column) + (e.cut_after ? "..." : "");
+
+  const std::string shown = before + marked + after;
+  const auto bar = [&](std::string_view head) {
+    return fmt::format("{}{:>{}} |{}", style.place, head, gutter, style.off);
+  };
+  out += bar("") + '\n';
+  out += fmt::format("{}{}{}\n", bar(std::to_string(d.span.line)), shown.empty() ? "" : " ", shown);
+  out += fmt::format("{} {}{}{}{}{}{}\n", bar(""), std::string(caret_begin, ' '), style.severity,
+                     std::string(carets, '^'), d.label.empty() ? "" : " ", clean(d.label), style.off);
+  out += bar("") + '\n';
+}
+
+/// "part.ngc:42:6", the column counted in code points from 1.
+std::string place_text(const Span& span, const SourceSet& sources) {
+  const SourceText& source = sources[span.file];
+  const std::string_view line = source.line(span.line);
+  const std::size_t begin = std::min<std::size_t>(span.column > 0 ? span.column - 1 : 0, line.size());
+  return fmt::format("{}:{}:{}", clean(source.name()), span.line,
+                     count_code_points(line.substr(0, begin)) + 1);
+}
+
+bool has_place(const Span& span, const SourceSet& sources) {
+  return span.line > 0 && span.file < sources.size();
+}
+
+}  // namespace
+
+std::string render_human(const Diagnostic& d, const SourceSet& sources, bool colour) {
+  const Style style = style_of(d.severity, colour);
+  std::string out = fmt::format("{}{}[{}]{}{}: {}{}\n", style.severity, severity_name(d.severity),
+                                code_name(d.code), style.off, style.bold, message_of(d), style.off);
+  std::size_t gutter = 1;
+  if (has_place(d.span, sources)) {
+    gutter = std::to_string(d.span.line).size();
+    out += fmt::format("{:>{}}{}-->{} {}\n", "", gutter, style.place, style.off, place_text(d.span, sources));
+    append_excerpt(out, d, sources[d.span.file].line(d.span.line), gutter, style);
+  }
+  const auto fact = [&](std::string_view kind, std::string_view text) {
+    out += fmt::format("{:>{}} {}={} {}{}:{} {}\n", "", gutter, style.place, style.off, style.bold, kind,
+                       style.off, clean(text));
+  };
+  if (!has_place(d.span, sources) && !d.label.empty()) fact("note", d.label);
+  for (const std::string& note : d.notes) fact("note", note);
+  if (!d.help.empty()) fact("help", d.help);
+  fact("more", "kadr explain " + code_name(d.code));
+  return out;
+}
+
+std::string render_gcc(const Diagnostic& d, const SourceSet& sources) {
+  return fmt::format("{}: {}: {}{}{} [{}]", has_place(d.span, sources) ? place_text(d.span, sources) : "kadr",
+                     severity_name(d.severity), message_of(d), d.label.empty() ? "" : ": ", clean(d.label),
+                     code_name(d.code));
+}
+
+std::string count_text(std::size_t errors, std::size_t warnings) {
+  const auto counted = [](std::size_t n, std::string_view word) {
+    return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s");
+  };
+  if (errors == 0 && warnings == 0) return "no errors";
+  if (warnings == 0) return counted(errors, "error");
+  if (errors == 0) return counted(warnings, "warning");
+  return counted(errors, "error") + ", " + counted(warnings, "warning");
+}
+
+}  // namespace kadr

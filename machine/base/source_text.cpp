@@ -1,0 +1,112 @@
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "machine/base/diagnostic.h"
+#include "machine/base/require.h"
+
+namespace kadr {
+
+// smaller files are copied: an editor that truncates a mapped file would kill us with SIGBUS
+constexpr std::size_t kMapFrom_bytes = std::size_t{4} << 20;
+
+struct SourceText::Storage {
+  std::string owned;
+  void* mapped = nullptr;
+  std::size_t mapped_size = 0;
+
+  Storage() = default;
+  Storage(const Storage&) = delete;
+  Storage& operator=(const Storage&) = delete;
+  ~Storage() {
+    if (mapped) ::munmap(mapped, mapped_size);
+  }
+};
+
+namespace {
+
+struct Descriptor {
+  int fd;
+  ~Descriptor() {
+    if (fd > STDERR_FILENO) ::close(fd);
+  }
+};
+
+[[noreturn]] void fail(const std::string& path) {
+  throw std::system_error(errno, std::generic_category(), path);
+}
+
+std::string read_all(int fd, const std::string& path, std::size_t size_hint) {
+  std::string text;
+  text.reserve(size_hint + 1);
+  char buffer[1 << 16];
+  for (;;) {
+    const ssize_t got = ::read(fd, buffer, sizeof buffer);
+    if (got > 0) {
+      text.append(buffer, static_cast<std::size_t>(got));
+    } else if (got == 0) {
+      return text;
+    } else if (errno != EINTR) {
+      fail(path);
+    }
+  }
+}
+
+}  // namespace
+
+SourceText::SourceText(std::string name, std::string text)
+    : name_(std::move(name)), storage_(std::make_unique<Storage>()) {
+  storage_->owned = std::move(text);
+  text_ = storage_->owned;
+}
+
+SourceText SourceText::open(const std::string& path) {
+  if (path == "-") return {"-", read_all(STDIN_FILENO, path, 0)};
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (file.fd < 0) fail(path);
+  struct stat status {};
+  if (::fstat(file.fd, &status) != 0) fail(path);
+  const auto size = static_cast<std::size_t>(status.st_size);
+  if (!S_ISREG(status.st_mode) || size < kMapFrom_bytes)
+    return {path, read_all(file.fd, path, S_ISREG(status.st_mode) ? size : 0)};
+
+  SourceText source(path, {});
+  void* mapped = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.fd, 0);
+  if (mapped == MAP_FAILED) fail(path);
+  ::madvise(mapped, size, MADV_SEQUENTIAL);
+  source.storage_->mapped = mapped;
+  source.storage_->mapped_size = size;
+  source.text_ = {static_cast<const char*>(mapped), size};
+  return source;
+}
+
+SourceText::SourceText(SourceText&&) noexcept = default;
+SourceText& SourceText::operator=(SourceText&&) noexcept = default;
+SourceText::~SourceText() = default;
+
+std::string_view SourceText::line(std::uint32_t number) const {
+  if (line_starts_.empty()) {
+    line_starts_.push_back(0);
+    for (std::size_t at = 0; (at = text_.find('\n', at)) != std::string_view::npos;)
+      line_starts_.push_back(++at);
+  }
+  if (number == 0 || number > line_starts_.size()) return {};
+  const std::size_t begin = line_starts_[number - 1];
+  const std::size_t end = number < line_starts_.size() ? line_starts_[number] - 1 : text_.size();
+  std::string_view line = text_.substr(begin, end - begin);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return line;
+}
+
+std::uint32_t SourceSet::add(SourceText text) {
+  texts_.push_back(std::make_unique<SourceText>(std::move(text)));
+  return static_cast<std::uint32_t>(texts_.size() - 1);
+}
+
+}  // namespace kadr
