@@ -1,5 +1,4 @@
 #pragma once
-#include <source_location>
 #include <stdexcept>
 
 namespace kadr {
@@ -11,12 +10,12 @@ class BrokenPromise : public std::logic_error {
 };
 
 /// Throws BrokenPromise with the promise and the place.
-[[noreturn]] void break_promise(const char* promise, std::source_location where);
+[[noreturn]] void break_promise(const char* promise, const char* file, int line);
 
-/// A promise of our own code, checked in every build.
-inline void require(bool kept, const char* promise,
-                    std::source_location where = std::source_location::current()) {
-  if (!kept) [[unlikely]] break_promise(promise, where);
+/// A promise of our own code, checked in every build. (The defaults name the caller's place; clang 14 has the built-ins
+/// but not std::source_location.)
+inline void require(bool kept, const char* promise, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  if (!kept) [[unlikely]] break_promise(promise, file, line);
 }
 
 }  // namespace kadr
