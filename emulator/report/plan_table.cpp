@@ -1,0 +1,135 @@
+#include "emulator/report/plan_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "emulator/report/text.h"
+#include "emulator/report/travel.h"
+
+namespace kadr::emulator {
+namespace {
+
+constexpr std::size_t kTextWidth = 34;
+
+std::string motion_name(const planner::PathSegment& segment) {
+  return segment.rapid ? "rapid" : segment.kind == planner::SegmentKind::arc ? "arc" : "line";
+}
+
+std::string pause_name(const gcode::Block& block) {
+  return block.kind == gcode::BlockKind::dwell ? "dwell" : "tool change";
+}
+
+std::size_t width_of(double largest, int decimals, std::size_t least) {
+  return std::max(least, fixed(largest, decimals).size());
+}
+
+}  // namespace
+
+void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>& sink) {
+  const machine::MachineModel& machine = job.machine.model;
+  const SourceText& source = job.sources[job.program];
+  std::size_t next_event = 0;
+  double time_s = 0;
+  const auto pauses_before = [&](std::size_t segment) {
+    for (; next_event < job.events.size() && job.events[next_event].after_segment <= segment; ++next_event) {
+      const gcode::Block& block = job.events[next_event].block;
+      PlanRow row;
+      row.time_s = hold_time_s(block, machine);
+      if (!(row.time_s > 0)) continue;
+      row.line = block.span.line;
+      row.text = source.line(row.line);
+      row.motion = pause_name(block);
+      row.begin_s = time_s;
+      time_s += row.time_s;
+      sink(row);
+    }
+  };
+  for (std::size_t i = 0; i < job.path.size(); ++i) {
+    pauses_before(i);
+    const planner::PathSegment& segment = job.path.segments[i];
+    const planner::SegmentPlan& plan = job.plan.segments[i];
+    const double feed_per_s = segment.feed_length_u / segment.length_u;
+    PlanRow row;
+    row.line = segment.span.line;
+    row.text = source.line(row.line);
+    row.motion = motion_name(segment);
+    row.unit = segment_unit(job.path, i, machine);
+    row.length_u = segment.feed_length_u;
+    row.begin_s = plan.begin_time_s;
+    row.time_s = plan.end_time_s - plan.begin_time_s;
+    row.programmed_u_s = segment.rapid ? 0.0 : segment.feed_u_s * feed_per_s;
+    row.peak_u_s = plan.peak_u_s * feed_per_s;
+    row.end_u_s = plan.end_u_s * feed_per_s;
+    row.limited_by = limited_by_text(plan.limited_by, plan.limiting_axis, machine);
+    time_s = plan.end_time_s;
+    sink(row);
+  }
+  pauses_before(job.path.size());
+}
+
+PlanTable::PlanTable(const Job& job) : unit_(path_unit(job.path, job.machine.model)) {
+  double longest_u = 0, fastest_u_s = 0, slowest_s = 0;
+  std::uint32_t last_line = 1;
+  for_each_plan_row(job, [&](const PlanRow& row) {
+    longest_u = std::max(longest_u, row.length_u);
+    fastest_u_s = std::max({fastest_u_s, row.peak_u_s, row.programmed_u_s});
+    slowest_s = std::max(slowest_s, row.time_s);
+    last_line = std::max(last_line, row.line);
+  });
+  line_width_ = std::max<std::size_t>(4, std::to_string(last_line).size());
+  length_width_ = width_of(longest_u, 3, head("length").size());
+  time_width_ = width_of(slowest_s, 3, 6);
+  speed_width_ = width_of(fastest_u_s, 3, head("peak", "/s").size());
+}
+
+std::string PlanTable::head(std::string_view name, std::string_view per) const {
+  return mixed() ? std::string(name) : fmt::format("{} {}{}", name, unit_, per);
+}
+
+std::string PlanTable::title() const {
+  return fmt::format("{}  {}  {}  {}  {}  {}  {}{}  limited by\n", pad_left("line", line_width_),
+                     pad_right("text", kTextWidth), pad_left(head("length"), length_width_),
+                     pad_left("time s", time_width_), pad_left(head("F", "/s"), speed_width_),
+                     pad_left(head("peak", "/s"), speed_width_), pad_left(head("end", "/s"), speed_width_),
+                     mixed() ? "  unit    " : "");
+}
+
+std::string PlanTable::row(const PlanRow& r) const {
+  const bool pause = r.limited_by.empty();
+  const auto number = [&](double value, std::size_t width) {
+    return pause ? std::string(width, ' ') : pad_left(fixed(value, 3), width);
+  };
+  std::string out = fmt::format(
+      "{}  {}  {}  {}  {}  {}  {}", pad_left(std::to_string(r.line), line_width_),
+      pad_right(one_line(r.text, kTextWidth), kTextWidth), number(r.length_u, length_width_),
+      pad_left(fixed(r.time_s, 3), time_width_),
+      r.motion == "rapid" ? pad_left("rapid", speed_width_) : number(r.programmed_u_s, speed_width_),
+      number(r.peak_u_s, speed_width_), number(r.end_u_s, speed_width_));
+  if (mixed()) out += pause ? "          " : fmt::format("  {:<8}", fmt::format("{0} {0}/s", r.unit));
+  out += "  " + (pause ? r.motion : r.limited_by);
+  return out + '\n';
+}
+
+std::string PlanTable::footer(const Job& job, std::size_t rows) const {
+  return fmt::format("{} rows, {}: {} in motion, {} standing\n", grouped(static_cast<std::int64_t>(rows)),
+                     duration_text(job.motion_s + job.dwell_s), duration_text(job.motion_s),
+                     duration_text(job.dwell_s));
+}
+
+std::string plan_csv_title() {
+  return "line,motion,unit,length_u,begin_s,time_s,programmed_u_s,peak_u_s,end_u_s,limited_by,text\n";
+}
+
+std::string plan_csv_row(const PlanRow& row) {
+  std::string quoted;
+  for (const char c : row.text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},\"{}\"\n", row.line, row.motion, row.unit, row.length_u,
+                     row.begin_s, row.time_s, row.programmed_u_s, row.peak_u_s, row.end_u_s, row.limited_by,
+                     quoted);
+}
+
+}  // namespace kadr::emulator

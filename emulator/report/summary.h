@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "emulator/log/records.h"
+
+namespace kadr::emulator {
+
+/// What stands in a run's summary besides the run itself.
+struct SummaryContext {
+  std::string program;   ///< as the user gave it
+  std::string machine;   ///< name and where it comes from
+  std::string scenario;  ///< empty: none
+  const machine::MachineModel* model = nullptr;
+  std::string path_unit = "mm";      ///< unit of path length
+  bool plant = true;                 ///< false: run with --no-plant
+  std::size_t program_warnings = 0;  ///< told before the run
+  std::vector<EventRecord> alarms;   ///< in time order, perhaps only the first
+  std::map<Code, std::size_t> alarm_counts;
+  std::string log_path;  ///< empty: no log
+  std::int64_t log_bytes = 0;
+  double wall_s = -1;  ///< < 0: leave the last line out
+};
+
+/// The table after a run, for people. The wall-clock line is the last one; all others depend on the inputs
+/// alone.
+std::string render_summary(const RunSummary& summary, const SummaryContext& context);
+/// "limited by     program 61 %  junction 19 %"; empty if there is no time to share.
+std::string render_limits(const std::vector<LimitShare>& shares);
+
+}  // namespace kadr::emulator
