@@ -1,0 +1,219 @@
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <lcm/lcm-cpp.hpp>
+#include <optional>
+
+#include "emulator/log/lcm_messages.h"
+#include "emulator/log/log_types.h"
+#include "emulator/log/run_log.h"
+#include "machine/base/hash.h"
+#include "machine/base/require.h"
+
+namespace kadr::emulator {
+namespace {
+
+using Done = tl::expected<void, LogError>;
+
+/// Whole blocks reach the kernel together, so that a kill leaves them readable.
+constexpr std::size_t kFileBuffer = std::size_t{1} << 18;
+
+std::string error_text(int number) { return number == 0 ? "unknown error" : std::strerror(number); }
+
+/// Multicast must not leave this host unasked: a udpm URL without a ttl gets ttl=0.
+std::string with_local_ttl(const std::string& url) {
+  if (url.compare(0, 5, "udpm:") != 0 || url.find("ttl=") != std::string::npos) return url;
+  return url + (url.find('?') == std::string::npos ? "?ttl=0" : "&ttl=0");
+}
+
+/// The event file (PATH.part until it is whole) and the live channel; every write is checked.
+class Sink {
+ public:
+  explicit Sink(const LcmLogOptions& options)
+      : path_(options.path), url_(with_local_ttl(options.publish_url)) {}
+
+  Done open() {
+    if (!path_.empty()) {
+      errno = 0;
+      file_.emplace(part(), "w");
+      if (!file_->good()) {
+        const int reason = errno;
+        file_.reset();
+        return fail(part(), reason);
+      }
+      std::setvbuf(file_->getFilePtr(), nullptr, _IOFBF, kFileBuffer);
+    }
+    if (!url_.empty()) {
+      errno = 0;
+      live_.emplace(url_);
+      if (!live_->good())
+        return fail(url_, "cannot open this LCM provider (udpm://, tcpq://, file://, memq://)");
+    }
+    return {};
+  }
+
+  template <class Message>
+  Done write(const std::string& channel, std::int64_t time_us, const Message& message) {
+    if (error_) return tl::unexpected(*error_);
+    const int room = message.getEncodedSize();
+    if (bytes_.size() < static_cast<std::size_t>(room)) bytes_.resize(static_cast<std::size_t>(room));
+    const int size = message.encode(bytes_.data(), 0, room);
+    require(size >= 0, "a message fits the size it announced");
+    return write_bytes(channel, time_us, size);
+  }
+
+  /// Hands everything to the kernel; from then on the file is valid up to `tick`.
+  Done flush(Ticks tick) {
+    if (error_) return tl::unexpected(*error_);
+    if (file_ && std::fflush(file_->getFilePtr()) != 0) return fail(part(), errno);
+    valid_until_ = tick;
+    return {};
+  }
+
+  /// Closes the file; with `whole` it gets its name.
+  Done close(bool whole) {
+    live_.reset();
+    if (!file_) return {};
+    // some file systems tell a failed write only at close(), and LogFile does not look: ask at a copy
+    const int copy = ::dup(::fileno(file_->getFilePtr()));
+    if (copy < 0 || ::close(copy) != 0) return fail(part(), errno);
+    file_.reset();
+    if (whole && std::rename(part().c_str(), path_.c_str()) != 0) return fail(path_, errno);
+    return {};
+  }
+
+  std::uint64_t content_hash() const { return content_.digest(); }
+
+ private:
+  std::string part() const { return path_ + ".part"; }
+
+  Done write_bytes(const std::string& channel, std::int64_t time_us, int size) {
+    content_.integer(time_us);
+    content_.integer(static_cast<std::int64_t>(channel.size()));
+    content_.bytes(channel.data(), channel.size());
+    content_.integer(size);
+    content_.bytes(bytes_.data(), static_cast<std::size_t>(size));
+    if (file_) {
+      event_.channel = channel;
+      event_.timestamp = time_us;
+      event_.datalen = size;
+      event_.data = bytes_.data();
+      errno = 0;
+      if (file_->writeEvent(&event_) != 0) return fail(part(), errno);
+    }
+    if (live_) {
+      errno = 0;
+      if (live_->publish(channel, bytes_.data(), static_cast<unsigned>(size)) != 0) return fail(url_, errno);
+    }
+    return {};
+  }
+
+  Done fail(const std::string& where, int number) { return fail(where, error_text(number)); }
+  Done fail(const std::string& where, const std::string& reason) {
+    error_ = LogError{where, reason, valid_until_};
+    return tl::unexpected(*error_);
+  }
+
+  std::string path_, url_;
+  std::optional<lcm::LogFile> file_;
+  std::optional<lcm::LCM> live_;
+  lcm::LogEvent event_{};
+  std::vector<std::uint8_t> bytes_;
+  Hash64 content_;
+  Ticks valid_until_;
+  std::optional<LogError> error_;  // the first one stays: nothing is written behind a gap
+};
+
+class LcmLog final : public RunLog {
+ public:
+  explicit LcmLog(const LcmLogOptions& options) : sink_(options) {}
+  Done open() { return sink_.open(); }
+
+  Done begin(const RunHeader& header) override {
+    require(header.machine != nullptr, "a run has a machine");
+    machine_ = *header.machine;
+    builder_.emplace(machine_);
+    viewer_every_ = viewer_every_ticks(machine_);
+    for (const machine::AxisModel& axis : machine_.axis) axis_channels_.push_back(axis_channel(axis.letter));
+    return write(kRunChannel, Ticks{0}, run_message(header)).and_then([&] { return sink_.flush(Ticks{0}); });
+  }
+
+  Done block(const BlockRecord& r) override {
+    return write(kBlockChannel, r.tick, block_message(r, machine_.clock));
+  }
+  Done block_end(const BlockEndRecord& r) override {
+    return write(kBlockEndChannel, r.tick, block_end_message(r, machine_.clock));
+  }
+  Done event(const EventRecord& r) override {
+    return write(kEventChannel, r.tick, event_message(r, machine_.clock));
+  }
+  Done diagnostic(const Diagnostic& d, Ticks tick) override {
+    return write(kDiagChannel, tick.value < 0 ? Ticks{0} : tick, diag_message(d, tick));
+  }
+
+  Done tick(const TickRecord& record, const StepBatch& batch) override {
+    require(builder_.has_value(), "a log begins before its first tick");
+    if (builder_->breaks(record))
+      if (auto done = finish_block(); !done) return done;
+    builder_->add(record, batch);
+    if (viewer_every_ > 0 && (record.tick.value + 1) % viewer_every_ == 0)
+      if (auto done = write_viewers(record, batch); !done) return done;
+    return builder_->full() ? finish_block() : Done{};
+  }
+
+  Done end(const RunSummary& summary) override {
+    if (auto done = finish_block(); !done) return done;
+    const summary_t last = summary_message(summary, machine_.clock, sink_.content_hash());
+    if (auto done = write(kSummaryChannel, summary.ticks, last); !done) return done;
+    if (auto done = sink_.flush(summary.ticks); !done) return done;
+    return sink_.close(summary.outcome != "interrupted");
+  }
+
+ private:
+  template <class Message>
+  Done write(std::string_view channel, Ticks tick, const Message& message) {
+    require(builder_.has_value(), "a log begins with its header");
+    channel_ = channel;
+    return sink_.write(channel_, event_time_us(tick, machine_.clock.base_hz), message);
+  }
+
+  Done write_viewers(const TickRecord& record, const StepBatch& batch) {
+    const feed_t feed = builder_->feed_message(record);
+    if (auto done = write(kFeedChannel, Ticks{feed.tick}, feed); !done) return done;
+    for (std::size_t a = 0; a < axis_channels_.size(); ++a) {
+      const axis_t axis = builder_->axis_message(record, batch, a);
+      if (auto done = write(axis_channels_[a], Ticks{axis.tick}, axis); !done) return done;
+    }
+    return {};
+  }
+
+  Done finish_block() {
+    if (!builder_ || builder_->empty()) return {};
+    const Ticks end = builder_->end();
+    if (machine_.log.ticks)
+      if (auto done = write(kTicksChannel, end, builder_->ticks_message()); !done) return done;
+    if (machine_.log.steps)
+      if (auto done = write(kStepsChannel, end, builder_->steps_message()); !done) return done;
+    builder_->clear();
+    return sink_.flush(end);
+  }
+
+  Sink sink_;
+  machine::MachineModel machine_;
+  std::optional<BlockBuilder> builder_;
+  std::int32_t viewer_every_ = 0;
+  std::vector<std::string> axis_channels_;
+  std::string channel_;
+};
+
+}  // namespace
+
+tl::expected<std::unique_ptr<RunLog>, LogError> open_lcm_log(const LcmLogOptions& options) {
+  auto log = std::make_unique<LcmLog>(options);
+  if (auto opened = log->open(); !opened) return tl::unexpected(opened.error());
+  return log;
+}
+
+}  // namespace kadr::emulator
