@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "emulator/scenario/scenario.h"
+#include "machine/base/utf8.h"
+
+namespace kadr::emulator {
+namespace {
+
+/// Text for XML: markup escaped; what XML 1.0 can't hold (control characters, bytes that are not UTF-8) is
+/// replaced.
+std::string xml_text(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const CodePoint c = decode_utf8(text, at);
+    const bool forbidden = c.value == 0xFFFD || c.value == 0xFFFE || c.value == 0xFFFF ||
+                           (c.value < 0x20 && c.value != '\n' && c.value != '\t');
+    switch (c.value) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        if (forbidden)
+          out += "\xEF\xBF\xBD";
+        else
+          out += text.substr(at, c.bytes);
+    }
+    at += c.bytes;
+  }
+  return out;
+}
+
+std::size_t failures(const std::vector<ScenarioResult>& results) {
+  return static_cast<std::size_t>(
+      std::count_if(results.begin(), results.end(), [](const ScenarioResult& r) { return !r.passed(); }));
+}
+
+/// What differs, line by line; empty if nothing does.
+std::string differences(const ScenarioResult& result) {
+  std::string out;
+  if (!result.failure.empty()) out += fmt::format("{}\n", result.failure);
+  bool told = !result.failure.empty();
+  for (const ScenarioCheck& check : result.checks) {
+    if (check.passed) continue;
+    out += fmt::format("{}: {}, expected {}\n", check.what, check.measured, check.expected);
+    told = told || check.what == "diagnostics";
+  }
+  // the program's messages explain a refusal; they are noise where a number differs
+  if (told) out += result.diagnostics;
+  return out;
+}
+
+}  // namespace
+
+std::string render_result(const ScenarioResult& result) {
+  const auto passed = std::count_if(result.checks.begin(), result.checks.end(),
+                                    [](const ScenarioCheck& c) { return c.passed; });
+  std::string out =
+      fmt::format("{:<7} {:<22} {:>11.3f} s  {} of {} checks\n", result.passed() ? "passed" : "FAILED",
+                  result.name, result.machine_s, passed, result.checks.size());
+  const std::string what = differences(result);
+  std::size_t at = 0;
+  while (at < what.size()) {
+    const std::size_t end = what.find('\n', at);
+    out += fmt::format("        {}\n", what.substr(at, end - at));
+    at = end + 1;
+  }
+  return out;
+}
+
+std::string render_totals(const std::vector<ScenarioResult>& results) {
+  const std::size_t failed = failures(results);
+  return fmt::format("{} passed, {} failed\n", results.size() - failed, failed);
+}
+
+std::string render_junit(const std::vector<ScenarioResult>& results) {
+  double total_s = 0;
+  for (const ScenarioResult& r : results) total_s += r.machine_s;
+  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  out += fmt::format(
+      "<testsuite name=\"kadr scenarios\" tests=\"{}\" failures=\"{}\" errors=\"0\" time=\"{:.6f}\">\n",
+      results.size(), failures(results), total_s);
+  for (const ScenarioResult& r : results) {
+    out += fmt::format("  <testcase classname=\"kadr.scenarios\" name=\"{}\" file=\"{}\" time=\"{:.6f}\"",
+                       xml_text(r.name), xml_text(r.file), r.machine_s);
+    if (r.passed()) {
+      out += "/>\n";
+      continue;
+    }
+    const std::string what = differences(r);
+    out += fmt::format(">\n    <failure message=\"{}\">{}</failure>\n  </testcase>\n",
+                       xml_text(what.substr(0, what.find('\n'))), xml_text(what));
+  }
+  return out + "</testsuite>\n";
+}
+
+std::string render_json(const std::vector<ScenarioResult>& results) {
+  auto list = nlohmann::ordered_json::array();
+  for (const ScenarioResult& r : results) {
+    nlohmann::ordered_json item = {
+        {"name", r.name}, {"file", r.file}, {"passed", r.passed()}, {"machine_s", r.machine_s}};
+    if (!r.failure.empty()) item["failure"] = r.failure;
+    auto checks = nlohmann::ordered_json::array();
+    for (const ScenarioCheck& c : r.checks)
+      checks.push_back(
+          {{"what", c.what}, {"expected", c.expected}, {"measured", c.measured}, {"passed", c.passed}});
+    item["checks"] = std::move(checks);
+    list.push_back(std::move(item));
+  }
+  return list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace kadr::emulator

@@ -1,0 +1,175 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "emulator/report/alarm_list.h"
+#include "emulator/scenario/scenario.h"
+#include "machine/base/hash.h"
+
+namespace kadr::emulator {
+namespace {
+
+std::string codes_text(const std::vector<Code>& codes) {
+  std::string out;
+  for (const Code code : codes) out += (out.empty() ? "" : " ") + code_name(code);
+  return out.empty() ? "none" : out;
+}
+
+std::string counts_text(const std::vector<std::pair<Code, std::int64_t>>& counts) {
+  std::string out;
+  for (const auto& [code, count] : counts)
+    out += fmt::format("{}{} x{}", out.empty() ? "" : ", ", code_name(code), count);
+  return out.empty() ? "none" : out;
+}
+
+/// Vibration is told in thousandths of the axis unit: um or mdeg.
+const char* small_unit(char letter) { return is_rotary_letter(letter) ? "mdeg" : "um"; }
+
+void compare_count(std::vector<ScenarioCheck>& checks, std::string what, std::int64_t expected,
+                   std::int64_t measured) {
+  checks.push_back(
+      {std::move(what), fmt::format("{}", expected), fmt::format("{}", measured), expected == measured});
+}
+
+void compare_bounds(std::vector<ScenarioCheck>& checks, const std::string& what, char letter,
+                    const Bounds& bounds, double measured_u) {
+  const char* unit = small_unit(letter);
+  checks.push_back({fmt::format("{} {}", what, letter),
+                    fmt::format("{:.4f} to {:.4f} {}", bounds.least_u * 1000, bounds.most_u * 1000, unit),
+                    fmt::format("{:.4f} {}", measured_u * 1000, unit),
+                    measured_u >= bounds.least_u && measured_u <= bounds.most_u});
+}
+
+void compare_axis(std::vector<ScenarioCheck>& checks, const AxisExpectation& expect,
+                  const machine::MachineModel& machine, const RunSummary& summary) {
+  const int index = machine.find_axis(expect.letter);
+  if (index < 0) {
+    checks.push_back(
+        {fmt::format("axis {}", expect.letter), "present", "the machine has no such axis", false});
+    return;
+  }
+  const AxisSummary& axis = summary.axis.at(static_cast<std::size_t>(index));
+  if (expect.pulses)
+    compare_count(checks, fmt::format("pulses {}", expect.letter), *expect.pulses, axis.pulses);
+  if (expect.end_steps)
+    compare_count(checks, fmt::format("end steps {}", expect.letter), *expect.end_steps, axis.end_steps);
+  if (expect.vibration)
+    compare_bounds(checks, "vibration", expect.letter, *expect.vibration, axis.peak_vibration_u);
+  if (expect.residual) compare_bounds(checks, "residual", expect.letter, *expect.residual, axis.residual_u);
+}
+
+void compare_run(ScenarioResult& result, const Expectations& expect, const machine::MachineModel& machine) {
+  const RunSummary& summary = *result.summary;
+  // an alarm is told below, with its code
+  if (summary.outcome != "complete" && summary.outcome != "alarm")
+    result.checks.push_back({"outcome", "complete", summary.outcome, false});
+  if (expect.time_s)
+    result.checks.push_back({"time", fmt::format("{:.7f} s within {:.7f} s", *expect.time_s, expect.within_s),
+                             fmt::format("{:.7f} s", result.machine_s),
+                             std::fabs(result.machine_s - *expect.time_s) <= expect.within_s});
+  if (expect.steps_hash)
+    result.checks.push_back({"steps hash", hash_text(*expect.steps_hash), hash_text(summary.steps_hash),
+                             *expect.steps_hash == summary.steps_hash});
+  result.checks.push_back(
+      {"alarms", counts_text(expect.alarms), counts_text(result.alarms), expect.alarms == result.alarms});
+  for (const AxisExpectation& axis : expect.axis) compare_axis(result.checks, axis, machine, summary);
+}
+
+void render_into(ScenarioResult& result, const Diagnostics& diagnostics, const SourceSet& sources) {
+  for (const Diagnostic& d : diagnostics.list()) {
+    result.diagnostics += render_human(d, sources);
+    if (d.severity != Severity::note) result.codes.push_back(d.code);
+  }
+}
+
+void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions& options) {
+  Job job;
+  Diagnostics diagnostics;
+  const bool opened = open_job(scenario, job, diagnostics);
+  if (!opened) {
+    render_into(result, diagnostics, job.sources);
+    result.failure = "the machine file has errors";
+    return;
+  }
+  // as `kadr run` does: a soft limit that is left is shown where it happens
+  const bool ready = prepare(job, diagnostics, SoftLimitRule::warning) && !diagnostics.has_errors();
+  render_into(result, diagnostics, job.sources);
+  result.checks.push_back({"diagnostics", codes_text(scenario.expect.diagnostics), codes_text(result.codes),
+                           scenario.expect.diagnostics == result.codes});
+  if (!ready) {
+    if (scenario.expect.time_s || scenario.expect.steps_hash || !scenario.expect.alarms.empty() ||
+        !scenario.expect.axis.empty())
+      result.checks.push_back({"run", "planned and run", "refused", false});
+    return;
+  }
+  AlarmList alarms(nullptr);
+  auto summary = run(job, &alarms, options);
+  if (!summary) {
+    result.failure = summary.error().what;
+    return;
+  }
+  for (const auto& [code, count] : alarms.counts())
+    result.alarms.emplace_back(code, static_cast<std::int64_t>(count));
+  result.machine_s =
+      static_cast<double>(summary->ticks.value) / static_cast<double>(job.machine.model.clock.base_hz);
+  result.summary = std::move(*summary);
+  compare_run(result, scenario.expect, job.machine.model);
+}
+
+}  // namespace
+
+bool ScenarioResult::passed() const {
+  if (!failure.empty() || checks.empty()) return false;
+  for (const ScenarioCheck& check : checks)
+    if (!check.passed) return false;
+  return true;
+}
+
+bool open_job(const Scenario& scenario, Job& job, Diagnostics& diagnostics) {
+  SourceText machine_text =
+      scenario.machine_is_file
+          ? SourceText::open(scenario.machine)
+          : SourceText(scenario.machine + ".toml", std::string(machine::shipped_machine(scenario.machine)));
+  SourceText program = scenario.program_path.empty()
+                           ? SourceText(scenario.program_name, scenario.generated_program)
+                           : SourceText::open(scenario.program_path);
+  auto file = machine::read_machine(std::move(machine_text), job.sources, scenario.settings);
+  job.program = job.sources.add(std::move(program));
+  if (!file) {
+    for (const Diagnostic& d : file.error().list()) diagnostics.add(d);
+    return false;
+  }
+  job.machine = std::move(*file);
+  return true;
+}
+
+ScenarioResult run_scenario(const Scenario& scenario, const RunOptions& options) {
+  ScenarioResult result;
+  result.name = scenario.name;
+  result.file = scenario.file;
+  try {
+    run_into(result, scenario, options);
+  } catch (const std::system_error& e) {
+    result.failure = e.what();
+  }
+  return result;
+}
+
+ScenarioResult run_scenario(const std::string& path, const RunOptions& options) {
+  ScenarioResult result;
+  result.name = result.file = path;
+  try {
+    SourceSet sources;
+    const auto scenario = read_scenario(path, sources);
+    if (scenario) return run_scenario(*scenario, options);
+    result.failure = "the scenario file has errors";
+    render_into(result, scenario.error(), sources);
+  } catch (const std::system_error& e) {
+    result.failure = e.what();
+  }
+  return result;
+}
+
+}  // namespace kadr::emulator
