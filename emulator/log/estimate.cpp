@@ -33,12 +33,13 @@ double viewer_bytes(std::int64_t axes) {
   const std::int64_t axis = envelope(kAxisChannelPrefix.size() + 1) + 10 * 8;
   return static_cast<double>(feed + axes * axis);
 }
-/// KADR_BLOCK and, with a plant, KADR_BLOCK_END; texts of usual length (block_t, block_end_t).
-double block_bytes(std::int64_t axes, bool plant) {
+/// KADR_BLOCK with texts of usual length, and KADR_BLOCK_END (block_t, block_end_t).
+double block_bytes() {
   constexpr std::int64_t kTexts = 3 * 5 + 24 + 4 + 8;  // length and zero byte each; line, motion, limited_by
-  const std::int64_t begin = envelope(kBlockChannel.size()) + 8 + 8 + 3 * 4 + 5 * 8 + kTexts;
-  const std::int64_t end = envelope(kBlockEndChannel.size()) + 8 + 8 + 3 * 4 + 2 * 8 * axes;
-  return static_cast<double>(begin + (plant ? end : 0));
+  return static_cast<double>(envelope(kBlockChannel.size()) + 8 + 8 + 3 * 4 + 5 * 8 + kTexts);
+}
+double block_end_bytes(std::int64_t axes) {
+  return static_cast<double>(envelope(kBlockEndChannel.size()) + 8 + 8 + 3 * 4 + 2 * 8 * axes);
 }
 /// KADR_RUN without its texts, and KADR_SUMMARY (run_t, summary_t).
 double frame_bytes(std::int64_t axes) {
@@ -55,7 +56,9 @@ std::int64_t estimate_log_bytes(const machine::MachineModel& machine, double pla
   const double ticks = std::ceil(std::max(0.0, planned_s) / machine.clock.tau_s());
   const double messages = std::ceil(ticks / std::max(1, machine.log.block_ticks));
   double bytes = frame_bytes(axes) + static_cast<double>(std::min(text_bytes, kEmbeddedTextLimit)) +
-                 static_cast<double>(blocks) * block_bytes(axes, plant);
+                 static_cast<double>(blocks) * block_bytes() +
+                 // a block that ends within the control tick of its beginning has no KADR_BLOCK_END
+                 std::min(static_cast<double>(blocks), ticks) * block_end_bytes(axes);
   if (machine.log.ticks) bytes += messages * ticks_message_bytes(axes) + ticks * tick_bytes(axes, plant);
   if (machine.log.steps)
     bytes += messages * steps_message_bytes(axes) + kBytesPerPulse * static_cast<double>(pulses);

@@ -1,0 +1,160 @@
+#include "emulator/log/log_info.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "emulator/interpolator/interpolator.h"
+#include "machine/base/hash.h"
+
+namespace kadr::emulator {
+namespace {
+
+std::uint64_t hash_of_file(const std::string& path, std::int64_t bytes) {
+  struct Close {
+    void operator()(std::FILE* f) const { std::fclose(f); }
+  };
+  Hash64 hash;
+  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
+  std::vector<unsigned char> buffer(std::size_t{1} << 18);
+  while (file && bytes > 0) {
+    const std::size_t want = std::min(buffer.size(), static_cast<std::size_t>(bytes));
+    const std::size_t got = std::fread(buffer.data(), 1, want, file.get());
+    if (got == 0) break;
+    hash.bytes(buffer.data(), got);
+    bytes -= static_cast<std::int64_t>(got);
+  }
+  return hash.digest();
+}
+
+void count_channel(std::vector<ChannelInfo>& channels, const LogEventView& event) {
+  auto it = std::find_if(channels.begin(), channels.end(),
+                         [&](const ChannelInfo& c) { return c.name == event.channel; });
+  if (it == channels.end()) it = channels.insert(channels.end(), {std::string(event.channel), 0, 0});
+  ++it->messages;
+  it->bytes += event.bytes();
+}
+
+/// Adds the facts of one message.
+class Collector {
+ public:
+  explicit Collector(LogInfo& info) : info_(info) { info_.pulses.resize(info.header.axis.size()); }
+
+  void operator()(const TickBlock& b) { info_.control_ticks += static_cast<std::int64_t>(b.size()); }
+  void operator()(const StepBlock& b) {
+    if (!info_.header.logs_ticks) info_.control_ticks += static_cast<std::int64_t>(b.batches.size());
+    for (const StepBatch& batch : b.batches) {
+      hash_.add(batch);
+      for (std::size_t a = 0; a < batch.axis.size(); ++a)
+        info_.pulses[a] += static_cast<std::int64_t>(batch.axis[a].count());
+    }
+  }
+  void operator()(const EventRecord& e) {
+    ++info_.events;
+    if (e.kind == "alarm") ++info_.alarms;
+  }
+  void operator()(const BlockRecord&) { ++info_.blocks; }
+  void operator()(const LogDiagnostic&) { ++info_.diagnostics; }
+  void operator()(const LogSummary& s) { info_.summary = s; }
+  template <class Other>
+  void operator()(const Other&) {}
+
+  std::uint64_t steps_hash() const { return hash_.digest(); }
+
+ private:
+  LogInfo& info_;
+  StepHash hash_;
+};
+
+std::string grouped(std::int64_t value) {
+  std::string digits = fmt::format("{}", value);
+  const std::ptrdiff_t first = value < 0 ? 1 : 0;
+  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > first; at -= 3)
+    digits.insert(static_cast<std::size_t>(at), 1, ' ');
+  return digits;
+}
+
+std::string agreement(std::optional<bool> agrees) {
+  return !agrees ? "" : *agrees ? "  agrees with the summary" : "  DIFFERS from the summary";
+}
+
+}  // namespace
+
+std::optional<bool> LogInfo::steps_hash_agrees() const {
+  if (!summary || !steps_hash) return std::nullopt;
+  return *steps_hash == summary->run.steps_hash;
+}
+
+std::optional<bool> LogInfo::content_hash_agrees() const {
+  if (!summary) return std::nullopt;
+  return content_hash == summary->content_hash;
+}
+
+tl::expected<LogInfo, LogReadError> log_info(const std::string& path) {
+  auto reader = LogReader::open(path);
+  if (!reader) return tl::unexpected(reader.error());
+  LogInfo info;
+  info.path = path;
+  info.header = reader->header();
+  Collector collect(info);
+  for (LogMessage message; reader->next(message);) {
+    count_channel(info.channels, reader->event());
+    std::visit(collect, message);
+  }
+  info.end = reader->end();
+  info.last_tick = info.end.valid_until.value;
+  info.span_s = info.header.seconds(info.end.valid_until);
+  info.content_hash = reader->content_hash();
+  if (info.header.logs_steps) info.steps_hash = collect.steps_hash();
+  info.file_hash = hash_of_file(path, info.end.file_bytes);
+  return info;
+}
+
+std::string log_state_name(LogState state) {
+  switch (state) {
+    case LogState::complete:
+      return "complete";
+    case LogState::interrupted:
+      return "interrupted";
+    case LogState::cut_off:
+      return "cut off";
+    case LogState::damaged:
+      return "damaged";
+  }
+  return "";
+}
+
+std::string render_log_info(const LogInfo& info) {
+  const LogHeader& h = info.header;
+  std::string out =
+      fmt::format("{}: {}\n", info.path, info.end.state == LogState::complete ? "complete" : info.end.detail);
+  const auto line = [&](const char* name, const std::string& text) {
+    out += fmt::format("  {:<12}{}\n", name, text);
+  };
+  line("program", fmt::format("{}, {} bytes, on {} (kadr {}, log format {})", h.program_name,
+                              grouped(h.program_bytes), h.machine_name, h.kadr_version, h.log_format));
+  line("clock", fmt::format("{} Hz, control tick {} base ticks ({:.6g} ms)", grouped(h.base_hz),
+                            grouped(h.control_tick_ticks), 1000 * h.seconds(Ticks{h.control_tick_ticks})));
+  line("span", fmt::format("ticks {} to {}, {:.6f} s, {} control ticks", grouped(info.first_tick),
+                           grouped(info.last_tick), info.span_s, grouped(info.control_ticks)));
+  if (info.summary)
+    line("outcome", fmt::format("{}, exit {}", info.summary->run.outcome, info.summary->run.exit_code));
+  line("records", fmt::format("{} blocks, {} events, {} alarms, {} diagnostics", grouped(info.blocks),
+                              grouped(info.events), grouped(info.alarms), grouped(info.diagnostics)));
+  for (std::size_t a = 0; a < h.axis.size() && h.logs_steps; ++a)
+    line(a == 0 ? "pulses" : "", fmt::format("{} {:>14}  of {:.9g} {}", h.axis[a].name,
+                                             grouped(info.pulses[a]), h.axis[a].step_u, h.axis[a].unit));
+  line("inputs hash", hash_text(h.inputs_hash));
+  if (info.steps_hash) line("steps hash", hash_text(*info.steps_hash) + agreement(info.steps_hash_agrees()));
+  line("content", hash_text(info.content_hash) + agreement(info.content_hash_agrees()));
+  line("file", fmt::format("{}  {} bytes", hash_text(info.file_hash), grouped(info.end.file_bytes)));
+  out += fmt::format("  {:<20}{:>12}{:>16}{:>9}\n", "channel", "messages", "bytes", "share");
+  for (const ChannelInfo& c : info.channels)
+    out += fmt::format("  {:<20}{:>12}{:>16}{:>7.1f} %\n", c.name, grouped(c.messages), grouped(c.bytes),
+                       100.0 * static_cast<double>(c.bytes) / static_cast<double>(info.end.file_bytes));
+  return out;
+}
+
+}  // namespace kadr::emulator

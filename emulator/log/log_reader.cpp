@@ -1,0 +1,160 @@
+#include "emulator/log/log_reader.h"
+
+#include <fmt/format.h>
+
+#include "emulator/log/event_file.h"
+#include "emulator/log/log_decode.h"
+#include "machine/base/hash.h"
+#include "machine/base/require.h"
+
+namespace kadr::emulator {
+
+struct LogReader::Impl {
+  explicit Impl(EventFile file) : events(std::move(file)) {}
+
+  EventFile events;
+  LogEventView view;
+  LogHeader header;
+  Hash64 content;
+  bool header_given = false;
+  bool finished = false;
+  std::optional<LogState> summary;  // of the KADR_SUMMARY that was read
+  Ticks ticks_until, steps_until, seen_until;
+  LogEnd end;
+
+  void stop(LogState state, std::string detail) {
+    finished = true;
+    end.state = state;
+    end.detail = std::move(detail);
+    end.valid_bytes = valid_bytes;
+    end.file_bytes = events.size();
+    end.valid_until = valid_until();
+  }
+
+  /// Exact data come after the events and viewer messages of their ticks: they say how far everything is
+  /// complete.
+  Ticks valid_until() const {
+    if (summary) return seen_until;
+    if (header.logs_ticks && header.logs_steps) return std::min(ticks_until, steps_until);
+    if (header.logs_ticks) return ticks_until;
+    if (header.logs_steps) return steps_until;
+    return seen_until;
+  }
+
+  void note_progress(const LogMessage& message) {
+    const auto tau = header.control_tick_ticks;
+    if (const auto* t = std::get_if<TickBlock>(&message))
+      ticks_until = Ticks{t->begin.value + static_cast<std::int64_t>(t->size()) * tau};
+    if (const auto* s = std::get_if<StepBlock>(&message))
+      steps_until = Ticks{s->begin.value + static_cast<std::int64_t>(s->batches.size()) * tau};
+    if (const auto* f = std::get_if<FeedSample>(&message)) seen_until = std::max(seen_until, f->tick);
+    if (const auto* e = std::get_if<EventRecord>(&message)) seen_until = std::max(seen_until, e->tick);
+    if (const auto* b = std::get_if<BlockRecord>(&message)) seen_until = std::max(seen_until, b->tick);
+    if (const auto* s = std::get_if<LogSummary>(&message)) {
+      seen_until = s->run.ticks;
+      summary = s->run.outcome == "interrupted" ? LogState::interrupted : LogState::complete;
+    }
+  }
+
+  void hash_event() {
+    content.integer(view.time_us);
+    content.integer(static_cast<std::int64_t>(view.channel.size()));
+    content.bytes(view.channel.data(), view.channel.size());
+    content.integer(static_cast<std::int64_t>(view.data.size()));
+    content.bytes(view.data.data(), view.data.size());
+  }
+
+  void stop_at(EventFile::Next why) {
+    const auto at_s = [&] { return header.seconds(valid_until()); };
+    if (why == EventFile::Next::damaged)
+      return stop(LogState::damaged, fmt::format("damaged: {}; valid up to tick {} ({:.6f} s)",
+                                                 events.detail(), valid_until().value, at_s()));
+    if (summary == LogState::complete && why == EventFile::Next::end) return stop(LogState::complete, "");
+    if (summary == LogState::interrupted && why == EventFile::Next::end)
+      return stop(LogState::interrupted,
+                  fmt::format("interrupted at tick {} ({:.6f} s)", valid_until().value, at_s()));
+    stop(LogState::cut_off, fmt::format("cut off: {}; valid up to tick {} ({:.6f} s)",
+                                        why == EventFile::Next::end ? "no KADR_SUMMARY" : events.detail(),
+                                        valid_until().value, at_s()));
+  }
+
+  bool next(LogMessage& message) {
+    if (finished) return false;
+    if (!header_given) {
+      header_given = true;
+      hash_event();
+      valid_bytes = events.position();
+      message = header;
+      return true;
+    }
+    if (const auto got = events.next(view); got != EventFile::Next::event) return stop_at(got), false;
+    auto decoded = decode_message(view, header);
+    const char* reason = summary   ? "an event follows the summary"
+                         : decoded ? nullptr
+                                   : decoded.error().c_str();
+    if (reason != nullptr) {
+      stop(LogState::damaged,
+           fmt::format("damaged: event {} ({}) at byte {}: {}; valid up to tick {} ({:.6f} s)", view.number,
+                       printable(view.channel), valid_bytes, reason, valid_until().value,
+                       header.seconds(valid_until())));
+      return false;
+    }
+    message = std::move(*decoded);
+    valid_bytes = events.position();
+    note_progress(message);
+    if (!summary) hash_event();
+    return true;
+  }
+
+  std::int64_t valid_bytes = 0;
+};
+
+namespace {
+
+LogReadError fault(LogReadFault kind, const std::string& path, std::string reason) {
+  return {kind, path, std::move(reason)};
+}
+
+LogReadError not_kadr(EventFile::Next got, const EventFile& events, const LogEventView& view,
+                      const std::string& path) {
+  if (events.size() == 0) return fault(LogReadFault::not_a_log, path, "the file is empty");
+  if (got == EventFile::Next::cut && !view.channel.empty() && view.channel == kRunChannel)
+    return fault(LogReadFault::cut_in_header, path, "the log was cut off in its first message");
+  if (got == EventFile::Next::cut && kRunChannel.substr(0, view.channel.size()) == view.channel)
+    return fault(LogReadFault::not_a_log, path, "the file ends before its first message: nothing to read");
+  return fault(LogReadFault::not_a_log, path, "not an LCM event log: " + events.detail());
+}
+
+}  // namespace
+
+tl::expected<LogReader, LogReadError> LogReader::open(const std::string& path) {
+  auto file = EventFile::open(path);
+  if (!file) return tl::unexpected(fault(LogReadFault::cannot_open, path, file.error()));
+  auto impl = std::make_unique<Impl>(std::move(*file));
+  if (const auto got = impl->events.next(impl->view); got != EventFile::Next::event)
+    return tl::unexpected(not_kadr(got, impl->events, impl->view, path));
+  if (impl->view.channel != kRunChannel)
+    return tl::unexpected(
+        fault(LogReadFault::other_log, path,
+              "an LCM log, but not of kadr: its first channel is " + printable(impl->view.channel)));
+  auto header = decode_header(impl->view.data);
+  if (!header) return tl::unexpected(fault(header.error().fault, path, header.error().reason));
+  impl->header = std::move(*header);
+  return LogReader(std::move(impl));
+}
+
+LogReader::LogReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+LogReader::LogReader(LogReader&&) noexcept = default;
+LogReader& LogReader::operator=(LogReader&&) noexcept = default;
+LogReader::~LogReader() = default;
+
+const LogHeader& LogReader::header() const { return impl_->header; }
+bool LogReader::next(LogMessage& message) { return impl_->next(message); }
+const LogEventView& LogReader::event() const { return impl_->view; }
+std::uint64_t LogReader::content_hash() const { return impl_->content.digest(); }
+const LogEnd& LogReader::end() const {
+  require(impl_->finished, "a log's end is known after its last message");
+  return impl_->end;
+}
+
+}  // namespace kadr::emulator

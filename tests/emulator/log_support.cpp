@@ -1,0 +1,248 @@
+#include "log_support.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "emulator/interpolator/interpolator.h"
+
+namespace kadr::test {
+
+std::uint64_t Random::bits() {
+  std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+std::int64_t Random::between(std::int64_t low, std::int64_t high) {
+  return low + static_cast<std::int64_t>(bits() % (static_cast<std::uint64_t>(high - low) + 1));
+}
+double Random::real(double low, double high) {
+  constexpr double kUnit = 1.0 / 9007199254740992.0;  // 2^-53
+  return low + (high - low) * static_cast<double>(bits() >> 11) * kUnit;
+}
+
+machine::MachineModel log_machine(int axes) {
+  machine::MachineModel m;
+  m.name = "test";
+  for (int a = 0; a < axes; ++a) {
+    machine::AxisModel axis;
+    axis.letter = kAxisLetters[static_cast<std::size_t>(a)];
+    axis.kind = is_rotary_letter(axis.letter) ? machine::AxisKind::rotary : machine::AxisKind::linear;
+    axis.step_u = 0.001;
+    axis.home_u = 0.25 * a;
+    axis.has_plant = true;
+    m.axis.push_back(axis);
+  }
+  return m;
+}
+
+FakeRun::FakeRun(const machine::MachineModel& machine, FakeRunOptions options)
+    : machine_(machine), options_(options), states_(machine.axis.size()) {
+  batch_.axis.resize(machine.axis.size());
+  for (const machine::AxisModel& axis : machine.axis) {
+    position_steps_.push_back(axis.home_u / axis.step_u);
+    steps_.push_back(emulator::lattice_node(axis.home_u, axis.step_u));
+  }
+}
+
+/// A trapezium to and fro: up, flat, down, rest, then the same backwards.
+double FakeRun::speed_steps_per_tick(std::int64_t tick) const {
+  const std::int64_t ramp = options_.ramp_ticks, rest = ramp / 5, leg = 4 * ramp + rest;
+  const std::int64_t at = tick % leg;
+  const double share = at < ramp       ? static_cast<double>(at) / static_cast<double>(ramp)
+                       : at < 3 * ramp ? 1.0
+                       : at < 4 * ramp ? static_cast<double>(4 * ramp - at) / static_cast<double>(ramp)
+                                       : 0.0;
+  return (tick / leg % 2 == 0 ? 1 : -1) * share * options_.peak_steps_per_s * machine_.clock.tau_s();
+}
+
+void FakeRun::make_pulses(std::size_t axis, double begin_steps, double end_steps) {
+  AxisPulses& pulses = batch_.axis[axis];
+  pulses.clear();
+  const double span = end_steps - begin_steps;
+  pulses.first_sign = span < 0 ? -1 : 1;
+  const double tau = static_cast<double>(machine_.clock.control_tick.value);
+  std::int64_t& node = steps_[axis];
+  std::int64_t last = 0;
+  while (std::abs(end_steps - static_cast<double>(node)) > 0.5) {
+    const double crossing = static_cast<double>(node) + 0.5 * pulses.first_sign;
+    auto offset = static_cast<std::int64_t>(std::floor(tau * (crossing - begin_steps) / span));
+    if (options_.wobble) offset += (node * 7 + static_cast<std::int64_t>(axis)) % 5;
+    last = std::clamp<std::int64_t>(offset, last, machine_.clock.control_tick.value - 1);
+    pulses.offset_ticks.push_back(static_cast<std::uint16_t>(last));
+    node += pulses.first_sign;
+    ++pulses_;
+  }
+  if (pulses.count() == 0) pulses.first_sign = 1;
+}
+
+const emulator::TickRecord& FakeRun::advance() {
+  const double before = speed_steps_per_tick(tick_), after = speed_steps_per_tick(tick_ + 1);
+  const double tau_s = machine_.clock.tau_s();
+  motion_ = {};
+  motion_.tick = batch_.tick = ControlTicks{tick_};
+  motion_.s_begin_u = 0.001 * path_steps_;
+  path_steps_ += std::abs(before + after) / 2;
+  motion_.s_end_u = 0.001 * path_steps_;
+  motion_.speed_begin_u_s = 0.001 * std::abs(before) / tau_s;
+  motion_.speed_end_u_s = 0.001 * std::abs(after) / tau_s;
+  motion_.accel_end_u_s2 = (motion_.speed_end_u_s - motion_.speed_begin_u_s) / tau_s;
+  motion_.override_used = 1 - 0.001 * static_cast<double>(tick_ % 50);
+  motion_.limited_by = static_cast<planner::LimitedBy>(tick_ / 100 % 8);
+  motion_.limiting_axis = static_cast<std::int8_t>(tick_ / 100 % 4 - 1);
+  for (std::size_t a = 0; a < batch_.axis.size(); ++a) {
+    const double share = 1 - 0.07 * static_cast<double>(a), begin = position_steps_[a];
+    const double end = begin + share * (before + after) / 2;
+    make_pulses(a, begin, end);
+    AxisCommand& command = batch_.axis[a].command;
+    command = {0.001 * begin, 0.001 * end, 0.001 * share * before / tau_s, 0.001 * share * after / tau_s};
+    position_steps_[a] = end;
+    const double ripple = 1e-4 * static_cast<double>((tick_ * 37 + static_cast<std::int64_t>(a)) % 101 - 50);
+    states_[a] = {command.position_end_u + ripple, command.speed_end_u_s, -3 * ripple, 7 * ripple,
+                  1e5 * ripple};
+  }
+  record_.tick = ControlTicks{tick_};
+  record_.block = static_cast<std::uint32_t>(tick_ / 100);
+  record_.motion = &motion_;
+  record_.position_steps = &steps_;
+  record_.axis = options_.plant ? &states_ : nullptr;
+  ++tick_;
+  return record_;
+}
+
+emulator::RunHeader log_header(const machine::MachineModel& machine) {
+  emulator::RunHeader h;
+  h.program_name = "part.ngc";
+  h.program_text = "N10 G1 X10 F100 (скругление)\nM2\n";
+  h.machine_toml = "format = 1\n";
+  h.settings_toml = "log.block_ticks = 32\n";
+  h.inputs_hash = 0xfedcba9876543210u;
+  h.machine = &machine;
+  return h;
+}
+
+emulator::RunSummary log_summary(const machine::MachineModel& machine, std::int64_t control_ticks,
+                                 std::int64_t pulses, std::uint64_t steps_hash) {
+  emulator::RunSummary s;
+  s.ticks = Ticks{control_ticks * machine.clock.control_tick.value};
+  s.control_ticks = ControlTicks{control_ticks};
+  s.blocks = static_cast<std::uint32_t>(control_ticks / 100);
+  s.path_u = 1942.113;
+  s.mean_feed_u_s = 50.6;
+  s.peak_feed_u_s = 109.98;
+  s.motion_s = 38.25;
+  s.dwell_s = 0.5;
+  s.pulses = pulses;
+  s.steps_hash = steps_hash;
+  s.path_error_u = 0.0125;
+  s.held_error_u = 0.0625;
+  for (std::size_t a = 0; a < machine.axis.size(); ++a) {
+    emulator::AxisSummary x;
+    const auto n = static_cast<std::int64_t>(a + 1);
+    const auto u = static_cast<double>(n);
+    x = {n,
+         -n,
+         10 * n,
+         u / 2,
+         -u,
+         3 * u,
+         4 * u,
+         Ticks{5 * n},
+         6 * u,
+         7 * u,
+         8 * u,
+         Ticks{9 * n},
+         static_cast<std::uint32_t>(11 * n),
+         12 * u,
+         13 * u,
+         14 * u,
+         15 * u,
+         16 * n};
+    s.axis.push_back(x);
+  }
+  s.limited_by = {{"program", 23.5}, {"axis X speed", 14.75}};
+  s.alarms = 2;
+  s.warnings = 1;
+  s.exit_code = 3;
+  return s;
+}
+
+std::int64_t write_log(const std::string& path, const machine::MachineModel& machine,
+                       std::int64_t control_ticks, FakeRunOptions options, const std::string& outcome) {
+  const auto check = [](const tl::expected<void, emulator::LogError>& done) {
+    if (!done) throw std::runtime_error(done.error().path + ": " + done.error().reason);
+  };
+  auto log = emulator::open_lcm_log({path, ""});
+  if (!log) throw std::runtime_error(log.error().path + ": " + log.error().reason);
+  check((*log)->begin(log_header(machine)));
+  Diagnostic warning{Code{}, Severity::warning, {0, 1, 17, 4}, "text", "label", {"one", "two"}, "help"};
+  warning.code = all_codes().front().code;
+  check((*log)->diagnostic(warning, Ticks{-1}));
+  FakeRun run(machine, options);
+  emulator::StepHash hash;
+  const std::int64_t tau = machine.clock.control_tick.value;
+  for (std::int64_t k = 0; k < control_ticks; ++k) {
+    const auto number = static_cast<std::uint32_t>(k / 100);
+    const std::vector<double> peaks(machine.axis.size(), 0.001 * static_cast<double>(number));
+    if (k % 100 == 0) {
+      check((*log)->block({Ticks{k * tau + 7},
+                           number,
+                           {0, number + 1, 1, 8},
+                           "N10 G1 X10 F100",
+                           "line",
+                           10.5,
+                           100,
+                           99,
+                           0,
+                           0.105,
+                           "axis X speed"}));
+      if (k > 0) check((*log)->block_end({Ticks{(k + 1) * tau}, number - 1, number, peaks, peaks}));
+    }
+    if (k % 250 == 249)
+      check((*log)->event({Ticks{k * tau + 9},
+                           number,
+                           {0, 3, 4, 5},
+                           "alarm",
+                           all_codes().back().code,
+                           1,
+                           2.5,
+                           2.0,
+                           "axis Y is too fast: 2.5 mm/s, allowed 2.0 mm/s"}));
+    const emulator::TickRecord& record = run.advance();
+    hash.add(run.batch());
+    check((*log)->tick(record, run.batch()));
+  }
+  emulator::RunSummary summary = log_summary(machine, control_ticks, run.pulses(), hash.digest());
+  summary.outcome = outcome;
+  check((*log)->end(summary));
+  return run.pulses();
+}
+
+TestFolder::TestFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "kadr-log-XXXXXX").string();
+  if (!::mkdtemp(name.data())) throw std::runtime_error("mkdtemp");
+  path_ = name;
+}
+TestFolder::~TestFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::vector<std::uint8_t> read_bytes(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw std::runtime_error("cannot read " + path);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+void write_bytes(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+  std::ofstream out(path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!out) throw std::runtime_error("cannot write " + path);
+}
+
+}  // namespace kadr::test
