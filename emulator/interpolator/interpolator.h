@@ -8,37 +8,58 @@
 #include "planner/motion_source.h"
 #include "planner/path.h"
 
-/// From path and tick motion to step pulses. Which pulses, and in which order along the path, is geometry alone; the
-/// motion law only says when each fires.
+/// From path and tick motion to step pulses. Which pulses, and in which order along the path, is geometry
+/// alone; the motion law only says when each fires.
 namespace kadr::emulator {
 
-/// Lattice node of a position: floor(x/step + 1/2), so that every axis counts consistently from block to block.
+/// Lattice node of a position: floor(x/step + 1/2), so that every axis counts consistently from block to
+/// block. Positions beyond 2^52 steps break a promise: doubles count no further.
 std::int64_t lattice_node(double position_u, double step_u);
 
-/// Half-crossing events on lines, arcs and helices in n axes: an axis steps when its coordinate crosses (k + 1/2) steps.
-/// Invariant: |node - x(t_event)| <= 1/2 step on every axis at every event (papers 002 and 004).
+/// One pulse with its place: what a drawing, a study or the self-check needs beyond the batch.
+struct StepEvent {
+  std::size_t segment = 0;
+  double s_u =
+      0;  ///< on the segment, in [0, length]; a pure function of segment and pulse, whatever the feed
+  std::int32_t axis = 0;
+  std::int32_t sign = 1;
+  double moment_ticks = 0;  ///< unrounded, since the control tick's beginning
+};
+
+/// Half-crossing events on lines, arcs and helices in n axes: an axis steps when its coordinate crosses (k +
+/// 1/2) steps. Invariant: |node - x(t_event)| <= 1/2 step on every axis at every event (papers 002 and 004).
 class CrossingInterpolator {
  public:
   CrossingInterpolator(const planner::Path& path, const machine::MachineModel& machine);
   ~CrossingInterpolator();
-  /// Fills the batch with all pulses of this tick (storage reused, no allocation after the first ticks) and the axis
-  /// commands at its ends. Ticks must come in order.
+  /// Fills the batch with all pulses of this tick (storage reused, no allocation after the first ticks) and
+  /// the axis commands at its ends. Ticks must come in order. A pulse fires in the tick whose (s_begin,
+  /// s_end] holds its place; a place at the very beginning of a segment fires when the motion enters it. A
+  /// tick that ends at rest within 1e-9 units before a joint is on the joint.
   void advance(const planner::TickMotion& motion, StepBatch& batch);
-  /// Steps from program zero at the end of the last tick, per machine axis.
+  /// Lattice node (steps from machine zero) at the end of the last tick, per machine axis; begins at the node
+  /// of the path's start.
   const std::vector<std::int64_t>& position_steps() const;
-  /// Segment reached at the end of the last tick, and whether a joint was passed in it.
+  /// Segment reached at the end of the last tick (on a joint: the one that ends there), and whether a joint
+  /// lay strictly inside the tick, so that a corner may lie between the speeds at its two ends.
   std::size_t segment() const;
   bool passed_joint() const;
-  /// Largest |node - x(t_event)| in steps seen so far, per axis; only kept when check is on.
+  /// Largest |node - x(t_event)| in steps seen so far, per axis, less what the rounding of s and x themselves
+  /// makes (4 ulp of path length and position); at most 1/2 + 1e-9. Only kept when check is on. Slow.
   void set_self_check(bool on);
   const std::vector<double>& worst_node_error_steps() const;
+  /// The last tick's pulses of all axes in path order: by segment, place, axis number. Only kept when trace
+  /// is on. Slow.
+  void set_trace(bool on);
+  const std::vector<StepEvent>& trace() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-/// Running hash over the step stream: per tick and axis the offsets and signs (integers only).
+/// Running hash over the step stream: per tick and axis the offsets and signs (integers only). Ticks without
+/// pulses add nothing, every other tick adds its number, so equal digests mean equal pulses at equal times.
 class StepHash {
  public:
   StepHash();
