@@ -35,6 +35,7 @@ struct TwoMassModel {
   double motor_damping = 0;      ///< bm, >= 0
   double holding_force = 0;      ///< F_hold of `stepper`, > 0
   double tooth_pitch_u = 0;      ///< `stepper`: motion per electrical period (four full steps), mm or deg, > 0
+  bool operator==(const TwoMassModel&) const = default;
 };
 
 struct AxisModel {
@@ -51,12 +52,14 @@ struct AxisModel {
   double junction_jerk_u_s3 = kInfinity;           ///< allowed jerk at a corner (over one tau)
   bool has_plant = false;                          ///< false: not modelled, moves as `rigid` without a link
   TwoMassModel plant;
+  bool operator==(const AxisModel&) const = default;
 };
 
 struct ClockModel {
   std::int64_t base_hz = 10'000'000;  ///< a multiple of 1 MHz
   Ticks control_tick{10'000};         ///< tau in base ticks, <= 65536
   double tau_s() const { return static_cast<double>(control_tick.value) / static_cast<double>(base_hz); }
+  bool operator==(const ClockModel&) const = default;
 };
 
 /// Limits along the tool path of X Y Z, in mm; axis limits hold besides.
@@ -67,6 +70,7 @@ struct PathLimits {
   double centripetal_accel_mm_s2 = kInfinity;
   double arc_end_tolerance_mm = 0.01;      ///< radius difference accepted between an arc's start and end
   double arc_end_tolerance_relative = 0.001;
+  bool operator==(const PathLimits&) const = default;
 };
 
 struct PlannerSettings {
@@ -74,11 +78,13 @@ struct PlannerSettings {
   AxisLimitRule axis_limits = AxisLimitRule::enforce;
   TickFeed tick_feed = TickFeed::linear;
   double tool_change_s = 0;                         ///< dwell that M6 costs
+  bool operator==(const PlannerSettings&) const = default;
 };
 
 struct PlantSettings {
   IntegratorKind integrator = IntegratorKind::smooth;
   double tolerance_um = 1e-8;
+  bool operator==(const PlantSettings&) const = default;
 };
 
 struct LogSettings {
@@ -86,6 +92,7 @@ struct LogSettings {
   bool steps = true;              ///< KADR_STEPS
   int block_ticks = 32;           ///< control ticks per exact message, 16..64
   double viewer_rate_hz = 100;    ///< KADR_FEED, KADR_AXIS_*; 0 switches them off
+  bool operator==(const LogSettings&) const = default;
 };
 
 struct MachineModel {
@@ -101,12 +108,20 @@ struct MachineModel {
 
   /// Index in `axis` by letter, -1 if the machine has no such axis.
   int find_axis(char letter) const;
+  bool operator==(const MachineModel&) const = default;
+};
+
+/// Where a value comes from: its key as in a setting ("axis.X.max_mm_s") and "mill3.toml:42" or "command line".
+struct KeyOrigin {
+  std::string key;
+  std::string origin;
 };
 
 /// A machine file that was read, with the text its spans point to.
 struct MachineFile {
   MachineModel model;
   std::string text;
+  std::vector<KeyOrigin> origins = {};  ///< values that were given, in the order of reading; all others are defaults
 };
 
 /// Reads a machine file (TOML; docs in machine/files/mill3.toml). All mistakes of the file are told at once.

@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+
+#include <tuple>
+
+#include "machine/base/parse_number.h"
+#include "machine/file/machine_reader.h"
+
+namespace kadr::machine {
+
+namespace {
+
+/// Keys of an axis end in its unit: "max_mm_s" or "max_deg_s".
+struct AxisKeys {
+  std::string unit;
+  std::string of(std::string_view stem, std::string_view suffix = "") const {
+    return fmt::format("{}_{}{}", stem, unit, suffix);
+  }
+};
+
+/// Units of the plant: force, mass, stiffness and damping of a linear or a rotary axis.
+struct PlantUnits {
+  std::string_view mass, stiffness, damping, force;
+};
+constexpr PlantUnits kLinear{"kg", "N_per_m", "Ns_per_m", "N"};
+constexpr PlantUnits kRotary{"kg_m2", "Nm_per_rad", "Nms_per_rad", "Nm"};
+
+char read_letter(TableReader& r, ReadContext& context) {
+  const auto name = r.text("name");
+  if (!name.valid) return 0;
+  if (name.value.size() == 1 && axis_index(name.value[0]) >= 0) return name.value[0];
+  Diagnostic d = file_diagnostic(Code::machine_axis_letter, name.span, "no word of a program is called so");
+  d.notes.push_back("allowed: X Y Z A B C U V W");
+  if (name.value.size() == 1 && axis_index(static_cast<char>(name.value[0] - 32)) >= 0)
+    d.help = fmt::format("write \"{}\"", static_cast<char>(name.value[0] - 32));
+  context.diagnostics.add(std::move(d));
+  return 0;
+}
+
+AxisKind read_kind(TableReader& r, char letter, ReadContext& context) {
+  const bool rotary_letter = is_rotary_letter(letter);
+  const auto kind = r.choice("kind", {"linear", "rotary"}, rotary_letter ? 1 : 0);
+  const auto chosen = static_cast<AxisKind>(kind.value);
+  const bool free_letter = letter == 0 || letter == 'U' || letter == 'V' || letter == 'W';
+  if (!kind.valid || free_letter || (chosen == AxisKind::rotary) == rotary_letter) return chosen;
+  Diagnostic d = file_diagnostic(Code::machine_axis_kind, kind.span,
+                                 fmt::format("axis {} is {}", letter, rotary_letter ? "rotary" : "linear"));
+  d.notes.push_back("allowed: X Y Z linear, A B C rotary, U V W either");
+  d.help = rotary_letter ? "call a linear axis X Y Z U V or W" : "call a rotary axis A B C U V or W";
+  context.diagnostics.add(std::move(d));
+  return rotary_letter ? AxisKind::rotary : AxisKind::linear;
+}
+
+/// Step length, given as such or as steps per unit.
+Reading<double> read_step(TableReader& r, const AxisKeys& keys) {
+  const std::string length = keys.of("step"), per = fmt::format("steps_per_{}", keys.unit);
+  if (r.one_of(length, per) == length) return r.number(length, kStepBounds);
+  auto steps = r.number(per, kStepsPerBounds);
+  steps.value = 1 / steps.value;
+  return steps;
+}
+
+void check_step_rate(const AxisModel& axis, const Reading<double>& step, const Reading<double>& feed,
+                     const ClockModel& clock, const AxisKeys& keys, ReadContext& context) {
+  if (!step.valid || !feed.valid) return;
+  const double rate_hz = axis.max_feed_u_s / axis.step_u;
+  const double allowed_hz = static_cast<double>(clock.base_hz) / 2;
+  if (rate_hz <= allowed_hz) return;
+  Diagnostic d = file_diagnostic(
+      Code::machine_step_rate, feed.span,
+      fmt::format("is {:.12g} steps/s at {:.12g} {} a step", rate_hz, axis.step_u, keys.unit));
+  d.notes.push_back(fmt::format("allowed: up to {:.12g} steps/s, half of clock.rate_hz", allowed_hz));
+  d.help = fmt::format("at most {} = {:.12g}", keys.of("max", "_s"), allowed_hz * axis.step_u);
+  context.diagnostics.add(std::move(d));
+}
+
+/// The soft limits, and whether home and second reference position lie within.
+void read_range(TableReader& r, AxisModel& axis, double& home2_u, const AxisKeys& keys,
+                ReadContext& context) {
+  // a rotary axis may turn without end; a linear one says so with [-inf, inf]
+  std::optional<std::pair<double, double>> otherwise;
+  if (axis.kind == AxisKind::rotary) otherwise = {-kInfinity, kInfinity};
+  const auto range = r.pair(keys.of("range"), kRangeBounds, otherwise);
+  const auto home = r.number(keys.of("home"), kPositionBounds, 0.0);
+  const auto home2 = r.number(keys.of("home2"), kPositionBounds, home.value);
+  std::tie(axis.soft_min_u, axis.soft_max_u) = range.value;
+  axis.home_u = home.value;
+  home2_u = home2.value;
+  if (!range.valid) return;
+
+  const std::string allowed =
+      fmt::format("allowed: {} to {} {} ({})", number_text(axis.soft_min_u), number_text(axis.soft_max_u),
+                  keys.unit, r.path_of(keys.of("range")));
+  if (axis.soft_min_u >= axis.soft_max_u) {
+    Diagnostic d = file_diagnostic(Code::machine_range_order, range.span,
+                                   fmt::format("from {} to {} {}", number_text(axis.soft_min_u),
+                                               number_text(axis.soft_max_u), keys.unit));
+    d.notes.push_back("allowed: [lowest, highest] with lowest < highest");
+    if (axis.soft_min_u > axis.soft_max_u)
+      d.help = fmt::format("write {} = [{}, {}]", keys.of("range"), number_text(axis.soft_max_u),
+                           number_text(axis.soft_min_u));
+    context.diagnostics.add(std::move(d));
+    return;
+  }
+  const auto check = [&](const Reading<double>& position, std::string_view what, const std::string& key) {
+    if (!position.valid || (position.value >= axis.soft_min_u && position.value <= axis.soft_max_u)) return;
+    const bool given = r.has(key);
+    Diagnostic d = file_diagnostic(Code::machine_outside_range, given ? position.span : range.span,
+                                   fmt::format("{} is at {} {}{}", what, number_text(position.value),
+                                               keys.unit, given ? "" : " unless given"));
+    d.notes.push_back(allowed);
+    if (!given) d.help = fmt::format("write {} = ... within the range", key);
+    context.diagnostics.add(std::move(d));
+  };
+  check(home, "home", keys.of("home"));
+  if (r.has(keys.of("home2"))) check(home2, "second reference position", keys.of("home2"));
+}
+
+TwoMassModel read_plant(const Node& table, const std::string& path, const AxisModel& axis,
+                        const AxisKeys& keys, ReadContext& context) {
+  const PlantUnits& units = axis.kind == AxisKind::rotary ? kRotary : kLinear;
+  const auto key = [](std::string_view stem, std::string_view unit) {
+    return fmt::format("{}_{}", stem, unit);
+  };
+  TableReader r(&table, path, table.span, context);
+  TwoMassModel m;
+  m.motor = static_cast<MotorModel>(r.choice("model", {"rigid", "spring", "stepper"}).value);
+  m.base_mass = r.number(key("base_mass", units.mass), kMassBounds).value;
+  m.link_mass = r.number(key("link_mass", units.mass), kMassBounds).value;
+  m.link_stiffness = r.number(key("link_stiffness", units.stiffness), kStiffnessBounds).value;
+  m.link_damping = r.number(key("link_damping", units.damping), kDampingBounds).value;
+  m.base_friction = r.number(key("base_friction", units.damping), kDampingBounds, 0.0).value;
+
+  // the numbers of the other motor models may stand beside, so that `model` alone chooses
+  const auto needed = [&](const std::string& name, const Bounds& bounds, bool by_model) {
+    const bool read = by_model || r.has(name);
+    return r.number(name, bounds, read ? std::optional<double>() : std::optional<double>(0.0)).value;
+  };
+  const bool spring = m.motor == MotorModel::spring, stepper = m.motor == MotorModel::stepper;
+  m.motor_stiffness = needed(key("motor_stiffness", units.stiffness), kStiffnessBounds, spring);
+  m.motor_damping = needed(key("motor_damping", units.damping), kDampingBounds, spring || stepper);
+  m.holding_force = needed(key("holding_force", units.force), kForceBounds, stepper);
+  m.tooth_pitch_u = needed(keys.of("tooth_pitch"), kPitchBounds, stepper);
+  r.finish();
+  return m;
+}
+
+}  // namespace
+
+AxisModel read_axis(const Node& table, std::size_t index, const ClockModel& clock, double& home2_u,
+                    ReadContext& context) {
+  const Entry* name = table.find("name");
+  const bool named = name && name->value.kind == Node::Kind::text && !name->value.text.empty();
+  TableReader r(&table, named ? "axis." + name->value.text : fmt::format("axis[{}]", index + 1), table.span,
+                context);
+  AxisModel axis;
+  axis.letter = read_letter(r, context);
+  axis.kind = read_kind(r, axis.letter, context);
+  const AxisKeys keys{axis.kind == AxisKind::rotary ? "deg" : "mm"};
+
+  const auto step = read_step(r, keys);
+  read_range(r, axis, home2_u, keys, context);
+  const auto feed = r.number(keys.of("max", "_s"), kFeedBounds);
+  const auto accel = r.number(keys.of("max_acceleration", "_s2"), kAccelBounds);
+  axis.step_u = step.value;
+  axis.max_feed_u_s = feed.value;
+  axis.max_accel_u_s2 = accel.value;
+  axis.max_jerk_u_s3 = r.number(keys.of("max_jerk", "_s3"), kJerkBounds).value;
+  axis.junction_accel_u_s2 =
+      r.number(keys.of("junction_acceleration", "_s2"), kAccelBounds, accel.value).value;
+  axis.junction_jerk_u_s3 = r.number(keys.of("junction_jerk", "_s3"), kJerkBounds, kInfinity).value;
+  check_step_rate(axis, step, feed, clock, keys, context);
+
+  if (const Node* plant = r.table("plant")) {
+    axis.has_plant = true;
+    axis.plant = read_plant(*plant, r.path() + ".plant", axis, keys, context);
+  }
+  r.finish();
+  return axis;
+}
+
+}  // namespace kadr::machine

@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "machine/base/parse_number.h"
+#include "machine/machine.h"
+
+namespace kadr::machine {
+
+namespace {
+
+/// Writes "key = value  # origin" lines, the comments in one column.
+class TomlWriter {
+ public:
+  explicit TomlWriter(const MachineFile& file) : file_(file) {}
+
+  void table(const std::string& header, std::string path) {
+    out_ += '\n' + header + '\n';
+    path_ = std::move(path);
+  }
+  /// `alias` is another key that may have given the value.
+  void line(std::string_view key, const std::string& value, std::string_view alias = {}) {
+    out_ += fmt::format("{:<44}  # {}\n", fmt::format("{} = {}", key, value), origin(key, alias));
+  }
+  void number(std::string_view key, double value, std::string_view alias = {}) {
+    line(key, number_text(value), alias);
+  }
+  void word(std::string_view key, std::string_view value) { line(key, fmt::format("\"{}\"", value)); }
+  void flag(std::string_view key, bool value) { line(key, value ? "true" : "false"); }
+  /// A number that is left out where the machine has none.
+  void number_if(std::string_view key, double value) {
+    if (value > 0) number(key, value);
+  }
+  std::string take() { return std::move(out_); }
+
+ private:
+  std::string origin(std::string_view key, std::string_view alias) const {
+    const auto full = [&](std::string_view k) {
+      return path_.empty() ? std::string(k) : fmt::format("{}.{}", path_, k);
+    };
+    const std::string first = full(key), second = alias.empty() ? first : full(alias);
+    for (const KeyOrigin& o : file_.origins) {
+      if (o.key == first) return o.origin;
+      if (o.key == second) return fmt::format("{} ({})", o.origin, alias);
+    }
+    return "default";
+  }
+
+  const MachineFile& file_;
+  std::string path_;
+  std::string out_;
+};
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+void write_plant(TomlWriter& w, const AxisModel& axis) {
+  const bool rotary = axis.kind == AxisKind::rotary;
+  const auto key = [&](std::string_view stem, std::string_view linear, std::string_view turning) {
+    return fmt::format("{}_{}", stem, rotary ? turning : linear);
+  };
+  constexpr std::string_view models[] = {"rigid", "spring", "stepper"};
+  const TwoMassModel& m = axis.plant;
+  w.table("  [axis.plant]", fmt::format("axis.{}.plant", axis.letter));
+  w.word("model", models[static_cast<std::size_t>(m.motor)]);
+  w.number(key("base_mass", "kg", "kg_m2"), m.base_mass);
+  w.number(key("link_mass", "kg", "kg_m2"), m.link_mass);
+  w.number(key("link_stiffness", "N_per_m", "Nm_per_rad"), m.link_stiffness);
+  w.number(key("link_damping", "Ns_per_m", "Nms_per_rad"), m.link_damping);
+  w.number(key("base_friction", "Ns_per_m", "Nms_per_rad"), m.base_friction);
+  w.number_if(key("motor_stiffness", "N_per_m", "Nm_per_rad"), m.motor_stiffness);
+  w.number(key("motor_damping", "Ns_per_m", "Nms_per_rad"), m.motor_damping);
+  w.number_if(key("holding_force", "N", "Nm"), m.holding_force);
+  w.number_if(key("tooth_pitch", "mm", "deg"), m.tooth_pitch_u);
+}
+
+void write_axis(TomlWriter& w, const AxisModel& axis, double home2_u) {
+  const bool rotary = axis.kind == AxisKind::rotary;
+  const std::string unit = rotary ? "deg" : "mm";
+  const auto key = [&](std::string_view stem, std::string_view suffix = "") {
+    return fmt::format("{}_{}{}", stem, unit, suffix);
+  };
+  w.table("[[axis]]", fmt::format("axis.{}", axis.letter));
+  w.word("name", std::string(1, axis.letter));
+  w.word("kind", rotary ? "rotary" : "linear");
+  w.number(key("step"), axis.step_u, fmt::format("steps_per_{}", unit));
+  w.line(key("range"), fmt::format("[{}, {}]", number_text(axis.soft_min_u), number_text(axis.soft_max_u)));
+  w.number(key("home"), axis.home_u);
+  w.number(key("home2"), home2_u);
+  w.number(key("max", "_s"), axis.max_feed_u_s);
+  w.number(key("max_acceleration", "_s2"), axis.max_accel_u_s2);
+  w.number(key("max_jerk", "_s3"), axis.max_jerk_u_s3);
+  w.number(key("junction_acceleration", "_s2"), axis.junction_accel_u_s2);
+  w.number(key("junction_jerk", "_s3"), axis.junction_jerk_u_s3);
+  if (axis.has_plant) write_plant(w, axis);
+}
+
+void write_settings(TomlWriter& w, const MachineModel& m) {
+  w.table("[clock]", "clock");
+  w.line("rate_hz", fmt::format("{}", m.clock.base_hz));
+  w.number("control_period_us",
+           static_cast<double>(m.clock.control_tick.value) / (static_cast<double>(m.clock.base_hz) / 1e6));
+  w.table("[path]", "path");
+  w.number("arc_end_tolerance_mm", m.path.arc_end_tolerance_mm);
+  w.number("arc_end_tolerance_relative", m.path.arc_end_tolerance_relative);
+  w.table("[feed]", "feed");
+  w.number("max_mm_s", m.path.max_feed_mm_s);
+  w.number("max_acceleration_mm_s2", m.path.max_accel_mm_s2);
+  w.number("max_jerk_mm_s3", m.path.max_jerk_mm_s3);
+  w.number("centripetal_acceleration_mm_s2", m.path.centripetal_accel_mm_s2);
+  w.table("[planner]", "planner");
+  w.flag("whole_ticks", m.planner.whole_ticks);
+  w.word("axis_limits", m.planner.axis_limits == AxisLimitRule::enforce ? "enforce" : "report");
+  w.word("tick_feed", m.planner.tick_feed == TickFeed::linear ? "linear" : "constant");
+  w.number("tool_change_s", m.planner.tool_change_s);
+  constexpr std::string_view integrators[] = {"smooth", "reference", "oracle"};
+  w.table("[plant]", "plant");
+  w.word("integrator", integrators[static_cast<std::size_t>(m.plant.integrator)]);
+  w.number("tolerance_um", m.plant.tolerance_um);
+  w.table("[log]", "log");
+  w.flag("ticks", m.log.ticks);
+  w.flag("steps", m.log.steps);
+  w.line("block_ticks", fmt::format("{}", m.log.block_ticks));
+  w.number("viewer_rate_hz", m.log.viewer_rate_hz);
+}
+
+}  // namespace
+
+std::string render_machine(const MachineFile& file) {
+  const MachineModel& m = file.model;
+  TomlWriter w(file);
+  w.line("format", "1");
+  w.line("name", quoted(m.name));
+  w.word("on_alarm", m.on_alarm == OnAlarm::report ? "report" : "stop");
+  write_settings(w, m);
+  for (const AxisModel& axis : m.axis)
+    write_axis(w, axis, m.home2[static_cast<std::size_t>(axis_index(axis.letter))]);
+  return w.take();
+}
+
+}  // namespace kadr::machine
