@@ -52,7 +52,9 @@ void Monitor::tick(const TickView& view, std::vector<EventRecord>& events,
     block_open_ = true;
     segment_ = view.segment;
   }
-  joint_ticks_ago_ = view.passed_joint ? 0 : std::min(joint_ticks_ago_ + 1, 1000);
+  // the speeds at the ends of this tick belong to different segments: a corner may lie between them
+  joint_ticks_ago_ = view.segment != speed_segment_ ? 0 : std::min(joint_ticks_ago_ + 1, 1000);
+  speed_segment_ = view.segment;
   if (path_.size() > 0 && view.motion->speed_end_u_s > 0)
     planner::eval_tangent(path_, view.segment,
                           std::clamp(view.motion->s_end_u - path_.start_s_u[view.segment], 0.0,
@@ -233,7 +235,7 @@ void Monitor::end_stop(std::vector<EventRecord>& events) {
 }
 
 void Monitor::lost_steps(const std::vector<plant::LostSteps>& lost, Ticks tick,
-                               std::vector<EventRecord>& events) {
+                         std::vector<EventRecord>& events) {
   for (const plant::LostSteps& l : lost) {
     const auto a = static_cast<std::size_t>(l.axis);
     axes_[a].summary.lost_steps += l.steps.value;

@@ -15,7 +15,6 @@ struct TickView {
   const StepBatch* batch = nullptr;
   const std::vector<plant::AxisState>* plant = nullptr;  ///< null without plant
   std::size_t segment = 0;                               ///< at the tick's end
-  bool passed_joint = false;
 };
 
 /// Watches the commanded motion for overruns and the plant for vibration, control tick by control tick.
@@ -78,6 +77,7 @@ class Monitor {
   std::uint32_t block_ = 0;
   bool block_open_ = false;
   std::int64_t ticks_ = 0;
+  std::size_t speed_segment_ = 0;
   int joint_ticks_ago_ = 1000;  // control ticks since a joint was passed
   bool moving_ = false, stopped_ = false;
   Ticks stop_tick_;

@@ -182,8 +182,7 @@ class Cycle {
       if (auto moved = plant_->advance(batch_); !moved) plant_error = moved.error();
     }
     if (plant_error) return plant_failure(*plant_error);
-    TickView view{&motion_, &batch_, plant_ ? &plant_->state() : nullptr, segment(),
-                  interpolator_.passed_joint()};
+    TickView view{&motion_, &batch_, plant_ ? &plant_->state() : nullptr, segment()};
     monitor_.tick(view, events_, block_ends_);
     if (plant_) monitor_.lost_steps(plant_->lost_steps(), now_, events_);
     if (motion_.s_end_u > motion_.s_begin_u) ++motion_ticks_;
