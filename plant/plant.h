@@ -8,7 +8,8 @@
 #include "machine/machine.h"
 #include "machine/step_batch.h"
 
-/// The flexible machine: two masses per axis, driven by the step pulses of each control tick (paper 001, eq. 5-6).
+/// The flexible machine: two masses per axis, driven by the step pulses of each control tick (paper 001, eq.
+/// 5-6).
 ///
 ///   m1 (x0'' + x1'') + c x1' + k x1 = 0
 ///   m0 x0'' = F_motor - b0 x0' + k x1 + c x1'           tool position on the axis = x0 + x1
@@ -19,16 +20,16 @@ namespace kadr::plant {
 
 /// State of one axis at the end of a control tick, in axis units (mm or deg).
 struct AxisState {
-  double base_u = 0;          ///< x0, absolute machine position
-  double base_u_s = 0;        ///< v0
-  double link_u = 0;          ///< x1, link relative to base
-  double link_u_s = 0;        ///< v1
-  double motor_force = 0;     ///< N, or N m for a rotary axis
+  double base_u = 0;       ///< x0, absolute machine position
+  double base_u_s = 0;     ///< v0
+  double link_u = 0;       ///< x1, link relative to base
+  double link_u_s = 0;     ///< v1
+  double motor_force = 0;  ///< N, or N m for a rotary axis
 };
 
 /// A numerical fault: the run ends, the log stays readable.
 struct PlantError {
-  std::string flag;       ///< CVODE's name of its return flag, or our own
+  std::string flag;  ///< CVODE's name of its return flag, or our own
   ControlTicks tick;
   int axis = -1;
   std::string detail;
@@ -38,10 +39,13 @@ struct PlantError {
 struct LostSteps {
   int axis = 0;
   ControlTicks tick;
-  Steps steps;            ///< signed, since the last report
+  Steps steps;  ///< whole teeth in steps, since the last report; negative: the rotor fell behind in minus
+                ///< direction
 };
 
-/// Per axis energy since the start, joules; closes: motor work = kinetic + spring + dissipated.
+/// Per axis energy since the reset, joules; closes: motor work = kinetic + spring + dissipated, to 1e-9 of
+/// the work with a tolerance of 1e-8 um. motor_damping is part of the motor, so its losses are negative motor
+/// work.
 struct EnergyBalance {
   double motor_work_J = 0;
   double kinetic_J = 0;
@@ -49,19 +53,28 @@ struct EnergyBalance {
   double dissipated_J = 0;
 };
 
-/// Integrators smooth (CVODE on a smooth command plus the exact response to the residual staircase), reference
-/// (CVODE re-initialised at every pulse) and oracle (closed form, linear motors only) stand behind this one class.
+struct PlantOptions {
+  bool energy = false;  ///< work and losses are integrated from pulse to pulse: about 0.1 us per pulse
+};
+
+/// Integrators smooth (CVODE on a smooth command plus the exact response to the residual staircase; steppers
+/// by Taylor series from pulse to pulse), reference (CVODE re-initialised at every pulse) and oracle (closed
+/// form, linear motors only) stand behind this one class. Only rigid axes and axes without plant follow the
+/// command itself; for the others it is a hint that the result does not depend on.
 class Plant {
  public:
   /// @throws nothing; a machine whose axes have no plant gives states that equal the command
-  explicit Plant(const machine::MachineModel& machine);
+  explicit Plant(const machine::MachineModel& machine, PlantOptions options = {});
   Plant(Plant&&) noexcept;
   ~Plant();
-  /// Moves all axes through one control tick. batch.axis has the machine's axes in order.
+  /// Moves all axes through one control tick. batch.axis has the machine's axes in order, offsets ascending
+  /// and within the tick (promises). Allocates nothing unless it fails. Fails by a CVODE flag, or:
+  /// BAD_PARAMETERS, ORACLE_NEEDS_LINEAR_MOTOR, COMMAND_JUMP (a rigid axis's command does not begin where it
+  /// ended), NOT_FINITE, SERIES_NOT_CONVERGED, MOTION_TOO_FAST. After a failure only reset() helps.
   tl::expected<void, PlantError> advance(const StepBatch& batch);
   const std::vector<AxisState>& state() const;       ///< [axes], at the end of the last tick
   const std::vector<LostSteps>& lost_steps() const;  ///< found in the last tick
-  EnergyBalance energy(int axis) const;
+  EnergyBalance energy(int axis) const;              ///< only with PlantOptions::energy (a promise)
   /// Jumps to rest at the given positions (start of a run, emergency stop).
   void reset(const std::vector<double>& position_u);
 

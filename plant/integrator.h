@@ -1,0 +1,66 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "machine/step_batch.h"
+#include "plant/axis_equations.h"
+#include "plant/cvode.h"
+
+namespace kadr::plant {
+
+/// Joules since the reset.
+struct AxisWork {
+  double motor_J = 0;
+  double dissipated_J = 0;
+};
+
+/// One machine axis under integration. The motor's equilibrium is the lattice node of the steps so far, moved
+/// by the teeth that a stepper has slipped; a rigid axis's equilibrium is its command.
+struct AxisMotion {
+  AxisEquations equations;
+  int axis = 0;         ///< index in the machine and in the batch
+  double origin_u = 0;  ///< position of node 0
+  double step_u = 0;
+  double pitch_u = 0;
+
+  Vector4 z{};               ///< at the end of the last tick, relative to its equilibrium
+  std::int64_t node = 0;     ///< steps since the reset
+  std::int64_t slipped = 0;  ///< teeth, since the reset
+  double equilibrium_u = 0;  ///< absolute
+  double motor_force = 0;
+  AxisWork work;  ///< kept only if asked for
+
+  /// Takes a tick's net steps into node and equilibrium.
+  void move_node(std::int64_t steps) {
+    node += steps;
+    equilibrium_u = origin_u + static_cast<double>(node) * step_u + static_cast<double>(slipped) * pitch_u;
+  }
+};
+
+/// What every integrator does: moves its axes from one tick end to the next.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  /// Reads and writes z, node, equilibrium and motor force of its axes.
+  virtual Outcome advance(const StepBatch& batch) = 0;
+  /// The axes were put to rest at new positions: forget the past.
+  virtual void reset() = 0;
+};
+
+/// Local tolerances of the states of an axis [m, m per tick]: `tolerance_um` in millionths of a metre, or of
+/// 1000 degrees for a rotary axis. Tighter where light damping lets errors pile up.
+Vector4 local_tolerance(const AxisEquations& equations, double tolerance_um);
+
+/// CVODE on a smooth command plus the exact response to the residual staircase; all spring axes as one
+/// system.
+std::unique_ptr<Integrator> make_smooth(std::vector<AxisMotion*> axes, double tolerance_um);
+/// CVODE begun anew at every pulse; spring or stepper, one axis.
+std::unique_ptr<Integrator> make_reference(AxisMotion& axis, double tolerance_um);
+/// Matrix exponential from pulse to pulse; spring, one axis.
+std::unique_ptr<Integrator> make_oracle(AxisMotion& axis);
+/// Taylor series from pulse to pulse; stepper, one axis.
+std::unique_ptr<Integrator> make_stepper(AxisMotion& axis);
+/// Prescribed base, exact response of the link; one axis.
+std::unique_ptr<Integrator> make_rigid(AxisMotion& axis, bool energy);
+
+}  // namespace kadr::plant

@@ -1,0 +1,42 @@
+#include "plant/integrator.h"
+#include "plant/propagator.h"
+
+namespace kadr::plant {
+
+namespace {
+
+/// The closed form of the spring motor: between pulses z(t) = e^{A t} z(0) in coordinates relative to the
+/// current node, and a pulse moves the node under the base. Exact but for rounding.
+class Oracle final : public Integrator {
+ public:
+  explicit Oracle(AxisMotion& axis)
+      : axis_(axis),
+        control_tick_(static_cast<std::int64_t>(axis.equations.control_ticks)),
+        propagator_(axis.equations.system(), control_tick_) {}
+
+  Outcome advance(const StepBatch& batch) override {
+    const AxisPulses& pulses = batch.axis[static_cast<std::size_t>(axis_.axis)];
+    std::int64_t now = 0;
+    pulses.for_each([&](std::uint16_t offset, int sign) {
+      if (offset != now) axis_.z = propagator_.apply(offset - now, axis_.z);
+      now = offset;
+      axis_.z[kLag] -= sign * axis_.equations.step_m;
+    });
+    axis_.z = propagator_.apply(control_tick_ - now, axis_.z);
+    axis_.move_node(pulses.net_steps());
+    axis_.motor_force = axis_.equations.motor_force(axis_.z);
+    return {};
+  }
+  void reset() override {}
+
+ private:
+  AxisMotion& axis_;
+  std::int64_t control_tick_;
+  Propagator propagator_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_oracle(AxisMotion& axis) { return std::make_unique<Oracle>(axis); }
+
+}  // namespace kadr::plant
