@@ -1,0 +1,212 @@
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "gcode/gcode.h"
+
+namespace kadr::gcode {
+namespace {
+
+constexpr double kScale = 1e6;        // six decimals
+constexpr double kLargestFast = 9e9;  // times 1e6 still an exact integer
+
+/// Writes a line of the trace into a buffer on the stack: most of a program's time is spent here.
+class LineWriter {
+ public:
+  void text(std::string_view s) {
+    std::memcpy(at_, s.data(), s.size());
+    at_ += s.size();
+  }
+  void integer(std::int64_t value) { at_ = std::to_chars(at_, end(), value).ptr; }
+  /// A blank and the value with six decimals, no negative zero.
+  void fixed(double value) {
+    *at_++ = ' ';
+    const double scaled = std::floor(std::fabs(value) * kScale + 0.5);
+    if (!(scaled < kLargestFast * kScale)) {
+      at_ = fmt::format_to(at_, "{:.6f}", value);
+      return;
+    }
+    const auto micro = static_cast<std::uint64_t>(scaled);
+    if (micro == 0) return text("0.000000");
+    if (value < 0) *at_++ = '-';
+    const std::uint64_t whole = micro / 1000000;
+    auto fraction = static_cast<std::uint32_t>(micro % 1000000);
+    if (whole < 10) {
+      *at_++ = static_cast<char>('0' + whole);
+    } else {
+      at_ = std::to_chars(at_, end(), whole).ptr;
+    }
+    at_[0] = '.';
+    pair(5, fraction % 100);
+    fraction /= 100;
+    pair(3, fraction % 100);
+    pair(1, fraction / 100);
+    at_ += 7;
+  }
+  void place(std::uint32_t line) {
+    text(" @");
+    integer(line);
+  }
+  void finish(std::string& out) const {
+    out.append(buffer_.data(), static_cast<std::size_t>(at_ - buffer_.data()));
+  }
+
+ private:
+  char* end() { return buffer_.data() + buffer_.size(); }
+  void pair(int at, std::uint32_t two_digits) {
+    at_[at] = static_cast<char>('0' + two_digits / 10);
+    at_[at + 1] = static_cast<char>('0' + two_digits % 10);
+  }
+
+  // name, at most 13 numbers of at most 317 characters (a double's largest integer part), place
+  std::array<char, 4608> buffer_;
+  char* at_ = buffer_.data();
+};
+
+void position(LineWriter& line, const AxisValues& values) {
+  for (const double v : values) line.fixed(v);
+}
+
+void spindle(LineWriter& line, std::string_view name) {
+  line.text(name);
+  line.text(" 0");  // the number of the spindle
+}
+
+std::string_view plane_name(Plane plane) {
+  return plane == Plane::xy ? "XY" : plane == Plane::zx ? "XZ" : "YZ";
+}
+
+/// A text as part of one line: line ends and quotes would end it early.
+void append_quoted(std::string& out, std::string_view text) {
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c == '\n' || c == '\r' ? ' ' : c;
+  }
+}
+
+void append_place(std::string& out, const Block& block) {
+  out += " @";
+  std::array<char, 16> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), block.span.line).ptr;
+  out.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
+}
+
+void numbered(LineWriter& line, std::string_view name, int number) {
+  line.text(name);
+  line.text(" ");
+  line.integer(number);
+}
+
+/// Everything but texts. @return false if the block has no line
+bool write(LineWriter& line, const Block& block) {
+  switch (block.kind) {
+    case BlockKind::traverse:
+      line.text("STRAIGHT_TRAVERSE");
+      position(line, block.end);
+      break;
+    case BlockKind::feed:
+      line.text("STRAIGHT_FEED");
+      position(line, block.end);
+      break;
+    case BlockKind::arc:
+      line.text("ARC_FEED");
+      position(line, block.end);
+      line.text(" ");
+      line.text(plane_name(block.plane));
+      line.fixed(block.center_first_mm);
+      line.fixed(block.center_second_mm);
+      line.text(" ");
+      line.integer(block.turns);
+      break;
+    case BlockKind::dwell:
+      line.text("DWELL");
+      line.fixed(block.dwell_s);
+      break;
+    case BlockKind::set_feed_rate:
+      line.text("SET_FEED_RATE");
+      line.fixed(block.value);
+      break;
+    case BlockKind::set_feed_mode:
+      line.text(block.feed_mode == FeedMode::inverse_time ? "SET_FEED_MODE G93" : "SET_FEED_MODE G94");
+      break;
+    case BlockKind::set_path_mode:
+      line.text("SET_MOTION_CONTROL_MODE ");
+      if (block.path_mode == PathMode::continuous) {
+        line.text("CONTINUOUS");
+        line.fixed(block.path_tolerance_mm);
+      } else {
+        line.text(block.path_mode == PathMode::exact_stop ? "EXACT_STOP" : "EXACT_PATH");
+      }
+      break;
+    case BlockKind::spindle_speed:
+      spindle(line, "SET_SPINDLE_SPEED");
+      line.fixed(block.value);
+      break;
+    case BlockKind::spindle_clockwise:
+      spindle(line, "START_SPINDLE_CLOCKWISE");
+      break;
+    case BlockKind::spindle_counterclockwise:
+      spindle(line, "START_SPINDLE_COUNTERCLOCKWISE");
+      break;
+    case BlockKind::spindle_stop:
+      spindle(line, "STOP_SPINDLE_TURNING");
+      break;
+    case BlockKind::mist_on:
+      line.text("MIST_ON");
+      break;
+    case BlockKind::mist_off:
+      line.text("MIST_OFF");
+      break;
+    case BlockKind::flood_on:
+      line.text("FLOOD_ON");
+      break;
+    case BlockKind::flood_off:
+      line.text("FLOOD_OFF");
+      break;
+    case BlockKind::select_tool:
+      numbered(line, "SELECT_TOOL", block.number);
+      break;
+    case BlockKind::change_tool:
+      numbered(line, "CHANGE_TOOL", block.number);
+      break;
+    case BlockKind::program_stop:
+      line.text("PROGRAM_STOP");
+      break;
+    case BlockKind::optional_stop:
+      line.text("OPTIONAL_PROGRAM_STOP");
+      break;
+    case BlockKind::program_end:
+      line.text("PROGRAM_END");
+      break;
+    case BlockKind::message:
+    case BlockKind::comment:
+    case BlockKind::feed_override:
+    case BlockKind::speed_override:
+      return false;
+  }
+  line.place(block.span.line);
+  return true;
+}
+
+}  // namespace
+
+void append_canon(std::string& out, const Block& block) {
+  if (block.kind == BlockKind::message) {
+    out += "MESSAGE \"";
+    append_quoted(out, block.text);
+    out += '"';
+    append_place(out, block);
+  } else if (block.kind == BlockKind::comment) {
+    out += "# ";
+    append_quoted(out, block.text);
+    append_place(out, block);
+  } else {
+    LineWriter line;
+    if (write(line, block)) line.finish(out);
+  }
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,212 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "gcode/interpreter.h"
+
+namespace kadr::gcode {
+namespace {
+
+constexpr double kLargestTool = 99999;
+constexpr double kLargestTurns = 1e6;
+constexpr int kLargestSystem = kWorkSystems;
+
+/// Codes that read a letter, for the message about a letter that nobody reads.
+std::string_view users_of(char letter) {
+  switch (letter) {
+    case 'H':
+      return "H belongs to G43";
+    case 'I':
+      return "I belongs to G2 and G3";
+    case 'J':
+      return "J belongs to G2 and G3";
+    case 'K':
+      return "K belongs to G2 and G3";
+    case 'L':
+      return "L belongs to G10";
+    case 'P':
+      return "P belongs to G2 G3 G4 G10 G64 M50 M51";
+    case 'Q':
+      return "Q belongs to G64";
+    case 'R':
+      return "R belongs to G2 and G3";
+    default:
+      return "no code that kadr runs reads this letter";
+  }
+}
+
+}  // namespace
+
+bool Interpreter::check() {
+  const std::size_t errors = report_.errors();
+  check_axes();
+  check_codes();
+  check_unused();
+  check_values();
+  check_shared_p();
+  return report_.errors() == errors;
+}
+
+void Interpreter::check_axes() {
+  const std::uint32_t missing = words_.present & kAxisBits & ~axes_on_machine_;
+  if (missing == 0) return;
+  for (const char letter : kAxisLetters) {
+    if ((missing & letter_bit(letter)) == 0) continue;
+    Diagnostic d = problem(Code::axis_not_on_machine, words_.span(*line_, letter),
+                           fmt::format("this machine has no axis {}", letter));
+    d.notes.push_back(fmt::format("axes of the machine: {}", options_.axis_letters));
+    error(std::move(d));
+  }
+}
+
+void Interpreter::check_codes() {
+  const int nonmodal_code = words_.g(GGroup::nonmodal);
+  const int motion_code = words_.g(GGroup::motion);
+  const bool takes_axes = axis_words_taken();
+  const bool names_motion = motion_code != kNoCode && motion_code != 800;
+  if (takes_axes && names_motion) {
+    const bool tool = words_.g(GGroup::tool_length) == 431;
+    error(problem(Code::axis_words_wanted_twice,
+                  tool ? g_span(GGroup::tool_length) : g_span(GGroup::nonmodal),
+                  fmt::format("{} and {} both use the axis words", g_name(tool ? 431 : nonmodal_code),
+                              g_name(motion_code)),
+                  "write them on two lines"));
+  }
+  if ((nonmodal_code == 920 || words_.g(GGroup::tool_length) == 431) && !words_.has_axis()) {
+    const GGroup group = nonmodal_code == 920 ? GGroup::nonmodal : GGroup::tool_length;
+    error(problem(Code::word_missing, g_span(group),
+                  fmt::format("{} needs at least one axis word", g_name(words_.g(group)))));
+  }
+  if (words_.has_axis() && !takes_axes && !names_motion && !state_.uncertain.motion &&
+      (motion_code == 800 || state_.motion == Motion::none)) {
+    error(problem(
+        Code::axis_words_without_motion, words_.motion_span(*line_),
+        motion_code == 800 ? "G80 on this line has ended every motion" : "no motion code is in force here",
+        "write G0, G1, G2 or G3 before the first axis words"));
+    state_.uncertain.motion = true;
+  }
+  if (nonmodal_code == 530) {
+    const Motion motion = motion_of_line();
+    const bool line_motion = motion == Motion::traverse || motion == Motion::feed;
+    const bool incremental =
+        words_.g(GGroup::distance) != kNoCode ? words_.g(GGroup::distance) == 910 : state_.incremental;
+    if (!state_.uncertain.motion && (!line_motion || incremental)) {
+      error(problem(
+          Code::g53_misplaced, g_span(GGroup::nonmodal),
+          incremental ? "G53 in G91: machine coordinates are absolute" : "G53 holds for G0 and G1 only",
+          "write it as G90 G53 G0 ... or G90 G53 G1 ..."));
+    }
+  }
+}
+
+std::uint32_t Interpreter::usable_letters() const {
+  std::uint32_t letters = kAxisBits | letter_bits("FST");
+  if (moves() && is_arc(motion_of_line())) letters |= letter_bits("IJKRP");
+  switch (words_.g(GGroup::nonmodal)) {
+    case 40:
+      letters |= letter_bit('P');
+      break;
+    case 100:
+      letters |= letter_bits("LP");
+      break;
+    default:
+      break;
+  }
+  if (words_.g(GGroup::path) == 640) letters |= letter_bits("PQ");
+  if (words_.g(GGroup::tool_length) == 430) letters |= letter_bit('H');
+  const int override_code = words_.m(MGroup::overrides);
+  if (override_code == 50 || override_code == 51) letters |= letter_bit('P');
+  return letters;
+}
+
+void Interpreter::check_unused() {
+  if (state_.uncertain.motion) return;
+  const std::uint32_t unused = words_.present & ~usable_letters();
+  if (unused == 0) return;
+  for (char letter = 'A'; letter <= 'Z'; ++letter) {
+    if ((unused & letter_bit(letter)) == 0) continue;
+    Diagnostic d = problem(Code::word_unused, words_.span(*line_, letter),
+                           fmt::format("nothing on this line reads {}", letter));
+    d.notes.emplace_back(users_of(letter));
+    error(std::move(d));
+  }
+}
+
+void Interpreter::check_values() {
+  if (words_.present == 0 && words_.g(GGroup::nonmodal) == kNoCode) return;
+  for (const char letter : {'F', 'S'}) {
+    if (!words_.has(letter) || words_.value(letter) >= 0) continue;
+    error(problem(Code::word_out_of_range, words_.span(*line_, letter),
+                  fmt::format("{} is {}, allowed 0 and above", letter, figure(words_.value(letter)))));
+  }
+  check_whole('T', 0, kLargestTool);
+  switch (words_.g(GGroup::nonmodal)) {
+    case 40:
+      if (!require_word('P', GGroup::nonmodal, "the seconds to wait")) break;
+      if (words_.value('P') < 0) {
+        error(problem(Code::word_out_of_range, words_.span(*line_, 'P'),
+                      fmt::format("dwell of {} s, allowed 0 and above", figure(words_.value('P')))));
+      }
+      break;
+    case 100:
+      if (require_word('L', GGroup::nonmodal, "2 or 20") &&
+          require_word('P', GGroup::nonmodal, "the work system, 0 to 9")) {
+        const double l = words_.value('L');
+        if (l != 2 && l != 20) {
+          error(problem(Code::word_not_run, words_.span(*line_, 'L'),
+                        fmt::format("kadr does not run G10 L{:.6g}", l),
+                        "G10 L2 and G10 L20 set work offsets"));
+        }
+        check_whole('P', 0, kLargestSystem);
+      }
+      break;
+    default:
+      break;
+  }
+  if (moves() && is_arc(motion_of_line())) check_whole('P', 1, kLargestTurns);
+  if (words_.g(GGroup::path) == 640 && words_.has('P') && words_.value('P') < 0) {
+    error(problem(Code::word_out_of_range, words_.span(*line_, 'P'), "a tolerance below 0"));
+  }
+  if (words_.has('H') && words_.value('H') != 0) {
+    Diagnostic d = problem(Code::tool_length_unknown, words_.span(*line_, 'H'),
+                           fmt::format("no length is known for tool {}", figure(words_.value('H'))),
+                           "give the length itself: G43.1 Z and the length");
+    d.notes.emplace_back("kadr has no tool table; only H0 has a length: zero");
+    error(std::move(d));
+  }
+}
+
+bool Interpreter::require_word(char letter, GGroup group, std::string_view what) {
+  if (words_.has(letter)) return true;
+  return error(problem(Code::word_missing, g_span(group),
+                       fmt::format("{} needs {}: {}", g_name(words_.g(group)), letter, what)));
+}
+
+bool Interpreter::check_whole(char letter, double least, double most) {
+  if (!words_.has(letter)) return true;
+  int whole = 0;
+  const double value = words_.value(letter);
+  const Span span = words_.span(*line_, letter);
+  if (!near_integer(value, whole)) {
+    return error(problem(Code::word_not_whole, span, fmt::format("{} is {}", letter, figure(value))));
+  }
+  if (whole >= least && whole <= most) return true;
+  return error(problem(Code::word_out_of_range, span,
+                       fmt::format("{} is {}, allowed {:.0f} to {:.0f}", letter, whole, least, most)));
+}
+
+void Interpreter::check_shared_p() {
+  if (!words_.has('P')) return;
+  const int code = words_.g(GGroup::nonmodal);
+  const int override_code = words_.m(MGroup::overrides);
+  const int motion_code = words_.g(GGroup::motion);
+  const int users = (code == 40 || code == 100 ? 1 : 0) + (words_.g(GGroup::path) == 640 ? 1 : 0) +
+                    (override_code == 50 || override_code == 51 ? 1 : 0) +
+                    (motion_code == 20 || motion_code == 30 ? 1 : 0);
+  if (users < 2) return;
+  report_.warning(problem(Code::word_shared, words_.span(*line_, 'P'),
+                          fmt::format("{} codes of this line read this P", users),
+                          "write them on separate lines"));
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,54 @@
+#pragma once
+#include <cstdint>
+
+/// Which G and M codes there are, which of them kadr runs, and which may not stand together on a line.
+namespace kadr::gcode {
+
+/// Modal groups of G codes (RS-274/NGC numbers them 0 to 13); one code of a group per line.
+enum class GGroup : std::uint8_t {
+  nonmodal,           ///< G4 G10 G28 G30 G53 G92: hold for their line only
+  motion,             ///< G0 G1 G2 G3 G80
+  plane,              ///< G17 G18 G19
+  distance,           ///< G90 G91
+  arc_distance,       ///< G90.1 G91.1
+  feed_mode,          ///< G93 G94
+  units,              ///< G20 G21
+  compensation,       ///< G40
+  tool_length,        ///< G43 G43.1 G49
+  coordinate_system,  ///< G54 .. G59.3
+  path,               ///< G61 G61.1 G64
+};
+inline constexpr int kGGroups = 11;
+
+enum class MGroup : std::uint8_t {
+  stop,         ///< M0 M1 M2 M30 M60
+  tool_change,  ///< M6
+  spindle,      ///< M3 M4 M5
+  coolant,      ///< M7 M8 M9
+  overrides,    ///< M48 M49 M50 M51
+};
+inline constexpr int kMGroups = 5;
+
+enum class Standing : std::uint8_t {
+  unknown,  ///< not a code of the dialect
+  not_run,  ///< a code of the dialect that kadr does not run
+  runs,
+};
+
+/// A G code as ten times its number: G92.1 is 921.
+struct GCode {
+  Standing standing = Standing::unknown;
+  GGroup group = GGroup::nonmodal;
+};
+struct MCode {
+  Standing standing = Standing::unknown;
+  MGroup group = MGroup::stop;
+};
+
+GCode g_code(int tenths);
+MCode m_code(int number);
+
+/// True for the non-modal and tool codes that take the axis words of a line for themselves.
+bool takes_axis_words(int tenths);
+
+}  // namespace kadr::gcode

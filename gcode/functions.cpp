@@ -1,0 +1,110 @@
+#include "gcode/interpreter.h"
+
+namespace kadr::gcode {
+
+void Interpreter::spindle_speed() {
+  if (!words_.has('S')) return;
+  state_.spindle_rpm = words_.value('S');
+  Block block = make_block(BlockKind::spindle_speed, words_.span(*line_, 'S'));
+  block.value = state_.spindle_rpm;
+  emit(block);
+}
+
+void Interpreter::select_tool() {
+  if (!words_.has('T')) return;
+  near_integer(words_.value('T'), state_.tool_selected);
+  Block block = make_block(BlockKind::select_tool, words_.span(*line_, 'T'));
+  block.number = state_.tool_selected;
+  emit(block);
+}
+
+void Interpreter::change_tool() {
+  if (words_.m(MGroup::tool_change) == kNoCode) return;
+  const Span span = words_.span(*line_, MGroup::tool_change);
+  simple_block(BlockKind::spindle_stop, span);
+  state_.tool_in_spindle = state_.tool_selected;
+  Block block = make_block(BlockKind::change_tool, span);
+  block.number = state_.tool_in_spindle;
+  emit(block);
+}
+
+void Interpreter::spindle() {
+  const int code = words_.m(MGroup::spindle);
+  if (code == kNoCode) return;
+  Block block = make_block(code == 3   ? BlockKind::spindle_clockwise
+                           : code == 4 ? BlockKind::spindle_counterclockwise
+                                       : BlockKind::spindle_stop,
+                           words_.span(*line_, MGroup::spindle));
+  block.value = code == 5 ? 0 : state_.spindle_rpm;
+  emit(block);
+}
+
+void Interpreter::coolant() {
+  const int code = words_.m(MGroup::coolant);
+  if (code == kNoCode) return;
+  const Span span = words_.span(*line_, MGroup::coolant);
+  if (code == 7) simple_block(BlockKind::mist_on, span);
+  if (code == 8) simple_block(BlockKind::flood_on, span);
+  if (code == 9) {
+    simple_block(BlockKind::mist_off, span);
+    simple_block(BlockKind::flood_off, span);
+  }
+  state_.mist = code == 7 || (state_.mist && code != 9);
+  state_.flood = code == 8 || (state_.flood && code != 9);
+}
+
+void Interpreter::overrides() {
+  const int code = words_.m(MGroup::overrides);
+  if (code == kNoCode) return;
+  const bool enable = code == 48 || (code != 49 && !(words_.has('P') && words_.value('P') == 0));
+  if (code != 51) override_block(BlockKind::feed_override, enable);
+  if (code != 50) override_block(BlockKind::speed_override, enable);
+}
+
+void Interpreter::override_block(BlockKind kind, bool enabled) {
+  (kind == BlockKind::feed_override ? state_.feed_override : state_.speed_override) = enabled;
+  const int code = words_.m(MGroup::overrides);
+  Block block = make_block(kind, code == kNoCode ? line_span() : words_.span(*line_, MGroup::overrides));
+  block.number = enabled ? 1 : 0;
+  emit(block);
+}
+
+void Interpreter::dwell() {
+  if (words_.g(GGroup::nonmodal) != 40) return;
+  Block block = make_block(BlockKind::dwell, g_span(GGroup::nonmodal));
+  block.dwell_s = words_.value('P');
+  emit(block);
+}
+
+void Interpreter::stop() {
+  const int code = words_.m(MGroup::stop);
+  if (code == kNoCode) return;
+  const Span span = words_.span(*line_, MGroup::stop);
+  switch (code) {
+    case 1:
+      simple_block(BlockKind::optional_stop, span);
+      break;
+    case 2:
+    case 30:
+      end_program();
+      break;
+    default:
+      simple_block(BlockKind::program_stop, span);
+      break;  // M0, and M60 for a machine without pallets
+  }
+}
+
+void Interpreter::end_program() {
+  const Span span = words_.span(*line_, MGroup::stop);
+  state_.feed_mode = FeedMode::units_per_minute;
+  simple_block(BlockKind::set_feed_mode, span);
+  simple_block(BlockKind::set_feed_rate, span);
+  if (!state_.feed_override) override_block(BlockKind::feed_override, true);
+  if (!state_.speed_override) override_block(BlockKind::speed_override, true);
+  simple_block(BlockKind::spindle_stop, span);
+  if (state_.mist) simple_block(BlockKind::mist_off, span);
+  if (state_.flood) simple_block(BlockKind::flood_off, span);
+  finish(span);
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,147 @@
+#include "gcode/interpreter.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace kadr::gcode {
+
+Interpreter::Interpreter(const InterpretOptions& options, Report& report, const Sink& sink)
+    : options_(options), report_(report), sink_(sink) {
+  state_.position = options.home;
+  write_axis_parameters(state_, parameter::kG28, options.g28);
+  write_axis_parameters(state_, parameter::kG30, options.g30);
+  for (const char letter : options.axis_letters) axes_on_machine_ |= letter_bit(letter);
+}
+
+void Interpreter::run(const Line& line) {
+  line_ = &line;
+  if (line.items.empty()) return;
+  if (options_.block_delete && line.items.front().kind == ItemKind::block_delete) return;
+  if (line.failed) {
+    words_.read(line, state_, nullptr);
+    return recover(true);
+  }
+  const bool readable = words_.read(line, state_, &report_);
+  if (words_.percent) {
+    // the first % opens the program, the next one ends it; before the first only comments may stand
+    if (started_) {
+      finish(line_span());
+    }
+    started_ = true;
+    return;
+  }
+  started_ = started_ || words_.any;
+  if (!readable || !check()) return recover(false);
+  execute();
+}
+
+void Interpreter::execute() {
+  parameters();
+  if (words_.comment >= 0) comment();
+  if (!words_.any) return;
+  feed_mode();
+  feed_rate();
+  spindle_speed();
+  select_tool();
+  change_tool();
+  spindle();
+  coolant();
+  overrides();
+  dwell();
+  plane();
+  units();
+  tool_length();
+  work_system();
+  path_control();
+  distance_mode();
+  nonmodal();
+  motion();
+  stop();
+}
+
+void Interpreter::apply_modes() {
+  feed_mode();
+  feed_rate();
+  plane();
+  units();
+  work_system();
+  distance_mode();
+}
+
+void Interpreter::recover(bool syntax) {
+  silent_ = true;
+  apply_modes();
+  silent_ = false;
+  const Motion before = state_.motion;
+  Uncertain& uncertain = state_.uncertain;
+  if (words_.g(GGroup::motion) != kNoCode) {
+    state_.motion = motion_of_line();
+    uncertain.motion = false;
+  }
+  if (syntax || words_.refused_motion) uncertain.motion = true;
+  if (syntax) uncertain.feed = true;
+  for (const Item& item : line_->items) {
+    if (item.kind == ItemKind::setting || item.kind == ItemKind::unread) uncertain.parameters = true;
+  }
+  const int nonmodal_code = words_.g(GGroup::nonmodal);
+  const bool plain_move =
+      !uncertain.motion && nonmodal_code == kNoCode && (words_.has_axis() || state_.motion != before);
+  if (syntax || nonmodal_code != kNoCode) {
+    uncertain.axes = (1U << kProgramAxes) - 1;
+  } else if (plain_move) {
+    move_to(target());
+  } else {
+    for (int axis = 0; axis < kProgramAxes; ++axis) {
+      if (words_.has(kAxisLetters[static_cast<std::size_t>(axis)])) uncertain.axes |= 1U << axis;
+    }
+  }
+}
+
+void Interpreter::finish(Span end) {
+  if (ended_) return;
+  simple_block(BlockKind::program_end, end);
+  ended_ = true;
+}
+
+Block Interpreter::make_block(BlockKind kind, Span span) const {
+  Block block;
+  block.kind = kind;
+  block.span = span;
+  block.end = state_.position;
+  block.feed_mode = state_.feed_mode;
+  block.path_mode = state_.path_mode;
+  block.path_tolerance_mm = state_.path_tolerance_mm;
+  block.feed_override_enabled = state_.feed_override;
+  block.plane = state_.plane;
+  return block;
+}
+
+void Interpreter::simple_block(BlockKind kind, Span span) {
+  Block block = make_block(kind, span);
+  emit(block);
+}
+
+void Interpreter::emit(Block& block) {
+  if (silent_ || ended_) return;
+  if (options_.max_blocks != 0 && blocks_ >= options_.max_blocks) {
+    error(problem(Code::too_many_blocks, block.span, fmt::format("block {} would begin here", blocks_ + 1),
+                  fmt::format("allowed are {} blocks", options_.max_blocks)));
+    ended_ = true;
+    return;
+  }
+  ++blocks_;
+  sink_(block);
+}
+
+Span Interpreter::line_span() const {
+  const auto& items = line_->items;
+  return line_->span({items.front().bytes.begin, items.back().bytes.end});
+}
+
+bool Interpreter::error(Diagnostic d) {
+  report_.error(std::move(d));
+  return false;
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,111 @@
+#pragma once
+#include <functional>
+
+#include "gcode/arc.h"
+#include "gcode/gcode.h"
+#include "gcode/report.h"
+#include "gcode/state.h"
+#include "gcode/words.h"
+
+namespace kadr::gcode {
+
+using Sink = std::function<void(const Block&)>;
+
+/// Lines -> Blocks. Keeps what earlier lines have set, checks a whole line before anything of it takes
+/// effect, then executes its words in the order of RS-274/NGC, whatever order they are written in.
+class Interpreter {
+ public:
+  Interpreter(const InterpretOptions& options, Report& report, const Sink& sink);
+
+  void run(const Line& line);
+  /// The program's end if no M2 or M30 gave it.
+  void finish(Span end);
+  /// True after M2, M30, the closing % or the bound on blocks.
+  bool ended() const { return ended_; }
+
+ private:
+  // check.cpp: may these words stand together?
+  bool check();
+  void check_axes();
+  void check_unused();
+  void check_values();
+  void check_codes();
+  std::uint32_t usable_letters() const;
+  bool require_word(char letter, GGroup group, std::string_view what);
+  bool check_whole(char letter, double least, double most);
+  void check_shared_p();
+
+  // settings.cpp: what holds from here on
+  void comment();
+  void feed_mode();
+  void feed_rate();
+  void plane();
+  void units();
+  void tool_length();
+  void work_system();
+  void path_control();
+  void distance_mode();
+  void parameters();
+
+  // functions.cpp: spindle, tool, coolant, overrides, dwell, stop
+  void spindle_speed();
+  void select_tool();
+  void change_tool();
+  void spindle();
+  void coolant();
+  void overrides();
+  void dwell();
+  void stop();
+  void end_program();
+  void override_block(BlockKind kind, bool enabled);
+
+  // references.cpp: G10 G28 G30 G92
+  void nonmodal();
+  void go_to_reference(int parameters);
+  void set_work_offset();
+  void set_g92();
+  void refresh_offsets();
+
+  // motion.cpp
+  void motion();
+  Motion motion_of_line() const;
+  bool axis_words_taken() const;
+  bool moves() const;
+  AxisValues target() const;
+  void straight(Motion motion);
+  void arc(Motion motion);
+  bool find_arc(const AxisValues& end, bool clockwise, Arc& result);
+  bool arc_center_words(PlanePoint start, PlanePoint& center);
+  bool refuse_arc(const Arc& arc, PlanePoint end);
+  void warn_arc(const Arc& arc);
+  bool feed_ready();
+  void set_feed(Block& block);
+  void move_to(const AxisValues& end);
+
+  // interpreter.cpp
+  void execute();
+  void apply_modes();
+  void recover(bool syntax);
+  void emit(Block& block);
+  Block make_block(BlockKind kind, Span span) const;
+  void simple_block(BlockKind kind, Span span);
+  Span line_span() const;
+  Span action_span() const;
+  Span g_span(GGroup group) const { return words_.span(*line_, group); }
+  bool error(Diagnostic d);
+
+  const InterpretOptions& options_;
+  Report& report_;
+  const Sink& sink_;
+  State state_;
+  Words words_;
+  Block motion_block_;
+  const Line* line_ = nullptr;
+  std::uint32_t axes_on_machine_ = 0;
+  std::uint64_t blocks_ = 0;
+  bool started_ = false;  ///< some line with words has been run, or the opening % was seen
+  bool ended_ = false;
+  bool silent_ = false;  ///< recovering from an error: modes are taken over, nothing is handed out
+};
+
+}  // namespace kadr::gcode

@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "gcode/interpreter.h"
+
+namespace kadr::gcode {
+namespace {
+
+constexpr double kSecondsPerMinute = 60.0;
+// absolute coordinates computed through offsets return to a point only up to rounding; nearer than this is
+// the same point
+constexpr double kSamePoint_u = 1e-9;
+
+double length_of(const AxisValues& from, const AxisValues& to, std::size_t first_axis) {
+  double sum = 0;
+  for (std::size_t axis = first_axis; axis < first_axis + 3; ++axis) {
+    const double d = to[axis] - from[axis];
+    sum += d * d;
+  }
+  return std::sqrt(sum);
+}
+
+/// The NIST rule, in this one place: X Y Z if one of them moves, else U V W, else A B C.
+void measure_straight(const AxisValues& from, Block& block) {
+  constexpr std::size_t kX = 0, kA = 3, kU = 6;
+  block.feed_length = FeedLength::xyz;
+  block.length_u = length_of(from, block.end, kX);
+  if (block.length_u > 0) return;
+  const double uvw = length_of(from, block.end, kU);
+  const double rotary = length_of(from, block.end, kA);
+  if (uvw > 0) {
+    block.feed_length = FeedLength::uvw;
+    block.length_u = uvw;
+  } else if (rotary > 0) {
+    block.feed_length = FeedLength::rotary;
+    block.length_u = rotary;
+  }
+}
+
+}  // namespace
+
+Motion Interpreter::motion_of_line() const {
+  switch (words_.g(GGroup::motion)) {
+    case 0:
+      return Motion::traverse;
+    case 10:
+      return Motion::feed;
+    case 20:
+      return Motion::arc_clockwise;
+    case 30:
+      return Motion::arc_counterclockwise;
+    case 800:
+      return Motion::none;
+    default:
+      return state_.motion;
+  }
+}
+
+bool Interpreter::axis_words_taken() const {
+  return takes_axis_words(words_.g(GGroup::nonmodal)) || takes_axis_words(words_.g(GGroup::tool_length));
+}
+
+bool Interpreter::moves() const {
+  const int code = words_.g(GGroup::motion);
+  if (code != kNoCode) return code != 800;
+  if (axis_words_taken()) return false;
+  return words_.has_axis() || (is_arc(state_.motion) && (words_.present & letter_bits("IJK")) != 0);
+}
+
+void Interpreter::motion() {
+  if (words_.g(GGroup::motion) != kNoCode) {
+    state_.motion = motion_of_line();
+    state_.uncertain.motion = false;
+  }
+  if (!moves()) return;
+  if (state_.uncertain.motion) return move_to(target());
+  if (is_arc(state_.motion)) return arc(state_.motion);
+  straight(state_.motion);
+}
+
+AxisValues Interpreter::target() const {
+  AxisValues end = state_.position;
+  const bool machine_coordinates = words_.g(GGroup::nonmodal) == 530;
+  for (int axis = 0; axis < kProgramAxes; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    if (!words_.has(kAxisLetters[a])) continue;
+    const double value = state_.to_base_units(axis, words_.value(kAxisLetters[a]));
+    if (state_.incremental) {
+      end[a] += value;
+      continue;
+    }
+    const double wanted = machine_coordinates ? value : value + state_.offset(axis);
+    if (std::fabs(wanted - end[a]) > kSamePoint_u) end[a] = wanted;
+  }
+  return end;
+}
+
+void Interpreter::move_to(const AxisValues& end) {
+  state_.position = end;
+  if (state_.uncertain.axes == 0 && words_.doubtful == 0) return;
+  for (int axis = 0; axis < kProgramAxes; ++axis) {
+    const std::uint32_t letter = letter_bit(kAxisLetters[static_cast<std::size_t>(axis)]);
+    if ((words_.present & letter) == 0) continue;
+    if ((words_.doubtful & letter) != 0) {
+      state_.uncertain.axes |= 1U << axis;
+    } else if (!state_.incremental) {
+      state_.uncertain.axes &= ~(1U << axis);
+    }
+  }
+}
+
+void Interpreter::straight(Motion motion) {
+  Block& block = motion_block_;
+  const bool feed = motion == Motion::feed;
+  const bool ready = !feed || feed_ready();
+  block.kind = feed ? BlockKind::feed : BlockKind::traverse;
+  block.span = action_span();
+  block.end = target();
+  measure_straight(state_.position, block);
+  if (ready) set_feed(block);
+  move_to(block.end);
+  if (ready) emit(block);
+}
+
+bool Interpreter::feed_ready() {
+  const Span span = action_span();
+  if (state_.feed_mode == FeedMode::inverse_time) {
+    if (!words_.has('F')) {
+      return error(problem(Code::inverse_feed_missing, span, "no F on this line",
+                           "under G93 each feed move needs its own F: 60 divided by its seconds"));
+    }
+    if (words_.value('F') > 0) return true;
+    return error(
+        problem(Code::feed_zero, words_.span(*line_, 'F'), "F0 under G93: the move would never end"));
+  }
+  if (state_.feed_linear_mm_min > 0) {
+    if (!state_.feed_cleared) return true;
+    state_.feed_cleared = false;
+    Block block = make_block(BlockKind::set_feed_rate, span);
+    block.value = state_.feed_linear_mm_min;
+    emit(block);
+    report_.warning(
+        problem(Code::feed_kept, span,
+                fmt::format("F{} holds on", figure(state_.feed_linear_mm_min / state_.length_factor())),
+                "LinuxCNC forgets F at each G94: write F again"));
+    return true;
+  }
+  if (state_.uncertain.feed) return false;
+  state_.uncertain.feed = true;
+  if (!state_.feed_given) {
+    return error(problem(Code::feed_missing, span, "no F has been given before this move",
+                         "write F and the feed in units per minute"));
+  }
+  return error(problem(Code::feed_zero, span, "the feed in force here is F0"));
+}
+
+void Interpreter::set_feed(Block& block) {
+  block.path_mode = state_.path_mode;
+  block.path_tolerance_mm = state_.path_tolerance_mm;
+  block.feed_override_enabled = state_.feed_override;
+  block.feed_mode = state_.feed_mode;
+  block.plane = state_.plane;
+  block.feed_u_s = 0;
+  block.duration_s = 0;
+  if (block.kind == BlockKind::traverse) return;
+  if (state_.feed_mode == FeedMode::inverse_time) {
+    block.duration_s = kSecondsPerMinute / words_.value('F');
+    block.feed_u_s = block.length_u / block.duration_s;
+    return;
+  }
+  const double per_minute =
+      block.feed_length == FeedLength::rotary ? state_.feed_rotary_deg_min : state_.feed_linear_mm_min;
+  block.feed_u_s = per_minute / kSecondsPerMinute;
+}
+
+Span Interpreter::action_span() const {
+  const Span span = words_.motion_span(*line_);
+  return span.length > 1 ? span : line_span();
+}
+
+}  // namespace kadr::gcode

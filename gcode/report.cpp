@@ -1,0 +1,57 @@
+#include "gcode/report.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace kadr::gcode {
+
+void Report::error(Diagnostic d) {
+  if (full()) return;
+  ++errors_;
+  d.severity = Severity::error;
+  diagnostics_.add(std::move(d));
+}
+
+void Report::warning(Diagnostic d) {
+  if (++warnings_ > kMaxWarnings) return;
+  d.severity = Severity::warning;
+  diagnostics_.add(std::move(d));
+}
+
+void Report::close(Span end) {
+  if (full()) {
+    Diagnostic d =
+        problem(Code::too_many_errors, end, fmt::format("reading stopped here after {} errors", kMaxErrors),
+                "mend the first ones; later ones often follow from them");
+    d.severity = Severity::note;
+    diagnostics_.add(std::move(d));
+  }
+  if (warnings_ > kMaxWarnings) {
+    Diagnostic d = problem(Code::too_many_errors, end,
+                           fmt::format("{} further warnings are not shown", warnings_ - kMaxWarnings));
+    d.severity = Severity::note;
+    diagnostics_.add(std::move(d));
+  }
+}
+
+Diagnostic problem(Code code, Span span, std::string label, std::string help) {
+  return {.code = code,
+          .severity = Severity::error,
+          .span = span,
+          .message = std::string(code_entry(code).title),
+          .label = std::move(label),
+          .notes = {},
+          .help = std::move(help)};
+}
+
+std::string figure(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.find('.') != std::string::npos) {
+    while (text.back() == '0') text.pop_back();
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include "gcode/interpreter.h"
+#include "gcode/message.h"
+
+namespace kadr::gcode {
+
+void Interpreter::parameters() {
+  for (const auto& [number, value] : words_.settings) {
+    state_.parameters[static_cast<std::size_t>(number)] = value;
+  }
+}
+
+void Interpreter::comment() {
+  const Item& item = line_->items[static_cast<std::size_t>(words_.comment)];
+  const ActiveComment active = active_comment(line_->slice(item.bytes));
+  const bool message = same_letters(active.command, "MSG");
+  const bool debug = same_letters(active.command, "DEBUG");
+  if (!message && !debug && !same_letters(active.command, "PRINT")) return;
+  Block block =
+      make_block(message || debug ? BlockKind::message : BlockKind::comment, line_->span(item.bytes));
+  block.text = message ? valid_text(active.text) : expanded_text(active.text, state_);
+  emit(block);
+}
+
+void Interpreter::feed_mode() {
+  const int code = words_.g(GGroup::feed_mode);
+  if (code == kNoCode) return;
+  const FeedMode before = state_.feed_mode;
+  state_.feed_mode = code == 930 ? FeedMode::inverse_time : FeedMode::units_per_minute;
+  simple_block(BlockKind::set_feed_mode, g_span(GGroup::feed_mode));
+  if (state_.feed_mode == FeedMode::inverse_time) return;
+  // the trace of a G94 always says feed 0; a feed that held before is told again at the next feed move
+  simple_block(BlockKind::set_feed_rate, g_span(GGroup::feed_mode));
+  if (before == FeedMode::inverse_time) {
+    state_.feed_linear_mm_min = state_.feed_rotary_deg_min = 0;
+    state_.feed_given = false;
+  }
+  state_.feed_cleared = state_.feed_linear_mm_min > 0;
+}
+
+void Interpreter::feed_rate() {
+  if (!words_.has('F')) return;
+  const double f = words_.value('F');
+  const Span span = words_.span(*line_, 'F');
+  Block block = make_block(BlockKind::set_feed_rate, span);
+  block.value = f;
+  if (state_.feed_mode == FeedMode::units_per_minute) {
+    state_.feed_linear_mm_min = block.value = f * state_.length_factor();
+    state_.feed_rotary_deg_min = f;
+    state_.feed_given = true;
+    state_.feed_cleared = false;
+    state_.uncertain.feed = (words_.doubtful & letter_bit('F')) != 0;
+  }
+  emit(block);
+  const int units_code = words_.g(GGroup::units);
+  const bool changes_units = units_code != kNoCode && (units_code == 200) != state_.inches;
+  if (changes_units && state_.feed_mode == FeedMode::units_per_minute && !silent_) {
+    report_.warning(problem(Code::feed_before_units, span,
+                            fmt::format("taken as {} per minute", state_.inches ? "inches" : "mm"),
+                            fmt::format("write {} on a line before F", g_name(units_code))));
+  }
+}
+
+void Interpreter::plane() {
+  switch (words_.g(GGroup::plane)) {
+    case 170:
+      state_.plane = Plane::xy;
+      break;
+    case 180:
+      state_.plane = Plane::zx;
+      break;
+    case 190:
+      state_.plane = Plane::yz;
+      break;
+    default:
+      break;
+  }
+}
+
+void Interpreter::units() {
+  const int code = words_.g(GGroup::units);
+  if (code != kNoCode) state_.inches = code == 200;
+}
+
+void Interpreter::tool_length() {
+  const int code = words_.g(GGroup::tool_length);
+  if (code == 431) {
+    for (int axis = 0; axis < kProgramAxes; ++axis) {
+      const char letter = kAxisLetters[static_cast<std::size_t>(axis)];
+      if (!words_.has(letter)) continue;
+      state_.tool_offset[static_cast<std::size_t>(axis)] = state_.to_base_units(axis, words_.value(letter));
+    }
+  } else if (code == 430 || code == 490) {
+    state_.tool_offset = {};
+    if (code == 430 && !words_.has('H') && state_.tool_in_spindle != 0) {
+      Diagnostic d = problem(Code::tool_length_unknown, g_span(GGroup::tool_length),
+                             fmt::format("length of tool {} taken as 0", state_.tool_in_spindle),
+                             "give the length itself: G43.1 Z and the length");
+      d.notes.emplace_back("kadr has no tool table");
+      report_.warning(std::move(d));
+    }
+  }
+}
+
+void Interpreter::work_system() {
+  const int code = words_.g(GGroup::coordinate_system);
+  if (code == kNoCode) return;
+  // G54 .. G59 are 1 .. 6, G59.1 .. G59.3 are 7 .. 9
+  state_.work_system = code <= 590 ? (code - 530) / 10 : 6 + (code - 590);
+  refresh_offsets();
+}
+
+void Interpreter::path_control() {
+  const int code = words_.g(GGroup::path);
+  if (code == kNoCode) return;
+  state_.path_mode = code == 610   ? PathMode::exact_path
+                     : code == 611 ? PathMode::exact_stop
+                                   : PathMode::continuous;
+  state_.path_tolerance_mm = code == 640 && words_.has('P') ? words_.value('P') * state_.length_factor() : 0;
+  simple_block(BlockKind::set_path_mode, g_span(GGroup::path));
+}
+
+void Interpreter::distance_mode() {
+  const int distance = words_.g(GGroup::distance);
+  if (distance != kNoCode) state_.incremental = distance == 910;
+  const int arc_distance = words_.g(GGroup::arc_distance);
+  if (arc_distance != kNoCode) state_.arc_centers_absolute = arc_distance == 901;
+}
+
+}  // namespace kadr::gcode

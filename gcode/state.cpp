@@ -1,0 +1,29 @@
+#include "gcode/state.h"
+
+#include <algorithm>
+
+namespace kadr::gcode {
+
+double read_parameter(const State& state, int index) {
+  if (index == parameter::kToolNumber) return state.tool_in_spindle;
+  if (index == parameter::kWorkSystem) return state.work_system;
+  const int tool_axis = index - parameter::kToolOffset;
+  if (tool_axis >= 0 && tool_axis < kProgramAxes) {
+    return state.to_program_units(tool_axis, state.tool_offset[static_cast<std::size_t>(tool_axis)]);
+  }
+  const int axis = index - parameter::kPosition;
+  if (axis >= 0 && axis < kProgramAxes) return state.program_position(axis);
+  return state.parameters[static_cast<std::size_t>(index)];
+}
+
+AxisValues read_axis_parameters(const State& state, int first) {
+  AxisValues values;
+  std::copy_n(state.parameters.begin() + first, kProgramAxes, values.begin());
+  return values;
+}
+
+void write_axis_parameters(State& state, int first, const AxisValues& values) {
+  std::copy(values.begin(), values.end(), state.parameters.begin() + first);
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,102 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "gcode/block.h"
+#include "machine/base/axes.h"
+
+namespace kadr::gcode {
+
+inline constexpr double kMillimetresPerInch = 25.4;
+inline constexpr int kWorkSystems = 9;  ///< G54 .. G59.3
+
+enum class Motion : std::uint8_t { none, traverse, feed, arc_clockwise, arc_counterclockwise };
+constexpr bool is_arc(Motion motion) {
+  return motion == Motion::arc_clockwise || motion == Motion::arc_counterclockwise;
+}
+
+/// Numbers of the parameters that mean something by themselves. Lengths in mm whatever the units in force.
+namespace parameter {
+inline constexpr int kFirst = 1;
+inline constexpr int kLast = 5601;
+inline constexpr int kG28 = 5161;         ///< .. 5169
+inline constexpr int kG30 = 5181;         ///< .. 5189
+inline constexpr int kG92Active = 5210;   ///< 1 while the G92 offset holds
+inline constexpr int kG92 = 5211;         ///< .. 5219
+inline constexpr int kWorkSystem = 5220;  ///< 1 .. 9: G54 .. G59.3
+inline constexpr int kWorkOffset = 5221;  ///< .. 5229, then 20 further for each system
+inline constexpr int kWorkOffsetStride = 20;
+inline constexpr int kToolNumber = 5400;  ///< 5400 .. 5428 are read-only
+inline constexpr int kToolOffset = 5401;  ///< .. 5409
+inline constexpr int kPosition = 5420;    ///< .. 5428, program coordinates in the units in force
+inline constexpr int kReadOnlyLast = 5428;
+}  // namespace parameter
+
+/// What can't be trusted after a line with an error, so that one mistake is told once.
+struct Uncertain {
+  std::uint32_t axes = 0;  ///< bit per program axis: position unknown
+  bool feed = false;
+  bool motion = false;
+  bool parameters = false;
+};
+
+/// All that a line of a program depends on besides its own words.
+struct State {
+  AxisValues position{};     ///< controlled point, machine coordinates, mm and deg
+  AxisValues work_offset{};  ///< of the work system in force
+  AxisValues g92_offset{};   ///< in force
+  AxisValues tool_offset{};
+  int work_system = 1;  ///< 1 .. 9
+
+  Motion motion = Motion::none;
+  Plane plane = Plane::xy;
+  bool inches = false;
+  bool incremental = false;           ///< G91
+  bool arc_centers_absolute = false;  ///< G90.1
+  FeedMode feed_mode = FeedMode::units_per_minute;
+  double feed_linear_mm_min = 0;   ///< F as it holds for lengths
+  double feed_rotary_deg_min = 0;  ///< F as it holds for angles: never scaled
+  bool feed_given = false;         ///< some F has been seen since the start or the last change of feed mode
+  bool feed_cleared = false;       ///< a repeated G94 cleared F in the trace; restored at the next feed move
+  PathMode path_mode = PathMode::exact_path;
+  double path_tolerance_mm = 0;
+  bool feed_override = true;
+  bool speed_override = true;
+
+  double spindle_rpm = 0;
+  bool mist = false, flood = false;
+  int tool_selected = 0;
+  int tool_in_spindle = 0;
+
+  std::vector<double> parameters = std::vector<double>(parameter::kLast + 1, 0.0);
+  Uncertain uncertain;
+
+  double length_factor() const { return inches ? kMillimetresPerInch : 1.0; }
+  /// A value of an axis word in mm or deg.
+  double to_base_units(int axis, double value) const {
+    return is_rotary_letter(kAxisLetters[static_cast<std::size_t>(axis)]) ? value : value * length_factor();
+  }
+  double to_program_units(int axis, double value) const {
+    return is_rotary_letter(kAxisLetters[static_cast<std::size_t>(axis)]) ? value : value / length_factor();
+  }
+  /// Machine coordinate of program coordinate 0.
+  double offset(int axis) const {
+    const auto a = static_cast<std::size_t>(axis);
+    return work_offset[a] + g92_offset[a] + tool_offset[a];
+  }
+  /// Program coordinate in program units, as parameters 5420.. and messages give it.
+  double program_position(int axis) const {
+    return to_program_units(axis, position[static_cast<std::size_t>(axis)] - offset(axis));
+  }
+};
+
+/// Value of a numbered parameter; positions and tool data are those of now.
+/// @pre parameter::kFirst <= index <= parameter::kLast
+double read_parameter(const State& state, int index);
+
+/// Nine consecutive parameters from `first` on.
+AxisValues read_axis_parameters(const State& state, int first);
+void write_axis_parameters(State& state, int first, const AxisValues& values);
+
+}  // namespace kadr::gcode

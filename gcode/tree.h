@@ -1,0 +1,115 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "machine/base/diagnostic.h"
+
+/// What was written on one line of a control program: items in source order, expressions as a flat tree.
+/// Nothing is copied: offsets point into the text of the line.
+namespace kadr::gcode {
+
+/// Bytes [begin, end) of a line.
+struct Bytes {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
+enum class NodeKind : std::uint8_t {
+  number,     ///< 1.5
+  parameter,  ///< #left
+  negate,     ///< -left, where left is not a plain number
+  plus,       ///< +left
+  group,      ///< [left]
+  binary,     ///< left operation right
+  function,   ///< name[left]
+  atan,       ///< ATAN[left]/[right]
+};
+
+enum class Operation : std::uint8_t {
+  none,
+  add,
+  subtract,
+  multiply,
+  divide,
+  modulo,
+  power,
+  equal,
+  not_equal,
+  greater,
+  greater_equal,
+  less,
+  less_equal,
+  logical_and,
+  logical_or,
+  logical_xor,
+  sin,
+  cos,
+  tan,
+  asin,
+  acos,
+  sqrt,
+  exp,
+  ln,
+  abs,
+  round,
+  fix,
+  fup,
+};
+
+/// Part of an expression. Operands come before their node in Line::nodes, so one pass in order evaluates it.
+struct Node {
+  NodeKind kind = NodeKind::number;
+  Operation operation = Operation::none;
+  std::int32_t left = -1;  ///< index in Line::nodes
+  std::int32_t right = -1;
+  double value = 0;  ///< number
+  Bytes own;         ///< the number, `#`, `-`, operator, `[` or function name itself
+  Bytes closing;     ///< `]` of a group, `/` of ATAN
+};
+
+enum class ItemKind : std::uint8_t {
+  word,             ///< letter and value
+  setting,          ///< #index = value
+  comment,          ///< ( ... )
+  line_comment,     ///< ; ...
+  percent,          ///< %
+  block_delete,     ///< /
+  byte_order_mark,  ///< of UTF-8, at the head of the file
+  unread,           ///< the rest of a line after a syntax error
+};
+
+/// One thing on a line.
+struct Item {
+  ItemKind kind = ItemKind::word;
+  char letter = 0;           ///< word: upper case
+  Bytes bytes;               ///< all of it
+  double number = 0;         ///< word with a plain number
+  std::int32_t value = -1;   ///< root node of the value; -1: a plain number
+  std::int32_t first = -1;   ///< first node of this item
+  std::int32_t target = -1;  ///< setting: root node of the parameter's index
+  std::uint32_t equals = 0;  ///< setting: where `=` stands
+};
+
+/// A line as written. Storage is kept from line to line.
+struct Line {
+  std::uint32_t file = 0;
+  std::uint32_t number = 0;  ///< 1-based
+  std::string_view text;     ///< without line end
+  std::string_view ending;   ///< "\n", "\r\n" or "" at the end of the file
+  std::vector<Item> items;
+  std::vector<Node> nodes;
+  bool failed = false;  ///< a syntax error was told; items before it are valid
+
+  Span span(Bytes bytes) const {
+    return {file, number, bytes.begin + 1, bytes.end > bytes.begin ? bytes.end - bytes.begin : 1};
+  }
+  std::string_view slice(Bytes bytes) const { return text.substr(bytes.begin, bytes.end - bytes.begin); }
+};
+
+/// Writes the line back from its tree, line end included: every lexeme of every item and the blanks between
+/// them. Equals the source byte for byte; bytes that belong to no item and are not blanks break a promise.
+void append_source(std::string& out, const Line& line);
+
+}  // namespace kadr::gcode

@@ -1,0 +1,91 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gcode/codes.h"
+#include "gcode/evaluate.h"
+#include "gcode/report.h"
+#include "gcode/state.h"
+#include "gcode/tree.h"
+
+namespace kadr::gcode {
+
+constexpr std::uint32_t letter_bit(char letter) { return 1U << (letter - 'A'); }
+constexpr std::uint32_t letter_bits(std::string_view letters) {
+  std::uint32_t bits = 0;
+  for (const char c : letters) bits |= letter_bit(c);
+  return bits;
+}
+
+inline constexpr std::uint32_t kAxisBits = letter_bits(kAxisLetters);
+inline constexpr int kNoCode = -1;
+
+/// The words of a line by meaning: which letters with which values, which codes of which group, settings,
+/// comments.
+class Words {
+ public:
+  /// Evaluates every word with the parameters as they stand and sorts it in.
+  /// @param report  null: only sort in what can be read, as after a syntax error
+  /// @return false if an error was told, or found in a value that depends on an earlier error
+  bool read(const Line& line, const State& state, Report* report);
+
+  bool has(char letter) const { return (present & letter_bit(letter)) != 0; }
+  double value(char letter) const { return values_[index(letter)]; }
+  const Item& item(const Line& line, char letter) const { return line.items[items_[index(letter)]]; }
+  Span span(const Line& line, char letter) const { return line.span(item(line, letter).bytes); }
+
+  int g(GGroup group) const { return g_[static_cast<std::size_t>(group)]; }
+  int m(MGroup group) const { return m_[static_cast<std::size_t>(group)]; }
+  Span span(const Line& line, GGroup group) const {
+    return line.span(line.items[g_items_[static_cast<std::size_t>(group)]].bytes);
+  }
+  Span span(const Line& line, MGroup group) const {
+    return line.span(line.items[m_items_[static_cast<std::size_t>(group)]].bytes);
+  }
+  bool has_axis() const { return (present & kAxisBits) != 0; }
+  /// The text of the words that make the line's motion.
+  Span motion_span(const Line& line) const { return line.span(motion_); }
+
+  std::uint32_t present = 0;   ///< bit per letter, G M N left out
+  std::uint32_t doubtful = 0;  ///< letters whose value may be wrong after an earlier error
+  bool any = false;            ///< some word or setting stands on the line
+  bool percent = false;
+  bool refused_motion = false;  ///< a G code was refused: what moves next is not known
+  int comment = -1;             ///< item of the last comment in ( ), the only one that may be a message
+  std::vector<std::pair<int, double>> settings;  ///< parameter and value, in order
+
+ private:
+  static std::size_t index(char letter) { return static_cast<std::size_t>(letter - 'A'); }
+  void clear();
+  bool read_word(const Line& line, std::uint32_t at, const State& state, Report* report);
+  bool read_g(const Line& line, std::uint32_t at, double value, Report* report);
+  bool read_m(const Line& line, std::uint32_t at, double value, Report* report);
+  bool read_setting(const Line& line, const Item& item, const State& state, Report* report);
+  bool read_comment(const Line& line, std::uint32_t at, Report* report);
+  void widen_motion(Bytes bytes);
+
+  std::array<double, 26> values_{};
+  std::array<std::uint32_t, 26> items_{};
+  std::array<std::int16_t, kGGroups> g_{};
+  std::array<std::int16_t, kMGroups> m_{};
+  std::array<std::uint32_t, kGGroups> g_items_{};
+  std::array<std::uint32_t, kMGroups> m_items_{};
+  Bytes motion_;
+  Evaluator evaluator_;
+};
+
+/// "G92.1" of 921
+std::string g_name(int tenths);
+
+/// The command at the head of a comment, such as MSG in "(MSG, text)".
+struct ActiveComment {
+  std::string_view command;  ///< upper or lower case as written; empty: an ordinary comment
+  std::string_view text;     ///< behind the comma
+};
+ActiveComment active_comment(std::string_view comment);
+bool same_letters(std::string_view text, std::string_view upper_case);
+
+}  // namespace kadr::gcode
