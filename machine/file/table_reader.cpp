@@ -187,6 +187,20 @@ const std::vector<Node>& TableReader::tables(std::string_view key) {
   return none;
 }
 
+std::vector<Reading<std::string>> TableReader::texts(std::string_view key) {
+  std::vector<Reading<std::string>> list;
+  const Entry* entry = take(key, false);
+  if (!entry) return list;
+  const auto is_text = [](const Node& n) { return n.kind == Node::Kind::text; };
+  const std::vector<Node>& items = entry->value.items;
+  if (entry->value.kind != Node::Kind::array || !std::all_of(items.begin(), items.end(), is_text)) {
+    wrong_type(*entry, "a list of texts");
+    return list;
+  }
+  for (const Node& item : items) list.push_back({item.text, true, item.span});
+  return list;
+}
+
 std::string_view TableReader::one_of(std::string_view first, std::string_view second) {
   const Entry* a = table_ ? table_->find(first) : nullptr;
   const Entry* b = table_ ? table_->find(second) : nullptr;
@@ -195,6 +209,7 @@ std::string_view TableReader::one_of(std::string_view first, std::string_view se
                                   : b    ? second
                                          : first;
   known_.emplace_back(chosen == first ? second : first);
+  alternatives_.emplace_back(first, second);
   if (a && b && a->key_span.file == b->key_span.file) {
     Diagnostic d =
         file_diagnostic(Code::file_keys_exclude, b->key_span, fmt::format("{} stands above", first));
@@ -210,7 +225,14 @@ std::string_view TableReader::one_of(std::string_view first, std::string_view se
 }
 
 void TableReader::not_missing(std::string_view key) {
-  missing_.erase(std::remove(missing_.begin(), missing_.end(), key), missing_.end());
+  const auto drop = [this](std::string_view k) {
+    missing_.erase(std::remove(missing_.begin(), missing_.end(), k), missing_.end());
+  };
+  drop(key);
+  for (const auto& [first, second] : alternatives_) {
+    if (key == first) drop(second);
+    if (key == second) drop(first);
+  }
 }
 
 /// The value as one would write it in the file.

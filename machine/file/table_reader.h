@@ -60,6 +60,8 @@ class TableReader {
   const Node* table(std::string_view key);
   /// An array of tables inside this one; empty if it is missing.
   const std::vector<Node>& tables(std::string_view key);
+  /// A list of texts inside this table; empty if it is missing.
+  std::vector<Reading<std::string>> texts(std::string_view key);
   /// Which of two keys for one thing is given (a setting of the command line beats the file): the first if
   /// none is.
   std::string_view one_of(std::string_view first, std::string_view second);
@@ -88,6 +90,7 @@ class TableReader {
   ReadContext& context_;
   std::vector<std::string> known_;
   std::vector<std::string> missing_;
+  std::vector<std::pair<std::string, std::string>> alternatives_;  ///< keys for one thing, from one_of()
 };
 
 }  // namespace kadr::machine

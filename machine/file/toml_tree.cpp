@@ -70,16 +70,16 @@ class Converter {
   std::uint32_t file_;
 };
 
-/// "Error while parsing value: could not determine value type" -> "could not determine value type"
-std::string without_preamble(std::string_view description) {
-  constexpr std::string_view preamble = "Error while parsing ";
-  if (description.starts_with(preamble)) {
-    const auto colon = description.find(": ");
-    if (colon != std::string_view::npos) return std::string(description.substr(colon + 2));
-  }
+/// "Error while parsing table header: expected ']', saw '\\n'" -> "expected ']', saw the end of the line"
+std::string plain_words(std::string_view description) {
+  constexpr std::string_view preamble = "Error while parsing ", line_end = "'\\n'";
   std::string text(description);
+  const auto colon = text.find(": ");
+  if (text.starts_with(preamble) && colon != std::string::npos) text.erase(0, colon + 2);
   if (!text.empty() && text.front() >= 'A' && text.front() <= 'Z')
     text.front() = static_cast<char>(text.front() + 32);
+  if (const auto at = text.find(line_end); at != std::string::npos)
+    text.replace(at, line_end.size(), "the end of the line");
   return text;
 }
 
@@ -114,7 +114,7 @@ std::string syntax_help(std::string_view line) {
 Diagnostic syntax_error(const toml::parse_error& error, const SourceSet& sources, std::uint32_t file) {
   const std::string_view line = sources[file].line(error.source().begin.line);
   Diagnostic d = file_diagnostic(Code::file_syntax, Converter(sources[file], file).span(error.source()),
-                                 without_preamble(error.description()));
+                                 plain_words(error.description()));
   if (d.label.starts_with("cannot redefine existing")) {
     const auto first = line.find_first_not_of(" \t");
     const auto end = std::min(line.find_first_of(" \t=#", first), line.size());

@@ -122,7 +122,7 @@ std::string unit_text(const Unit& unit) {
   if (const auto per = text.find("_per_"); per != std::string::npos) return text.replace(per, 5, "/");
   if (text.starts_with("kg_") || text.starts_with("g_")) return text.replace(text.find('_'), 1, " ");
   if (const auto bar = text.find('_'); bar != std::string::npos) text[bar] = '/';
-  if (text == "hz") return "Hz";
+  if (unit.quantity == Quantity::frequency) return text == "hz" ? "Hz" : text == "khz" ? "kHz" : "MHz";
   return text;
 }
 

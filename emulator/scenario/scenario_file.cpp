@@ -1,0 +1,219 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "emulator/scenario/scenario.h"
+#include "machine/base/hash.h"
+#include "machine/file/table_reader.h"
+#include "scenarios/generator/wind.h"
+
+namespace kadr::emulator {
+namespace {
+
+namespace fs = std::filesystem;
+using machine::file_diagnostic;
+using machine::Node;
+using machine::TableReader;
+
+constexpr machine::Bounds kCount{-9e15, 9e15, false, true};
+constexpr machine::Bounds kTime{0, 1e9};
+constexpr machine::Bounds kVibration{0, 1e9};
+
+/// Reads one scenario file; mistakes go to the context's diagnostics.
+class ScenarioReader {
+ public:
+  ScenarioReader(const SourceSet& sources, std::uint32_t file, Scenario& scenario,
+                 machine::ReadContext& context)
+      : source_(sources[file]), scenario_(scenario), context_(context) {}
+
+  void read(const Node& root, std::uint32_t file) {
+    TableReader table(&root, "", Span{file, 1, 1, 1}, context_);
+    const auto format = table.number("format", {1, 1e6, false, true});
+    if (format.valid && format.value != 1)
+      tell(Code::file_format, format.span,
+           fmt::format("is edition {:.0f}, this kadr reads edition 1", format.value));
+    scenario_.name = table.text("name").value;
+    scenario_.summary = table.text("summary", "").value;
+    read_program(table);
+    read_machine_name(table);
+    if (const Node* settings = table.table("settings")) flatten_settings(*settings, "");
+    if (!table.tables("step").empty()) {
+      Diagnostic d = file_diagnostic(Code::scenario_step, table.tables("step").front().span,
+                                     "steps of a timeline are not run yet");
+      d.help = "leave [[step]] out; the program then runs at 100 % from start to end";
+      context_.diagnostics.add(std::move(d));
+    }
+    if (const Node* expect = table.table("expect")) read_expect(*expect);
+    table.finish();
+  }
+
+ private:
+  void tell(Code code, const Span& span, std::string label, std::string help = "") {
+    Diagnostic d = file_diagnostic(code, span, std::move(label));
+    d.help = std::move(help);
+    context_.diagnostics.add(std::move(d));
+  }
+
+  void read_program(TableReader& table) {
+    const Node* wind = table.table("wind");
+    if (wind) {
+      read_winding(*wind);
+      if (table.has("program"))
+        tell(Code::scenario_program, table.text("program").span, "a winding is given as well",
+             "keep one of program and [wind]");
+      return;
+    }
+    const auto program = table.text("program");
+    if (!program.valid) return;
+    const fs::path path = fs::path(scenario_.folder) / program.value;
+    scenario_.program_name = path.filename().string();
+    scenario_.program_path = path.string();
+    if (!fs::is_regular_file(path))
+      tell(Code::scenario_file_missing, program.span, fmt::format("there is no file {}", path.string()));
+  }
+
+  void read_winding(const Node& node) {
+    TableReader table(&node, "wind", node.span, context_);
+    const auto kind = table.choice("kind", {"hoop", "helix", "dome"});
+    const std::string_view kind_name = scenarios::wind_kinds()[kind.value];
+    scenarios::WindSettings settings;
+    for (const scenarios::WindParameter& p : scenarios::wind_parameters(kind_name)) {
+      const auto value = table.number(p.key, {p.least, p.most, false, p.whole}, p.preset);
+      if (table.has(p.key)) settings.emplace_back(p.key, value.value);
+    }
+    const std::size_t errors = context_.diagnostics.errors();
+    table.finish();
+    if (context_.diagnostics.errors() != errors || !kind.valid) return;
+    const auto winding = scenarios::wind(kind_name, settings);
+    if (!winding) return tell(Code::scenario_program, node.span, winding.error());
+    scenario_.program_name = fmt::format("wind_{}.ngc", kind_name);
+    scenario_.generated_program =
+        scenarios::render_winding(*winding, scenarios::wind_command(kind_name, settings));
+  }
+
+  void read_machine_name(TableReader& table) {
+    const auto name = table.text("machine");
+    if (!name.valid) return;
+    scenario_.machine = name.value;
+    if (!machine::shipped_machine(name.value).empty()) return;
+    const fs::path path = fs::path(scenario_.folder) / name.value;
+    scenario_.machine = path.string();
+    scenario_.machine_is_file = true;
+    if (fs::is_regular_file(path)) return;
+    std::string known;
+    for (const auto shipped : machine::shipped_machine_names())
+      known += fmt::format("{}{}", known.empty() ? "" : ", ", shipped);
+    tell(Code::scenario_file_missing, name.span,
+         fmt::format("there is no machine '{}' and no such file", name.value),
+         fmt::format("machines that ship with kadr: {}", known));
+  }
+
+  /// planner.axis_limits = "report" becomes the setting planner.axis_limits="report".
+  void flatten_settings(const Node& node, const std::string& prefix) {
+    for (const machine::Entry& entry : node.entries) {
+      const std::string key = prefix.empty() ? entry.key : prefix + "." + entry.key;
+      if (entry.value.kind == Node::Kind::table) {
+        flatten_settings(entry.value, key);
+        continue;
+      }
+      const Span& span = entry.value.span;
+      scenario_.settings.push_back(
+          fmt::format("{}={}", key, source_.line(span.line).substr(span.column - 1, span.length)));
+    }
+  }
+
+  void read_expect(const Node& node) {
+    TableReader table(&node, "expect", node.span, context_);
+    Expectations& expect = scenario_.expect;
+    if (table.has("time_s")) {
+      expect.time_s = table.number("time_s", kTime).value;
+      expect.within_s = table.number("within_s", kTime).value;
+    }
+    if (table.has("steps_hash")) expect.steps_hash = read_hash(table.text("steps_hash"));
+    if (const Node* alarms = table.table("alarms")) read_alarms(*alarms);
+    for (const auto& item : table.texts("diagnostics"))
+      if (const auto code = known_code(item.value, item.span)) expect.diagnostics.push_back(*code);
+    if (const Node* axes = table.table("axis"))
+      for (const machine::Entry& entry : axes->entries) read_axis(entry);
+    table.finish();
+  }
+
+  std::optional<std::uint64_t> read_hash(const machine::Reading<std::string>& text) {
+    if (!text.valid) return {};
+    std::uint64_t value = 0;
+    const char* end = text.value.data() + text.value.size();
+    const auto [at, error] = std::from_chars(text.value.data(), end, value, 16);
+    if (error == std::errc{} && at == end && text.value.size() == 16) return value;
+    tell(Code::scenario_value, text.span, "a hash has 16 hexadecimal digits",
+         "kadr scenario run --update writes the measured one");
+    return {};
+  }
+
+  std::optional<Code> known_code(const std::string& text, const Span& span) {
+    const auto code = parse_code(text);
+    if (!code)
+      tell(Code::scenario_value, span, fmt::format("there is no code {}", text),
+           "kadr explain --list names all");
+    return code;
+  }
+
+  void read_alarms(const Node& node) {
+    TableReader table(&node, "expect.alarms", node.span, context_);
+    for (const machine::Entry& entry : node.entries) {
+      const auto count = table.number(entry.key, {0, 9e15, false, true});
+      if (const auto code = known_code(entry.key, entry.key_span))
+        scenario_.expect.alarms.emplace_back(*code, static_cast<std::int64_t>(count.value));
+    }
+    table.finish();
+    std::sort(scenario_.expect.alarms.begin(), scenario_.expect.alarms.end());
+  }
+
+  void read_axis(const machine::Entry& entry) {
+    if (entry.key.size() != 1 || axis_index(entry.key.front()) < 0)
+      return tell(Code::scenario_value, entry.key_span, fmt::format("'{}' is no axis letter", entry.key),
+                  fmt::format("axes are named by one of {}", kAxisLetters));
+    AxisExpectation axis;
+    axis.letter = entry.key.front();
+    TableReader table(&entry.value, "expect.axis." + entry.key, entry.key_span, context_);
+    // vibration stands in thousandths of the axis unit; U V W may be of either kind
+    const bool rotary = is_rotary_letter(axis.letter) ||
+                        (std::string_view("UVW").find(axis.letter) != std::string_view::npos &&
+                         (table.has("vibration_mdeg") || table.has("residual_mdeg")));
+    const auto bounds = [&table](std::string_view key) -> std::optional<Bounds> {
+      if (!table.has(key)) return {};
+      const auto pair = table.pair(key, kVibration);
+      return Bounds{pair.value.first / 1000, pair.value.second / 1000};
+    };
+    if (table.has("pulses")) axis.pulses = static_cast<std::int64_t>(table.number("pulses", kCount).value);
+    if (table.has("end_steps"))
+      axis.end_steps = static_cast<std::int64_t>(table.number("end_steps", kCount).value);
+    axis.vibration = bounds(rotary ? "vibration_mdeg" : "vibration_um");
+    axis.residual = bounds(rotary ? "residual_mdeg" : "residual_um");
+    table.finish();
+    scenario_.expect.axis.push_back(axis);
+  }
+
+  const SourceText& source_;
+  Scenario& scenario_;
+  machine::ReadContext& context_;
+};
+
+}  // namespace
+
+tl::expected<Scenario, Diagnostics> read_scenario(const std::string& path, SourceSet& sources) {
+  Scenario scenario;
+  scenario.file = fs::is_directory(path) ? (fs::path(path) / "scenario.toml").string() : path;
+  scenario.folder = fs::path(scenario.file).parent_path().string();
+  const std::uint32_t file = sources.add(SourceText::open(scenario.file));
+  scenario.text = sources[file].text();
+  Diagnostics diagnostics;
+  const machine::ParsedTree tree = machine::parse_toml(sources, file, diagnostics);
+  machine::ReadContext context{diagnostics, sources, tree.complete, {}};
+  ScenarioReader(sources, file, scenario, context).read(tree.root, file);
+  if (diagnostics.has_errors()) return tl::unexpected(std::move(diagnostics));
+  return scenario;
+}
+
+}  // namespace kadr::emulator
