@@ -15,6 +15,9 @@ constexpr double kPiTail = 0x1.0b4611a626331p-33;
 // an extreme this near to a segment's end is the end itself; it moves the axis by radius * 5e-17
 constexpr double kSameAngle_rad = 1e-8;
 
+// what a crossing may be off, in steps
+constexpr double kSettled_steps = 1e-12;
+
 /// Arc cosine within 7e-5 rad (Abramowitz and Stegun 4.4.45): good enough to know the radius of a spiral
 /// there.
 double rough_acos(double c) {
@@ -123,43 +126,72 @@ bool ArcCrossings::find_run() {
   sign = node_end_ > node_begin_ ? 1 : -1;
   count = static_cast<int>(std::min<std::int64_t>(left, kRun));
   next = 0;
+
+  Run height, chi;
+  const double level = static_cast<double>(node_begin_ + sign * found_) + 0.5 * sign;
+  for (int i = 0; i < count; ++i) height[i] = parity_ * ((level + sign * static_cast<double>(i)) - center_);
+  if (growth_ == 0.0)
+    circle_angles(height, chi);
+  else
+    spiral_angles(height, chi);
   double floor_u = s_begin_u_;
   for (int i = 0; i < count; ++i) {
-    const double level = static_cast<double>(node_begin_ + sign * (found_ + i)) + 0.5 * sign;
-    const double s = piece_s_u_ + crossing_angle(parity_ * (level - center_)) * s_per_rad_u_;
     // inside the piece and in order, whatever rounding did
-    floor_u = std::min(std::max(s, floor_u), s_end_u_);
+    floor_u = std::min(std::max(piece_s_u_ + chi[i] * s_per_rad_u_, floor_u), s_end_u_);
     s_u[static_cast<std::size_t>(i)] = floor_u;
   }
   found_ += count;
   return true;
 }
 
-/// chi with (piece_radius + radius_per_rad chi) cos(chi) = height, in [chi_begin, chi_end].
-double ArcCrossings::crossing_angle(double height) const {
-  double r = piece_radius_;
-  if (growth_ != 0.0) {
-    // the radius there, from a rough angle
-    const double middle = r + radius_per_rad_ * (0.5 * kPi);
-    r += radius_per_rad_ * rough_acos(middle > 0.0 ? height / middle : 0.0);
+/// chi with radius cos(chi) = height.
+void ArcCrossings::circle_angles(const Run& height, Run& chi) const {
+  Run width;
+  const double r = piece_radius_;
+  for (int i = 0; i < count; ++i) {
+    const double square = (r - height[i]) * (r + height[i]);
+    width[i] = std::sqrt(square > 0.0 ? square : 0.0);
   }
-  const double square = (r - height) * (r + height);
-  const double width = std::sqrt(square > 0.0 ? square : 0.0);
-  const double chi = exact_atan2(width, height);
-  if (growth_ == 0.0) return chi;
-
-  // one Newton step with the sine and cosine known already; what is left is second order
-  const double there = piece_radius_ + radius_per_rad_ * chi;
-  const double slope = there * width - radius_per_rad_ * height;
-  const double step = (there - r) * height / slope;
-  const double left = step * step * (std::fabs(height) + 2.0 * std::fabs(radius_per_rad_));
-  const double better = chi + step;
-  const bool settled =
-      square > 0.0 && slope > 0.0 && left <= 1e-12 && better >= chi_begin_ && better <= chi_end_;
-  return settled ? better : bracketed_angle(height);
+  for (int i = 0; i < count; ++i) chi[i] = exact_atan2(width[i], height[i]);
 }
 
-/// The same for pieces near an extreme or of strongly growing radius: Newton, halving the bracket where it
+/// chi with (piece_radius + radius_per_rad chi) cos(chi) = height, in [chi_begin, chi_end]; loops without
+/// calls and branches, so that they run in vector registers.
+void ArcCrossings::spiral_angles(const Run& height, Run& chi) const {
+  const double r0 = piece_radius_, per_rad = radius_per_rad_;
+  const double middle = r0 + per_rad * (0.5 * kPi);
+  const double per_middle = middle > 0.0 ? 1.0 / middle : 0.0;
+  Run radius, width;
+  for (int i = 0; i < count; ++i) {
+    // the radius there, from a rough angle
+    radius[i] = r0 + per_rad * rough_acos(height[i] * per_middle);
+    const double square = (radius[i] - height[i]) * (radius[i] + height[i]);
+    width[i] = std::sqrt(square > 0.0 ? square : 0.0);
+  }
+  for (int i = 0; i < count; ++i) chi[i] = exact_atan2(width[i], height[i]);
+
+  // one Newton step with the sine and cosine known already; what is left is second order
+  unsigned settled[kRun];
+  unsigned all = 1;
+  const double low = chi_begin_, high = chi_end_, bend = 2.0 * std::fabs(per_rad);
+  for (int i = 0; i < count; ++i) {
+    const double there = r0 + per_rad * chi[i];
+    const double slope = there * width[i] - per_rad * height[i];
+    const double step = (there - radius[i]) * height[i] / slope;
+    const double rest = step * step * (std::fabs(height[i]) + bend);
+    const double better = chi[i] + step;
+    settled[i] = static_cast<unsigned>(width[i] > 0.0) & static_cast<unsigned>(slope > 0.0) &
+                 static_cast<unsigned>(rest <= kSettled_steps) & static_cast<unsigned>(better >= low) &
+                 static_cast<unsigned>(better <= high);
+    all &= settled[i];
+    chi[i] = better;
+  }
+  if (all != 0) return;
+  for (int i = 0; i < count; ++i)
+    if (settled[i] == 0) chi[i] = bracketed_angle(height[i]);
+}
+
+/// The same near an extreme and for a strongly growing radius: Newton, halving the bracket where it
 /// would leave it. The function falls over the piece.
 double ArcCrossings::bracketed_angle(double height) const {
   double low = chi_begin_, high = chi_end_;

@@ -39,12 +39,15 @@ class ArcCrossings {
   int sign = 1;
 
  private:
+  using Run = double[kRun];  // [count], heights above the centre in steps, angles
+
   void begin_piece();
   double turning_share(std::int64_t m, double u_from) const;
   double turning_position(std::int64_t m, double u) const;
   double lag_rad(double u) const;
   double half_turns_rad(std::int64_t m) const;
-  double crossing_angle(double height) const;
+  void circle_angles(const Run& height, Run& chi) const;
+  void spiral_angles(const Run& height, Run& chi) const;
   double bracketed_angle(double height) const;
 
   double center_ = 0, radius_ = 0, growth_ = 0;  // steps

@@ -41,6 +41,7 @@ struct CrossingInterpolator::Impl {
   Impl(const planner::Path& the_path, const machine::MachineModel& the_machine);
 
   void advance(const planner::TickMotion& motion, StepBatch& batch);
+  void prepare(StepBatch& batch) const;
   void rest(StepBatch& batch);
   void enter(std::size_t segment);
   void enter_axis(std::size_t axis, const planner::ArcShape* arc);
@@ -145,7 +146,7 @@ bool CrossingInterpolator::Impl::reaches_joint(const planner::TickMotion& motion
 
 void CrossingInterpolator::Impl::advance(const planner::TickMotion& motion, StepBatch& batch) {
   batch.tick = motion.tick;
-  if (batch.axis.size() != axes) batch.axis.resize(axes);
+  if (batch.axis.size() != axes) prepare(batch);
   for (AxisPulses& pulses : batch.axis) pulses.clear();
   events.clear();
   joint_passed = false;
@@ -184,6 +185,17 @@ void CrossingInterpolator::Impl::advance(const planner::TickMotion& motion, Step
     return a.s_u != b.s_u ? a.s_u < b.s_u : a.axis < b.axis;
   });
   if (checking) check.add(motion, steps_before, events);
+}
+
+/// Room for twice the pulses that an axis gives at its highest feed, so that running does not allocate.
+void CrossingInterpolator::Impl::prepare(StepBatch& batch) const {
+  batch.axis.resize(axes);
+  for (std::size_t k = 0; k < axes; ++k) {
+    const double pulses =
+        2.0 * machine.axis[k].max_feed_u_s * machine.clock.tau_s() / machine.axis[k].step_u + 64.0;
+    batch.axis[k].offset_ticks.reserve(static_cast<std::size_t>(pulses < 65536.0 ? pulses : 65536.0));
+    batch.axis[k].reversals.reserve(64);
+  }
 }
 
 void CrossingInterpolator::Impl::rest(StepBatch& batch) {

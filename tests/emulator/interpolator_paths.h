@@ -42,6 +42,7 @@ inline machine::MachineModel machine_with(int axes, double step_u = 0.001, std::
     machine::AxisModel axis;
     axis.letter = kAxisLetters[static_cast<std::size_t>(k)];
     axis.step_u = step_u;
+    axis.max_feed_u_s = 1000.0;
     machine.axis.push_back(axis);
   }
   return machine;
