@@ -14,27 +14,29 @@ struct OperatorInput {
 };
 
 /// How s moves in one control tick. Exact at both ends of the tick; between them the feed runs linearly over
-/// [move_begin, move_end] (base ticks within the tick, fractions allowed) and the path rests outside of it, so that s
-/// never runs back, also where a motion starts or ends inside the tick:
+/// [move_begin, move_end] (base ticks within the tick, fractions allowed) and the path rests outside of it,
+/// so that s never runs back, also where a motion starts or ends inside the tick:
 ///   s(t) = s_begin + ramp_begin * (t - t_b) + (ramp_end - ramp_begin) * (t - t_b)^2 / (2 (t_e - t_b))
 struct TickMotion {
   ControlTicks tick;
-  double s_begin_u = 0;            ///< path length, as Path::start_s_u counts
+  double s_begin_u = 0;  ///< path length, as Path::start_s_u counts
   double s_end_u = 0;
-  double speed_begin_u_s = 0;      ///< the law's speed at the tick's beginning and end
+  double speed_begin_u_s = 0;  ///< the law's speed at the tick's beginning and end
   double speed_end_u_s = 0;
   double move_begin_ticks = 0;
   double move_end_ticks = 0;
-  double ramp_begin_u_s = 0;       ///< speed at move_begin and move_end of the linear feed; (sum / 2) * (t_e - t_b) = s_end - s_begin
+  double ramp_begin_u_s =
+      0;  ///< speed at move_begin and move_end of the linear feed; (sum / 2) * (t_e - t_b) = s_end - s_begin
   double ramp_end_u_s = 0;
-  double accel_end_u_s2 = 0;       ///< of the law at the tick's end, for the log
+  double accel_end_u_s2 = 0;  ///< of the law at the tick's end, for the log
   double override_used = 1.0;
   LimitedBy limited_by = LimitedBy::program;
   std::int8_t limiting_axis = -1;
-  double held_error_u = 0;         ///< tick_feed = constant: largest distance from the law inside the tick
+  double held_error_u = 0;  ///< tick_feed = constant: largest distance from the law inside the tick
 };
 
-/// The one door between planning and the cycle: the cycle asks once per control tick how the path moves in it.
+/// The one door between planning and the cycle: the cycle asks once per control tick how the path moves in
+/// it.
 class MotionSource {
  public:
   virtual ~MotionSource() = default;

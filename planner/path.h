@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "gcode/block.h"
@@ -9,19 +10,22 @@
 
 /// The tool path: segments in the machine's n axes, joined end to end. Geometry only; timing is elsewhere.
 ///
-/// Path length s: one metric for all segments, s = sqrt(sum of squares over the machine's axes), mm and deg counted
-/// alike, so that axis speeds stay continuous where s does (arc: radius * angle in the plane, combined with the linear
-/// motion of all other axes). For a program that moves X Y Z only it is the length in mm. Suffix `_u`.
+/// Path length s: one metric for all segments, s = sqrt(sum of squares over the machine's axes), mm and deg
+/// counted alike, so that axis speeds stay continuous where s does (arc: radius * angle in the plane,
+/// combined with the linear motion of all other axes). For a program that moves X Y Z only it is the length
+/// in mm. Suffix `_u`.
 namespace kadr::planner {
 
 enum class SegmentKind : std::uint8_t { line, arc };
 
 /// Circle in a plane of two machine axes; the other axes move linearly with the angle (helix).
-/// The radius runs linearly with the angle from radius_begin to radius_end (equal but for rounding of the program):
+/// The radius runs linearly with the angle from radius_begin to radius_end (equal but for rounding of the
+/// program):
 ///   p_first(phi)  = center_first  + r(phi) cos(phi),   p_second(phi) = center_second + r(phi) sin(phi)
-///   phi = angle_begin + sweep * u,  r = radius_begin + (radius_end - radius_begin) * u,  u = s/length in [0, 1]
+///   phi = angle_begin + sweep * u,  r = radius_begin + (radius_end - radius_begin) * u,  u = s/length in [0,
+///   1]
 struct ArcShape {
-  int first_axis = 0;   ///< machine axis index
+  int first_axis = 0;  ///< machine axis index
   int second_axis = 1;
   double center_first_u = 0;
   double center_second_u = 0;
@@ -35,14 +39,16 @@ struct ArcShape {
 struct PathSegment {
   SegmentKind kind = SegmentKind::line;
   bool rapid = false;
-  bool stop_at_end = false;         ///< exact stop (G61.1) or a stop asked for by the program
+  bool stop_at_end = false;  ///< exact stop (G61.1) or a stop asked for by the program
   bool feed_override_enabled = true;
-  std::int32_t arc = -1;            ///< index into Path::arcs
-  std::uint32_t block = 0;          ///< running number of the motion block
+  bool path_limits = false;  ///< feed_length_u is of X Y Z: PathLimits apply to it
+  std::int32_t arc = -1;     ///< index into Path::arcs
+  std::uint32_t block = 0;   ///< running number of the motion block
   Span span;
-  double length_u = 0;              ///< > 0
-  double feed_length_u = 0;         ///< the length that the programmed feed measures (gcode::FeedLength), mm or deg
-  double feed_u_s = 0;              ///< programmed speed of s (already converted by length_u / feed_length_u); inf for a rapid
+  double length_u = 0;       ///< > 0
+  double feed_length_u = 0;  ///< the length that the programmed feed measures (gcode::FeedLength), mm or deg
+  double feed_u_s =
+      0;  ///< programmed speed of s (already converted by length_u / feed_length_u); inf for a rapid
 };
 
 class Path {
@@ -58,8 +64,9 @@ class Path {
 
   std::vector<PathSegment> segments;
   std::vector<ArcShape> arcs;
-  std::vector<double> nodes_u;    ///< [(segments + 1) * axes], made by build_path
-  std::vector<double> start_s_u;  ///< [segments + 1], path length at each joint; first is 0
+  std::vector<double> nodes_u;     ///< [(segments + 1) * axes], made by build_path
+  std::vector<double> start_s_u;   ///< [segments + 1], path length at each joint; first is 0
+  std::vector<Diagnostic> faults;  ///< moves this machine can't make; plan() refuses with the first
 
  private:
   int axes_;
@@ -87,9 +94,12 @@ class PathBuilder {
   Path take() { return std::move(path_); }
 
  private:
+  bool arc_shape(const gcode::Block& block, ArcShape& arc);  ///< all but the sweep; false: a fault was noted
+  double end_of(const gcode::Block& block, int axis) const;  ///< by machine axis
+  void move_last_node(const gcode::Block& block);
+
   const machine::MachineModel& machine_;
   Path path_;
-  AxisValues position_u_;
   std::vector<int> program_axis_;  ///< [machine axes] index into AxisValues
   std::uint32_t blocks_ = 0;
 };

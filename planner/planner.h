@@ -20,11 +20,11 @@ struct PlanError {
 
 /// Plans a whole path, rest to rest between the segments that stop, with look-ahead over the whole path.
 ///
-/// Speed caps per segment (feed, axis speeds, centripetal) and per joint (junction rule, specs in docs/papers.md: paper
-/// 003 section 1.2), then jerk-limited ramps that may span many segments (acceleration continuous over inner joints),
-/// zero acceleration at every plateau. With jerk = inf the ramps are those of trapezoidal motion, segment by segment.
-/// With planner.whole_ticks each rest-to-rest run lasts a whole number of control ticks (paper 003, eq. 2).
-/// Deterministic: fixed iteration counts, + - * / sqrt only.
+/// Speed caps per segment (feed, axis speeds, centripetal) and per joint (junction rule, specs in
+/// docs/papers.md: paper 003 section 1.2), then jerk-limited ramps that may span many segments (acceleration
+/// continuous over inner joints), zero acceleration at every plateau. With jerk = inf the ramps are those of
+/// trapezoidal motion, segment by segment. With planner.whole_ticks each rest-to-rest run lasts a whole
+/// number of control ticks (paper 003, eq. 2). Deterministic: fixed iteration counts, + - * / sqrt only.
 tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineModel& machine);
 
 }  // namespace kadr::planner

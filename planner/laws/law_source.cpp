@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cmath>
+
+#include "planner/motion_source.h"
+
+namespace kadr::planner {
+namespace {
+
+/// Linear feed over a tick that keeps the law's path and speeds at both ends:
+///   ramp_begin = S/tau - (v1 - v0)/2,  ramp_end = S/tau + (v1 - v0)/2
+/// Where that would run backwards, the path rests for a part of the tick: it starts late, or ends early.
+void shape_linear(TickMotion& m, double tau_s, double tick_ticks) {
+  const double way = m.s_end_u - m.s_begin_u;
+  const double v0 = m.speed_begin_u_s;
+  const double v1 = m.speed_end_u_s;
+  const double mean = way / tau_s;
+  m.ramp_begin_u_s = mean - 0.5 * (v1 - v0);
+  m.ramp_end_u_s = mean + 0.5 * (v1 - v0);
+  m.move_begin_ticks = 0.0;
+  m.move_end_ticks = tick_ticks;
+  if (m.ramp_begin_u_s < 0.0) {  // then v1 > 2 mean: the triangle 0 -> v1 at the tick's end
+    m.ramp_begin_u_s = 0.0;
+    m.ramp_end_u_s = v1;
+    m.move_begin_ticks = tick_ticks - tick_ticks * std::min(2.0 * mean / v1, 1.0);
+  } else if (m.ramp_end_u_s < 0.0) {
+    m.ramp_begin_u_s = v0;
+    m.ramp_end_u_s = 0.0;
+    m.move_end_ticks = tick_ticks * std::min(2.0 * mean / v0, 1.0);
+  }
+}
+
+/// Largest distance between the law and a path that moves from s_begin at a constant speed, over [begin,
+/// end]. Extremes lie where the law has that speed, and at the ends of its pieces.
+double largest_gap_u(const MotionLaw& law, std::size_t hint, double begin_s, double end_s, double s_begin,
+                     double speed) {
+  double largest = 0.0;
+  const auto look = [&](const JerkPiece& p, double t) {
+    const double s = p.s_u + t * (p.speed_u_s + t * (0.5 * p.accel_u_s2 + t * p.jerk_u_s3 / 6.0));
+    const double held = s_begin + speed * (p.begin_s + t - begin_s);
+    largest = std::max(largest, std::fabs(held - s));
+  };
+  for (; hint < law.pieces.size() && law.pieces[hint].begin_s < end_s; ++hint) {
+    const JerkPiece& p = law.pieces[hint];
+    const double from = std::max(begin_s - p.begin_s, 0.0);
+    const double to = std::min(end_s - p.begin_s, p.duration_s);
+    if (!(to >= from)) continue;
+    look(p, from);
+    look(p, to);
+    // speed + a t + j t^2/2 = held speed
+    const double c = p.speed_u_s - speed;
+    const double a = p.accel_u_s2;
+    const double j = p.jerk_u_s3;
+    const double root = a * a - 2.0 * j * c;
+    if (root < 0.0) continue;
+    const double q = -(a + (a >= 0.0 ? 1.0 : -1.0) * std::sqrt(root));
+    for (const double t : {j != 0.0 ? q / j : -1.0, q != 0.0 ? 2.0 * c / q : -1.0})
+      if (t > from && t < to) look(p, t);
+  }
+  return largest;
+}
+
+}  // namespace
+
+LawSource::LawSource(const MotionLaw& law, const machine::MachineModel& machine)
+    : law_(law), machine_(machine) {
+  if (!law_.pieces.empty()) state_ = law_.eval(0.0, hint_);
+}
+
+bool LawSource::finished() const {
+  return static_cast<double>(tick_.value) * machine_.clock.tau_s() >= law_.duration_s;
+}
+
+TickMotion LawSource::advance(const OperatorInput&) {
+  const double tau = machine_.clock.tau_s();
+  const double ticks = static_cast<double>(machine_.clock.control_tick.value);
+  TickMotion m;
+  m.tick = tick_;
+  m.s_begin_u = state_.s_u;
+  m.speed_begin_u_s = state_.speed_u_s;
+  if (finished()) {
+    m.s_end_u = m.s_begin_u;
+    m.move_end_ticks = ticks;
+    m.limited_by = LimitedBy::stop;
+    ++tick_;
+    return m;
+  }
+  const double begin = static_cast<double>(tick_.value) * tau;
+  const std::size_t hint_begin = hint_;
+  ++tick_;
+  const double end = static_cast<double>(tick_.value) * tau;
+  const MotionState next = law_.eval(end, hint_);
+  m.s_end_u = std::max(next.s_u, m.s_begin_u);
+  m.speed_end_u_s = next.speed_u_s;
+  m.accel_end_u_s2 = next.accel_u_s2;
+  const JerkPiece& piece = law_.pieces[hint_];
+  m.limited_by = piece.limited_by;
+  m.limiting_axis = piece.limiting_axis;
+  if (machine_.planner.tick_feed == machine::TickFeed::constant) {
+    const double held = (m.s_end_u - m.s_begin_u) / tau;
+    m.ramp_begin_u_s = m.ramp_end_u_s = held;
+    m.move_end_ticks = ticks;
+    m.held_error_u = largest_gap_u(law_, hint_begin, begin, end, m.s_begin_u, held);
+  } else {
+    shape_linear(m, tau, ticks);
+  }
+  state_ = next;
+  state_.s_u = m.s_end_u;
+  return m;
+}
+
+}  // namespace kadr::planner

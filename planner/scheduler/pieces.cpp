@@ -1,0 +1,141 @@
+#include "planner/scheduler/pieces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kadr::planner {
+namespace {
+
+double speed_at(const JerkPiece& p, double t) {
+  return p.speed_u_s + t * (p.accel_u_s2 + 0.5 * t * p.jerk_u_s3);
+}
+double way_at(const JerkPiece& p, double t) {
+  return t * (p.speed_u_s + t * (0.5 * p.accel_u_s2 + t * p.jerk_u_s3 / 6.0));
+}
+
+/// Time within a piece at which it has gone `way`: closed form at constant speed, else Newton in a bracket.
+double time_of_way(const JerkPiece& p, double way) {
+  if (!(way > 0.0)) return 0.0;
+  if (p.accel_u_s2 == 0.0 && p.jerk_u_s3 == 0.0) return std::min(way / p.speed_u_s, p.duration_s);
+  double low = 0.0, high = p.duration_s;
+  if (way >= way_at(p, high)) return high;
+  const double mean = 0.5 * (p.speed_u_s + speed_at(p, high));
+  double t = std::clamp(way / mean, low, high);
+  for (int i = 0; i < 80; ++i) {
+    const double excess = way_at(p, t) - way;
+    (excess > 0.0 ? high : low) = t;
+    if (high - low <= 1e-16 * high) break;
+    const double v = speed_at(p, t);
+    const double next = t - excess / v;
+    if (next == t) break;
+    t = v > 0.0 && next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return t;
+}
+
+}  // namespace
+
+void PieceWriter::piece(double duration, double s, double v, double a, double j, Signature why) {
+  if (!(duration > 0.0)) return;
+  if (stretch_ != 1.0) {
+    const double k = stretch_;
+    duration *= k;
+    v /= k;
+    a /= k * k;
+    j /= k * k * k;
+  }
+  law_.pieces.push_back({time_s_, duration, s, v, a, j, why.reason, why.axis});
+  const double y = duration - lost_s_;
+  const double next = time_s_ + y;
+  lost_s_ = (next - time_s_) - y;
+  time_s_ = next;
+}
+
+void PieceWriter::ramp(const Element& e) {
+  const double dv = std::fabs(e.v1_u_s - e.v0_u_s);
+  const double sign = e.v1_u_s > e.v0_u_s ? 1.0 : -1.0;
+  const RampLimits l = e.limits;
+  const double total = ramp_time_s(dv, l);
+  if (!(l.jerk_u_s3 < machine::kInfinity))
+    return piece(total, e.s_u, e.v0_u_s, sign * l.accel_u_s2, 0.0, e.signature);
+  const bool full = dv * l.jerk_u_s3 > l.accel_u_s2 * l.accel_u_s2;
+  const double t = full ? l.accel_u_s2 / l.jerk_u_s3 : 0.5 * total;
+  const double a = sign * (full ? l.accel_u_s2 : l.jerk_u_s3 * t);
+  const double j = sign * l.jerk_u_s3;
+  piece(t, e.s_u, e.v0_u_s, 0.0, j, e.signature);
+  double s = e.s_u + t * (e.v0_u_s + j * t * t / 6.0);
+  double v = e.v0_u_s + 0.5 * j * t * t;
+  if (full) {
+    const double hold = total - 2.0 * t;
+    piece(hold, s, v, a, 0.0, e.signature);
+    if (hold > 0.0) {
+      s += hold * (v + 0.5 * a * hold);
+      v = e.v1_u_s - 0.5 * j * t * t;
+    }
+  }
+  piece(t, s, v, a, -j, e.signature);
+}
+
+void PieceWriter::add(const std::vector<Element>& run, double stretch, double end_time_s) {
+  stretch_ = stretch;
+  for (const Element& e : run) {
+    if (e.is_hold())
+      piece(e.time_s(), e.s_u, e.v0_u_s, 0.0, 0.0, e.signature);
+    else
+      ramp(e);
+  }
+  if (end_time_s < 0.0) return;
+  // the elements last as long as prescribed but for the last bits of the sum
+  if (!law_.pieces.empty()) {
+    JerkPiece& last = law_.pieces.back();
+    if (end_time_s > last.begin_s) last.duration_s = end_time_s - last.begin_s;
+  }
+  time_s_ = end_time_s;
+  lost_s_ = 0.0;
+}
+
+void fill_segment_table(const Path& path, const PathLimitTable& table, FeedPlan& plan) {
+  const std::vector<JerkPiece>& pieces = plan.law.pieces;
+  plan.segments.resize(path.size());
+  std::size_t p = 0;
+  double time = 0.0, speed = 0.0;  // at the joint passed last
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    SegmentPlan& seg = plan.segments[i];
+    seg.begin_time_s = time;
+    seg.peak_u_s = speed;
+    Signature why{pieces[p].limited_by, pieces[p].limiting_axis};
+    // pieces that end inside the segment: a ramp's highest speed is at one of its ends
+    const double end = path.start_s_u[i + 1];
+    while (p + 1 < pieces.size() && pieces[p + 1].s_u < end) {
+      ++p;
+      if (pieces[p].speed_u_s > seg.peak_u_s ||
+          (pieces[p].speed_u_s == seg.peak_u_s && pieces[p].accel_u_s2 == 0.0)) {
+        seg.peak_u_s = pieces[p].speed_u_s;
+        why = {pieces[p].limited_by, pieces[p].limiting_axis};
+      }
+    }
+    const bool last = i + 1 == path.size();
+    const bool stops = table.cap_u_s[2 * (i + 1)] == 0.0;
+    if (last) {
+      time = plan.law.duration_s;
+      speed = 0.0;
+    } else if (stops) {
+      // a run's end: its last piece ends here whatever the last bit of s says
+      while (p + 1 < pieces.size() && pieces[p].speed_u_s > 0.0 && pieces[p + 1].speed_u_s > 0.0) ++p;
+      if (p + 1 < pieces.size() && pieces[p + 1].speed_u_s == 0.0) ++p;
+      time = pieces[p].begin_s;
+      speed = 0.0;
+    } else {
+      const double t = time_of_way(pieces[p], end - pieces[p].s_u);
+      time = pieces[p].begin_s + t;
+      speed = speed_at(pieces[p], t);
+      if (speed > seg.peak_u_s) seg.peak_u_s = speed, why = {pieces[p].limited_by, pieces[p].limiting_axis};
+    }
+    seg.end_u_s = speed;
+    seg.end_time_s = time;
+    seg.limited_by = why.reason;
+    seg.limiting_axis = why.axis;
+  }
+}
+
+}  // namespace kadr::planner

@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "planner/feed_plan.h"
+#include "planner/scheduler/ramp.h"
+
+namespace kadr::planner {
+
+/// Turns elements into pieces of constant jerk and keeps the time, exactly where a run has whole ticks.
+class PieceWriter {
+ public:
+  explicit PieceWriter(MotionLaw& law) : law_(law) {}
+  /// Appends one run.
+  /// @param stretch    factor on all its times: v/k, a/k^2, j/k^3
+  /// @param end_time_s its prescribed end, or a negative number: what the elements last
+  void add(const std::vector<Element>& run, double stretch, double end_time_s);
+  double time_s() const { return time_s_; }
+
+ private:
+  void piece(double duration, double s, double v, double a, double j, Signature why);
+  void ramp(const Element& e);
+
+  MotionLaw& law_;
+  double stretch_ = 1.0;
+  double time_s_ = 0;
+  double lost_s_ = 0;  // compensation of the running sum
+};
+
+/// Fills the table of segments from a finished law: peak, end and times of each.
+void fill_segment_table(const Path& path, const PathLimitTable& table, FeedPlan& plan);
+
+}  // namespace kadr::planner

@@ -1,0 +1,48 @@
+#include "planner/scheduler/ramp.h"
+
+#include <algorithm>
+
+namespace kadr::planner {
+namespace {
+
+double two_ramps(double v0, double v1, double w, RampLimits l) {
+  return ramp_length_u(v0, w, l) + ramp_length_u(v1, w, l);
+}
+
+/// dS/dw of one ramp v -> w.
+double slope(double v, double w, RampLimits l) {
+  const double dv = w - v;
+  if (!(dv > 0.0)) return 0.0;
+  const bool full = !(dv * l.jerk_u_s3 <= l.accel_u_s2 * l.accel_u_s2);
+  const double rate = full ? 1.0 / l.accel_u_s2 : 1.0 / std::sqrt(dv * l.jerk_u_s3);
+  return 0.5 * ramp_time_s(dv, l) + 0.5 * (v + w) * rate;
+}
+
+}  // namespace
+
+double peak_speed_u_s(double v0_u_s, double v1_u_s, double distance_u, RampLimits limits, double floor_u_s,
+                      double ceiling_u_s) {
+  // without a jerk limit w^2 = a d + (v0^2 + v1^2)/2; with one it is lower
+  const double bound =
+      std::sqrt(limits.accel_u_s2 * distance_u + 0.5 * (v0_u_s * v0_u_s + v1_u_s * v1_u_s)) * (1.0 + 1e-15);
+  double low = floor_u_s;
+  double high = std::max(std::min(ceiling_u_s, bound), low);
+  if (two_ramps(v0_u_s, v1_u_s, high, limits) <= distance_u) return high;
+  double w = high;
+  for (int i = 0; i < 64 && high - low > 1e-15 * high; ++i) {
+    const double excess = two_ramps(v0_u_s, v1_u_s, w, limits) - distance_u;
+    (excess <= 0.0 ? low : high) = w;
+    if (std::fabs(excess) <= 1e-15 * distance_u) break;
+    const double next = w - excess / (slope(v0_u_s, w, limits) + slope(v1_u_s, w, limits));
+    w = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  // Newton mostly comes from above: the last bits below its result are tried until the inequality holds
+  for (double step = 1e-15; step < 1e-9; step *= 4.0) {
+    w = high * (1.0 - step);
+    if (w <= low) break;
+    if (two_ramps(v0_u_s, v1_u_s, w, limits) <= distance_u) return w;
+  }
+  return low;
+}
+
+}  // namespace kadr::planner
