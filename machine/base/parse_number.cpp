@@ -1,5 +1,7 @@
 #include "machine/base/parse_number.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 
@@ -66,10 +68,6 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
-std::string number_text(double value) {
-  char buffer[40];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return {buffer, end};
-}
+std::string number_text(double value) { return fmt::format("{}", value); }
 
 }  // namespace kadr

@@ -10,7 +10,7 @@ namespace kadr {
 /// numbers, nor is a value too large for a double. Correctly rounded.
 std::optional<double> parse_number(std::string_view text);
 
-/// Shortest text that reads back as the same double: "0.0025", "40000", "1e-08", "inf".
+/// Shortest text that reads back as the same double: "0.0025", "1000000", "1e-08", "1e+16", "inf".
 std::string number_text(double value);
 
 }  // namespace kadr

@@ -175,7 +175,7 @@ void read_axes(TableReader& root, MachineModel& model) {
 
 MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
   Span top = root_node.span;
-  top.length = std::min<std::uint32_t>(top.length, 1);
+  top.length = 1;
   TableReader root(&root_node, "", top, context);
   MachineModel model;
   read_format(root);

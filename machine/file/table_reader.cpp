@@ -12,10 +12,8 @@ namespace kadr::machine {
 
 TableReader::TableReader(const Node* table, std::string path, Span missing_place, ReadContext& context)
     : table_(table), path_(std::move(path)), header_(table ? table->span : missing_place), context_(context) {
-  // the root has no header of its own: only its first line is meant
-  if (header_.line > 0)
-    header_.length = std::min<std::uint32_t>(
-        header_.length, static_cast<std::uint32_t>(context.sources[header_.file].line(header_.line).size()));
+  // the root has no header of its own: its first character stands for it
+  if (path_.empty()) header_.length = 1;
 }
 
 std::string TableReader::path_of(std::string_view key) const {
@@ -57,7 +55,7 @@ namespace {
 
 std::string allowed_text(const Bounds& bounds, std::string_view key) {
   const KeyParts parts = split_key(key);
-  return fmt::format("allowed: {} to {}{}{}{}", number_text(bounds.low), number_text(bounds.high),
+  return fmt::format("allowed: {:g} to {:g}{}{}{}", bounds.low, bounds.high,
                      parts.unit ? " " + unit_text(*parts.unit) : "", bounds.whole ? ", whole numbers" : "",
                      !bounds.infinite ? ""
                      : bounds.low < 0 ? ", or -inf or inf"

@@ -1,0 +1,248 @@
+#include "machine/base/diagnostic.h"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <system_error>
+
+#include "machine/base/require.h"
+#include "machine/base/utf8.h"
+
+using namespace kadr;
+
+namespace {
+
+Diagnostic arc_error(Span span) {
+  return {Code::broken_promise,
+          Severity::error,
+          span,
+          "arc end is not on the circle",
+          "radius at start 5.000 mm, at end 5.590 mm, differ by 0.590 mm",
+          {"allowed 0.010 mm (path.arc_end_tolerance_mm)", "start X20 Y10, centre X25 Y10"},
+          "with this centre and X30 the end is Y10.000; or give R instead of I J"};
+}
+
+Diagnostic plain(Span span, std::string label) {
+  return {Code::broken_promise, Severity::error, span, "headline", std::move(label), {}, ""};
+}
+
+/// Lines without control characters.
+bool is_printable(std::string_view text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return c == '\n' || static_cast<unsigned char>(c) >= 0x20; });
+}
+
+std::string temporary(const std::string& name) {
+  return (std::filesystem::temp_directory_path() / ("kadr_" + std::to_string(getpid()) + "_" + name))
+      .string();
+}
+
+}  // namespace
+
+TEST_CASE("a diagnostic shows code, place, line, caret, label, notes and help") {
+  SourceSet sources;
+  std::string program(41, '\n');
+  program += "N420 G2 X30 Y12.5 I5 J0 (скругление)\n";
+  const auto file = sources.add(SourceText("part.ngc", program));
+  const Diagnostic d = arc_error({file, 42, 6, 18});
+  CHECK(render_human(d, sources) ==
+        "error[K9001]: arc end is not on the circle\n"
+        "  --> part.ngc:42:6\n"
+        "   |\n"
+        "42 | N420 G2 X30 Y12.5 I5 J0 (скругление)\n"
+        "   |      ^^^^^^^^^^^^^^^^^^ radius at start 5.000 mm, at end 5.590 mm, differ by 0.590 mm\n"
+        "   |\n"
+        "   = note: allowed 0.010 mm (path.arc_end_tolerance_mm)\n"
+        "   = note: start X20 Y10, centre X25 Y10\n"
+        "   = help: with this centre and X30 the end is Y10.000; or give R instead of I J\n"
+        "   = more: kadr explain K9001\n");
+  CHECK(render_gcc(d, sources) ==
+        "part.ngc:42:6: error: arc end is not on the circle: radius at start 5.000 mm, at end 5.590 mm, "
+        "differ by "
+        "0.590 mm [K9001]");
+}
+
+TEST_CASE("the column counts code points, the caret stands by display width") {
+  SourceSet sources;
+  // "(дно) " is 9 bytes + 1 blank, 6 code points and 6 columns; a tab leads from column 6 to column 8
+  const auto file = sources.add(SourceText("p.ngc", "(дно) \tG5 X1"));
+  const std::string text = render_human(plain({file, 1, 11, 2}, "label"), sources);
+  CHECK(text.find("--> p.ngc:1:8\n") != std::string::npos);
+  CHECK(text.find("1 | (дно)   G5 X1\n") != std::string::npos);
+  CHECK(text.find("\n  |         ^^ label\n") != std::string::npos);
+}
+
+TEST_CASE("wide and combining characters move the caret by two columns and by none") {
+  SourceSet sources;
+  const auto file = sources.add(SourceText("p", "加e\xCC\x81X"));
+  const std::string text = render_human(plain({file, 1, 7, 1}, ""), sources);
+  CHECK(text.find("--> p:1:4\n") != std::string::npos);
+  CHECK(text.find("\n  |    ^\n") != std::string::npos);  // 2 + 1 + 0 columns before X
+}
+
+TEST_CASE("a span beyond the line's end gets one caret after the last character") {
+  SourceSet sources;
+  const auto file = sources.add(SourceText("p", "G1\n\nG2"));
+  CHECK(render_human(plain({file, 1, 40, 5}, ""), sources).find("1 | G1\n  |   ^\n") != std::string::npos);
+  CHECK(render_human(plain({file, 2, 1, 1}, ""), sources).find("2 |\n  | ^\n") != std::string::npos);
+  CHECK(render_human(plain({file, 1, 2, 400}, ""), sources).find("1 | G1\n  |  ^\n") != std::string::npos);
+}
+
+TEST_CASE("without a place the measured value is a note, and the gcc form begins with kadr") {
+  SourceSet sources;
+  const Diagnostic d = plain({}, "measured 5");
+  CHECK(render_human(d, sources) ==
+        "error[K9001]: headline\n"
+        "  = note: measured 5\n"
+        "  = more: kadr explain K9001\n");
+  CHECK(render_gcc(d, sources) == "kadr: error: headline: measured 5 [K9001]");
+}
+
+TEST_CASE("control characters and bytes that are not UTF-8 never reach the terminal") {
+  SourceSet sources;
+  const auto file = sources.add(SourceText("p", "a\x1b[2J\xff\x7f b"));
+  const std::string text = render_human(plain({file, 1, 7, 1}, "value \x1b[31m\nnext"), sources);
+  CHECK(is_printable(text));
+  CHECK(text.find('\x7f') == std::string::npos);
+  CHECK(text.find('\xff') == std::string::npos);
+  CHECK(text.find("--> p:1:7\n") != std::string::npos);
+  CHECK(render_gcc(plain({file, 1, 7, 1}, "two\nlines"), sources).find('\n') == std::string::npos);
+}
+
+TEST_CASE("of a line of 100,000 characters only the part round the caret is shown") {
+  SourceSet sources;
+  const auto file = sources.add(SourceText("p", std::string(50'000, 'x') + "ERR" + std::string(50'000, 'y')));
+  const std::string text = render_human(plain({file, 1, 50'001, 3}, "here"), sources);
+  CHECK(text.size() < 600);
+  CHECK(text.find("--> p:1:50001\n") != std::string::npos);
+  CHECK(text.find("1 | ..." + std::string(80, 'x') + "ERR" + std::string(80, 'y') + "...\n") !=
+        std::string::npos);
+  CHECK(text.find("\n  | " + std::string(83, ' ') + "^^^ here\n") != std::string::npos);
+}
+
+TEST_CASE("colour changes nothing but escape sequences") {
+  SourceSet sources;
+  const auto file = sources.add(SourceText("p", "G1 X5"));
+  const Diagnostic d = arc_error({file, 1, 4, 2});
+  std::string coloured = render_human(d, sources, true);
+  CHECK(coloured.find("\x1b[1;31m") != std::string::npos);
+  for (std::size_t at = 0; (at = coloured.find('\x1b', at)) != std::string::npos;)
+    coloured.erase(at, coloured.find('m', at) - at + 1);
+  CHECK(coloured == render_human(d, sources));
+}
+
+TEST_CASE("lines are found with either line end, the last one without, and none beyond") {
+  const SourceText t("p", "one\r\ntwo\n\nfour");
+  CHECK(t.line(0) == "");
+  CHECK(t.line(1) == "one");
+  CHECK(t.line(2) == "two");
+  CHECK(t.line(3) == "");
+  CHECK(t.line(4) == "four");
+  CHECK(t.line(5) == "");
+  CHECK(SourceText("p", "").line(1) == "");
+}
+
+TEST_CASE("a text stays where it is when it is moved, short or long") {
+  SourceText a("p", "x");
+  const char* at = a.text().data();
+  SourceText b(std::move(a));
+  CHECK(b.text().data() == at);
+  CHECK(b.text() == "x");
+  SourceSet set;
+  const auto first = set.add(std::move(b));
+  for (int i = 0; i < 100; ++i) set.add(SourceText("q", "y"));
+  CHECK(set[first].text() == "x");
+  CHECK(set.size() == 101);
+}
+
+TEST_CASE("files of 0 bytes, 1 kB and 5 MB read back as written") {
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1000}, std::size_t{5'000'000}}) {
+    std::string text(size, 'a');
+    for (std::size_t i = 79; i < size; i += 80) text[i] = '\n';
+    const std::string path = temporary("file");
+    std::ofstream(path, std::ios::binary) << text;
+    const SourceText read = SourceText::open(path);
+    std::remove(path.c_str());
+    CHECK(read.text() == text);
+    CHECK(read.name() == path);
+    if (size > 160) CHECK(read.line(2) == std::string(79, 'a'));
+  }
+}
+
+TEST_CASE("a file that is missing or a folder throws with its path") {
+  for (const std::string& path :
+       {temporary("no_such_file"), std::filesystem::temp_directory_path().string()}) {
+    bool thrown = false;
+    try {
+      SourceText::open(path);
+    } catch (const std::system_error& e) {
+      thrown = true;
+      CHECK(std::string(e.what()).find(path) != std::string::npos);
+    }
+    CHECK(thrown);
+  }
+}
+
+TEST_CASE("errors and warnings are counted, notes are not") {
+  Diagnostics list;
+  CHECK_FALSE(list.has_errors());
+  Diagnostic d = plain({}, "");
+  list.add(d);
+  list.add(d);
+  d.severity = Severity::warning;
+  list.add(d);
+  CHECK(list.errors() == 2);
+  CHECK(list.warnings() == 1);
+  d.severity = Severity::note;
+  list.add(d);
+  CHECK(list.list().size() == 4);
+  CHECK(list.errors() == 2);
+  CHECK(list.warnings() == 1);
+  CHECK(count_text(2, 1) == "2 errors, 1 warning");
+  CHECK(count_text(1, 0) == "1 error");
+  CHECK(count_text(0, 3) == "3 warnings");
+  CHECK(count_text(0, 0) == "no errors");
+}
+
+TEST_CASE("a broken promise names the promise and the place without the path of the build") {
+  CHECK_NOTHROW(require(true, "kept"));
+  try {
+    require(false, "two and two are four");
+    FAIL("not thrown");
+  } catch (const BrokenPromise& e) {
+    const std::string what = e.what();
+    CHECK(what.starts_with("two and two are four (machine/diagnostic_test.cpp:"));
+  }
+}
+
+TEST_CASE("UTF-8 is told from CP1251, overlong forms and surrogates") {
+  CHECK(is_utf8("деталь 加 \xF0\x9F\x98\x80"));
+  CHECK_FALSE(is_utf8("\xE4\xE5\xF2\xE0\xEB\xFC"));  // "деталь" in CP1251
+  CHECK_FALSE(is_utf8("\xC0\x80"));
+  CHECK_FALSE(is_utf8("\xED\xA0\x80"));
+  CHECK_FALSE(is_utf8("\xF4\x90\x80\x80"));
+  CHECK_FALSE(is_utf8("\xE2\x82"));
+  CHECK(count_code_points("дно") == 3);
+  CHECK(count_code_points("\xff\xfe") == 2);
+}
+
+TEST_CASE("random bytes with random spans are always rendered, in lines without control characters") {
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 5000; ++i) {
+    std::string bytes;
+    for (std::uint64_t n = random() % 300; n > 0; --n) bytes += static_cast<char>(random());
+    SourceSet sources;
+    const auto file = sources.add(SourceText("p", bytes));
+    const Span span{file, static_cast<std::uint32_t>(random() % 6),
+                    static_cast<std::uint32_t>(random() % 400), static_cast<std::uint32_t>(random() % 400)};
+    const std::string text =
+        render_human(plain(span, bytes), sources) + render_gcc(plain(span, bytes), sources);
+    CHECK(is_utf8(text));
+    CHECK(is_printable(text));
+  }
+}
