@@ -6,7 +6,6 @@
 #include "emulator/interpolator/interpolator.h"
 #include "emulator/interpolator/line_crossings.h"
 #include "emulator/interpolator/node_check.h"
-#include "emulator/interpolator/segment_point.h"
 #include "emulator/interpolator/tick_clock.h"
 #include "machine/base/require.h"
 
@@ -15,7 +14,9 @@ namespace kadr::emulator {
 namespace {
 
 constexpr double kMostSteps = 4503599627370496.0;  // 2^52
+// a law's end may miss its joint and its rest by rounding
 constexpr double kSameJoint_u = 1e-9;
+constexpr double kRest_u_s = 1e-6;
 // reversals are stored as 16-bit pulse numbers
 constexpr std::size_t kMostPulsesBeforeReversal = 65535;
 
@@ -70,7 +71,6 @@ struct CrossingInterpolator::Impl {
   std::vector<std::int64_t> steps;          // [axes] lattice nodes now
   std::vector<std::int64_t> node_end;       // [axes] lattice nodes of the segment's end
   std::vector<double> position_u, tangent;  // [axes] at the end of the last tick
-  std::vector<double> scratch_u;            // [axes]
 
   bool tracing = false, checking = false;
   std::vector<StepEvent> events;
@@ -87,7 +87,6 @@ CrossingInterpolator::Impl::Impl(const planner::Path& the_path, const machine::M
       node_end(axes),
       position_u(axes),
       tangent(axes),
-      scratch_u(axes),
       check(the_path, the_machine) {
   require(axes == machine.axis.size(), "the path has the machine's axes");
   require(machine.clock.control_tick.value >= 1 && machine.clock.control_tick.value <= 65536,
@@ -141,7 +140,7 @@ void CrossingInterpolator::Impl::enter_axis(std::size_t axis, const planner::Arc
 
 bool CrossingInterpolator::Impl::reaches_joint(const planner::TickMotion& motion) const {
   const double left_u = path.start_s_u[segment + 1] - motion.s_end_u;
-  return left_u <= 0.0 || (motion.speed_end_u_s == 0.0 && left_u <= kSameJoint_u);
+  return left_u <= 0.0 || (motion.speed_end_u_s <= kRest_u_s && left_u <= kSameJoint_u);
 }
 
 void CrossingInterpolator::Impl::advance(const planner::TickMotion& motion, StepBatch& batch) {
@@ -276,7 +275,7 @@ void CrossingInterpolator::Impl::begin_commands(const planner::TickMotion& motio
   // before the motion begins inside the tick the axes are at rest
   const double speed_u_s = motion.move_begin_ticks > 0.0 ? 0.0 : motion.ramp_begin_u_s;
   // on the same segment the tangent is that of the last tick's end
-  if (corner) eval_segment(path, segment, motion.s_begin_u - path.start_s_u[segment], scratch_u, tangent);
+  if (corner) planner::eval_tangent(path, segment, motion.s_begin_u - path.start_s_u[segment], tangent);
   for (std::size_t k = 0; k < axes; ++k) {
     batch.axis[k].command.position_begin_u = position_u[k];
     batch.axis[k].command.speed_begin_u_s = tangent[k] * speed_u_s;
@@ -288,7 +287,8 @@ void CrossingInterpolator::Impl::end_commands(const planner::TickMotion& motion,
   const double speed_u_s = motion.move_end_ticks < tau ? 0.0 : motion.ramp_end_u_s;
   const double length_u = path.segments[segment].length_u;
   const double s_u = segment_done ? length_u : motion.s_end_u - path.start_s_u[segment];
-  eval_segment(path, segment, s_u, position_u, tangent);
+  planner::eval_position(path, segment, s_u, position_u);
+  planner::eval_tangent(path, segment, s_u, tangent);
   for (std::size_t k = 0; k < axes; ++k) {
     batch.axis[k].command.position_end_u = position_u[k];
     batch.axis[k].command.speed_end_u_s = tangent[k] * speed_u_s;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "emulator/interpolator/segment_point.h"
-
 namespace kadr::emulator {
 
 namespace {
@@ -27,7 +25,6 @@ NodeCheck::NodeCheck(const planner::Path& path, const machine::MachineModel& mac
     : path_(path), machine_(machine) {
   const auto axes = static_cast<std::size_t>(path.axes());
   position_u_.resize(axes);
-  tangent_.resize(axes);
   reach_u_.resize(axes);
   worst_steps_.resize(axes);
 }
@@ -39,7 +36,7 @@ void NodeCheck::add(const planner::TickMotion& motion, const std::vector<std::in
   for (const StepEvent& event : events) {
     const planner::PathSegment& piece = path_.segments[event.segment];
     const double s_u = path_length_at(motion, event.moment_ticks, base_hz, path_.start_s_u[event.segment]);
-    eval_segment(path_, event.segment, s_u, position_u_, tangent_);
+    planner::eval_position(path_, event.segment, s_u, position_u_);
     std::fill(reach_u_.begin(), reach_u_.end(), 0.0);
     if (piece.kind == planner::SegmentKind::arc) {
       const planner::ArcShape& arc = path_.arcs[static_cast<std::size_t>(piece.arc)];

@@ -24,7 +24,7 @@ class NodeCheck {
   const planner::Path& path_;
   const machine::MachineModel& machine_;
   std::vector<std::int64_t> nodes_;
-  std::vector<double> position_u_, tangent_, reach_u_, worst_steps_;
+  std::vector<double> position_u_, reach_u_, worst_steps_;
 };
 
 }  // namespace kadr::emulator

@@ -1,0 +1,64 @@
+#include <doctest/doctest.h>
+
+#include "interpolator_paths.h"
+#include "planner/planner.h"
+
+using namespace kadr;
+using namespace kadr::test;
+using emulator::lattice_node;
+
+namespace {
+
+/// Arc blocks as a program gives them: coordinates with three decimals, so that both radii differ by
+/// rounding.
+gcode::Block random_block(Dice& dice, const AxisValues& at) {
+  gcode::Block block;
+  block.kind = gcode::BlockKind::feed;
+  block.feed_u_s = dice.between(5.0, 80.0);
+  block.end = at;
+  const auto rounded = [&dice](double low, double high) {
+    return std::floor(dice.between(low, high) * 1e3 + 0.5) * 1e-3;
+  };
+  block.end[2] = at[2] + (dice.chance(0.5) ? 0.0 : rounded(-1, 1));
+  if (dice.chance(0.5)) {
+    block.end[0] = rounded(-5, 5);
+    block.end[1] = rounded(-5, 5);
+    return block;
+  }
+  block.kind = gcode::BlockKind::arc;
+  block.center_first_mm = at[0] + rounded(0.5, 3);
+  block.center_second_mm = at[1] + rounded(-3, 3);
+  const double dx = at[0] - block.center_first_mm, dy = at[1] - block.center_second_mm;
+  const SinCos turned = exact_sincos(dice.between(0.1, 6.0));
+  block.end[0] = std::floor((block.center_first_mm + dx * turned.cos - dy * turned.sin) * 1e3 + 0.5) * 1e-3;
+  block.end[1] = std::floor((block.center_second_mm + dx * turned.sin + dy * turned.cos) * 1e3 + 0.5) * 1e-3;
+  block.turns = dice.whole(1, 2) * (dice.chance(0.5) ? 1 : -1);
+  return block;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "arcs and lines with three decimals keep every node and end on the step, driven along the built path") {
+  const std::uint64_t seed = environment_count("KADR_SEED", 1), count = environment_count("KADR_COUNT", 200);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    CAPTURE(seed);
+    CAPTURE(i);
+    Dice dice(seed * 7919 + i);
+    const auto machine = machine_with(3, dice.chance(0.5) ? 0.001 : 0.0025);
+    AxisValues at{};
+    planner::PathBuilder builder(machine, at);
+    for (int n = dice.whole(1, 10); n > 0; --n) {
+      const gcode::Block block = random_block(dice, at);
+      builder.add(block);
+      at = block.end;
+    }
+    const planner::Path path = builder.take();
+    const Run run = run_path(path, machine, drive(path.length_u(), 40.0, machine, Feed::wild, i));
+    for (std::size_t k = 0; k < 3; ++k) {
+      CHECK(run.net[k] == lattice_node(at[k], machine.axis[k].step_u));
+      CHECK(run.nodes[k] == run.net[k]);
+      CHECK(run.worst_steps[k] <= 0.5 + 1e-9);
+    }
+  }
+}
