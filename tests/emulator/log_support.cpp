@@ -116,6 +116,32 @@ const emulator::TickRecord& FakeRun::advance() {
   return record_;
 }
 
+bool holds_fake_run(const std::string& path, const machine::MachineModel& machine, FakeRunOptions options) {
+  auto reader = emulator::LogReader::open(path);
+  if (!reader) return false;
+  FakeRun of_ticks(machine, options), of_steps(machine, options);
+  bool same = true;
+  for (emulator::LogMessage m; same && reader->next(m);) {
+    if (const auto* b = std::get_if<emulator::TickBlock>(&m))
+      for (std::size_t i = 0; same && i < b->size(); ++i) {
+        const emulator::TickRecord& r = of_ticks.advance();
+        same = b->first.value + static_cast<std::int64_t>(i) == r.tick.value &&
+               b->path_u[i] == r.motion->s_end_u;
+        for (std::size_t a = 0; same && a < machine.axis.size(); ++a)
+          same = b->axis[a].steps[i] == of_ticks.nodes()[a] &&
+                 b->axis[a].link_u[i] == of_ticks.states()[a].link_u;
+      }
+    if (const auto* b = std::get_if<emulator::StepBlock>(&m))
+      for (std::size_t i = 0; same && i < b->batches.size(); ++i) {
+        of_steps.advance();
+        for (std::size_t a = 0; same && a < machine.axis.size(); ++a)
+          same = b->batches[i].axis[a].offset_ticks == of_steps.batch().axis[a].offset_ticks &&
+                 b->batches[i].axis[a].net_steps() == of_steps.batch().axis[a].net_steps();
+      }
+  }
+  return same;
+}
+
 emulator::RunHeader log_header(const machine::MachineModel& machine) {
   emulator::RunHeader h;
   h.program_name = "part.ngc";
