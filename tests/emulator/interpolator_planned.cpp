@@ -62,3 +62,51 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE(
+    "a planned law, played whole or with the feed held per tick, gives the sequence of any other motion") {
+  const std::uint64_t seed = environment_count("KADR_SEED", 1), count = environment_count("KADR_COUNT", 60);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    CAPTURE(seed);
+    CAPTURE(i);
+    Dice dice(seed * 104'729 + i);
+    auto machine = machine_with(3);
+    for (auto& axis : machine.axis) {
+      axis.max_feed_u_s = 200;
+      axis.max_accel_u_s2 = 2000;
+      axis.max_jerk_u_s3 = dice.chance(0.5) ? 50'000.0 : machine::kInfinity;
+      axis.junction_accel_u_s2 = 500;
+    }
+    machine.planner.whole_ticks = dice.chance(0.5);
+    AxisValues at{};
+    planner::PathBuilder builder(machine, at);
+    for (int n = dice.whole(1, 10); n > 0; --n) {
+      gcode::Block block = random_block(dice, at);
+      if (dice.chance(0.2)) block.path_mode = gcode::PathMode::exact_stop;
+      builder.add(block);
+      at = block.end;
+    }
+    const planner::Path path = builder.take();
+    const auto plan = planner::plan(path, machine);
+    REQUIRE(plan.has_value());
+    const Run any = run_path(path, machine, drive(path.length_u(), 40.0, machine, Feed::wild, i));
+    for (const auto feed : {machine::TickFeed::linear, machine::TickFeed::constant}) {
+      machine.planner.tick_feed = feed;
+      planner::LawSource source(plan->law, machine);
+      std::vector<planner::TickMotion> motions;
+      while (!source.finished() && motions.size() < 100'000) motions.push_back(source.advance({}));
+      const Run run = run_path(path, machine, motions);
+      for (std::size_t k = 0; k < 3; ++k) {
+        CHECK(run.net[k] == lattice_node(at[k], machine.axis[k].step_u));
+        CHECK(run.worst_steps[k] <= 0.5 + 1e-9);
+      }
+      REQUIRE(run.events.size() == any.events.size());
+      bool same = true;
+      for (std::size_t e = 0; e < run.events.size(); ++e)
+        same = same && run.events[e].segment == any.events[e].segment &&
+               run.events[e].axis == any.events[e].axis && run.events[e].sign == any.events[e].sign &&
+               run.events[e].s_u == any.events[e].s_u;
+      CHECK(same);
+    }
+  }
+}
