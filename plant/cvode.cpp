@@ -22,32 +22,49 @@ template <int N>
 struct FixedOperations {
   static double* data(N_Vector v) { return NV_DATA_S(v); }
 
+  // results are made aside and stored at the end: z may be x or y, and the loops must still become vector
+  // code
+  static void store(const double (&result)[N], N_Vector vz) { std::copy_n(result, N, data(vz)); }
+
   static void linear_sum(realtype a, N_Vector vx, realtype b, N_Vector vy, N_Vector vz) {
     const double *x = data(vx), *y = data(vy);
-    double* z = data(vz);
-    for (int i = 0; i < N; ++i) z[i] = a * x[i] + b * y[i];
+    double z[N];
+    if (a == 1 && b == 1) {  // the predictor's case
+      for (int i = 0; i < N; ++i) z[i] = x[i] + y[i];
+    } else {
+      for (int i = 0; i < N; ++i) z[i] = a * x[i] + b * y[i];
+    }
+    store(z, vz);
   }
   static void scale(realtype c, N_Vector vx, N_Vector vz) {
     const double* x = data(vx);
-    double* z = data(vz);
+    double z[N];
     for (int i = 0; i < N; ++i) z[i] = c * x[i];
+    store(z, vz);
   }
   static void fill(realtype c, N_Vector vz) { std::fill_n(data(vz), N, c); }
   static void product(N_Vector vx, N_Vector vy, N_Vector vz) {
     const double *x = data(vx), *y = data(vy);
-    double* z = data(vz);
+    double z[N];
     for (int i = 0; i < N; ++i) z[i] = x[i] * y[i];
+    store(z, vz);
   }
+  // root mean square over each axis's four states, the worst axis counts: a group is as exact as its axes
+  // alone
   static realtype weighted_rms(N_Vector vx, N_Vector vw) {
     const double *x = data(vx), *w = data(vw);
-    double lane[4] = {0, 0, 0, 0};
+    double worst = 0;
     for (int i = 0; i < N; i += 4) {
+      double square[4];
       for (int j = 0; j < 4; ++j) {
         const double weighted = x[i + j] * w[i + j];
-        lane[j] += weighted * weighted;
+        square[j] = weighted * weighted;
       }
+      const double sum = (square[0] + square[1]) + (square[2] + square[3]);
+      // written so that a NaN is kept and told as CVODE's failure
+      worst = sum <= worst ? worst : sum;
     }
-    return std::sqrt(((lane[0] + lane[1]) + (lane[2] + lane[3])) / N);
+    return std::sqrt(worst / 4);
   }
   static int linear_combination(int count, realtype* c, N_Vector* vx, N_Vector vz) {
     double sum[N];
@@ -57,15 +74,16 @@ struct FixedOperations {
       const double* x = data(vx[k]);
       for (int i = 0; i < N; ++i) sum[i] += c[k] * x[i];
     }
-    std::copy_n(sum, N, data(vz));
+    store(sum, vz);
     return 0;
   }
   static int scale_add_multi(int count, realtype* a, N_Vector vx, N_Vector* vy, N_Vector* vz) {
     const double* x = data(vx);
     for (int k = 0; k < count; ++k) {
       const double* y = data(vy[k]);
-      double* z = data(vz[k]);
+      double z[N];
       for (int i = 0; i < N; ++i) z[i] = a[k] * x[i] + y[i];
+      store(z, vz[k]);
     }
     return 0;
   }

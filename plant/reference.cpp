@@ -66,7 +66,7 @@ Vector4 local_tolerance(const AxisEquations& eq, double tolerance_um) {
   if (eq.a > 0) slowest = std::min(slowest, std::sqrt(eq.a / (1 + eq.p / eq.p1)));
   // and stays for as long as the weakest damping lets it
   const double decay = std::min(eq.q1, eq.B / (1 + eq.p / eq.p1)) / 2;
-  const double position_m = tolerance_m * std::min(1.0, std::max(0.03, 20 * decay));
+  const double position_m = tolerance_m * std::min(1.0, std::max(0.01, 10 * decay));
   const double speed_m = position_m * std::min(1.0, slowest);
   return {position_m, speed_m, position_m, speed_m};
 }
