@@ -78,7 +78,8 @@ bool Evaluator::read(const Line& line, const Node& node, const State& state, dou
   int number = 0;
   if (!near_integer(index, number) || number < parameter::kFirst || number > parameter::kLast) {
     return fail(Code::parameter_range, line.span(node.own),
-                fmt::format("parameter {}, allowed {} to {}", index, parameter::kFirst, parameter::kLast));
+                fmt::format("parameter {}, allowed are whole numbers from {} to {}", index, parameter::kFirst,
+                            parameter::kLast));
   }
   value = read_parameter(state, number);
   return true;

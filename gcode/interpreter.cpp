@@ -18,20 +18,15 @@ void Interpreter::run(const Line& line) {
   line_ = &line;
   if (line.items.empty()) return;
   if (options_.block_delete && line.items.front().kind == ItemKind::block_delete) return;
-  if (line.failed) {
-    words_.read(line, state_, nullptr);
-    return recover(true);
-  }
-  const bool readable = words_.read(line, state_, &report_);
+  const bool readable = words_.read(line, state_, line.failed ? nullptr : &report_);
   if (words_.percent) {
     // the first % opens the program, the next one ends it; before the first only comments may stand
-    if (started_) {
-      finish(line_span());
-    }
+    if (started_) finish(line_span());
     started_ = true;
     return;
   }
   started_ = started_ || words_.any;
+  if (line.failed) return recover(true);
   if (!readable || !check()) return recover(false);
   execute();
 }
@@ -79,7 +74,7 @@ void Interpreter::recover(bool syntax) {
     state_.motion = motion_of_line();
     uncertain.motion = false;
   }
-  if (syntax || words_.refused_motion) uncertain.motion = true;
+  if (words_.refused_motion || (syntax && words_.g(GGroup::motion) == kNoCode)) uncertain.motion = true;
   if (syntax) uncertain.feed = true;
   for (const Item& item : line_->items) {
     if (item.kind == ItemKind::setting || item.kind == ItemKind::unread) uncertain.parameters = true;

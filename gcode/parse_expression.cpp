@@ -136,6 +136,7 @@ std::int32_t ExpressionParser::group() {
 std::int32_t ExpressionParser::function() {
   Node node;
   node.kind = NodeKind::function;
+  const Cursor before = cursor_;
   if (match(cursor_, "ATAN", node.own)) {
     node.kind = NodeKind::atan;
   } else {
@@ -145,6 +146,10 @@ std::int32_t ExpressionParser::function() {
       break;
     }
     if (node.operation == Operation::none) return unknown_name("function");
+  }
+  if (is_letter(cursor_.peek())) {  // SINE, COSH: a name that only begins like a function
+    cursor_ = before;
+    return unknown_name("function");
   }
   if (cursor_.peek() != '[') return fail(Code::argument_missing, node.own, "an argument in [ ] must follow");
   node.left = group();
@@ -206,6 +211,9 @@ std::int32_t ExpressionParser::unknown_name(const char* expected) {
                 "operators: + - * / ** MOD EQ NE GT GE LT LE AND OR XOR");
   }
   while (bytes.end < line_.text.size() && is_letter(line_.text[bytes.end])) ++bytes.end;
+  if (bytes.end - bytes.begin == 1 && expected[0] == 'f') {
+    return fail(Code::number_missing, bytes, "a value is missing before this letter");
+  }
   return fail(Code::unknown_name, bytes, fmt::format("there is no {} of this name", expected),
               expected[0] == 'f' ? "functions: ABS ACOS ASIN ATAN COS EXP FIX FUP LN ROUND SIN SQRT TAN"
                                  : "operators: + - * / ** MOD EQ NE GT GE LT LE AND OR XOR");

@@ -48,10 +48,12 @@ void Parser::parse(Line& line, std::size_t begin_at) {
   for (;;) {
     const char c = cursor_.peek();
     if (c == '\0' && cursor_.at_end()) return;
-    const std::uint32_t begin = cursor_.at();
+    std::uint32_t begin = cursor_.at();
     const std::size_t nodes = line.nodes.size();
+    const std::size_t items = line.items.size();
     if (!parse_item(c)) {
       line.nodes.resize(nodes);
+      if (line.items.size() > items) begin = line.items.back().bytes.end;
       Item rest;
       rest.kind = ItemKind::unread;
       rest.bytes = {begin, static_cast<std::uint32_t>(line.text.size())};

@@ -35,15 +35,13 @@ ActiveComment active_comment(std::string_view comment) {
   if (!comment.empty() && comment.back() == ')') comment.remove_suffix(1);
   while (!comment.empty() && is_blank(comment.front())) comment.remove_prefix(1);
   const std::size_t comma = comment.find(',');
-  if (comma == std::string_view::npos) {
-    for (const std::string_view alone : {"PROBECLOSE", "LOGCLOSE"}) {
-      if (same_letters(comment, alone)) return {comment, {}};
-    }
-    return {};
+  for (const std::string_view alone : {"PROBEOPEN", "PROBECLOSE", "LOGCLOSE"}) {
+    const std::string_view head = comment.substr(0, alone.size());
+    if (same_letters(head, alone)) return {head, {}};
   }
+  if (comma == std::string_view::npos) return {};
   const std::string_view command = comment.substr(0, comma);
-  for (const std::string_view known :
-       {"MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND", "PROBEOPEN", "PY"}) {
+  for (const std::string_view known : {"MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND"}) {
     if (same_letters(command, known)) return {command, comment.substr(comma + 1)};
   }
   return {};
@@ -186,7 +184,8 @@ bool Words::read_setting(const Line& line, const Item& item, const State& state,
   if (!near_integer(number, parameter_number) || parameter_number < parameter::kFirst ||
       parameter_number > parameter::kLast) {
     return refuse(report, Code::parameter_range, span,
-                  fmt::format("parameter {}, allowed {} to {}", number, parameter::kFirst, parameter::kLast));
+                  fmt::format("parameter {}, allowed are whole numbers from {} to {}", number,
+                              parameter::kFirst, parameter::kLast));
   }
   const bool tells_state =
       (parameter_number >= parameter::kToolNumber && parameter_number <= parameter::kReadOnlyLast) ||

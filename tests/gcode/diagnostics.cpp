@@ -1,0 +1,134 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "support.h"
+
+using namespace kadr;
+using namespace kadr::gcode;
+using namespace kadr::gcode::test;
+
+namespace {
+
+const std::filesystem::path kBad = std::filesystem::path(KADR_SOURCE_DIR) / "tests/bad/gcode";
+const std::string kHead = "# written by test_gcode with KADR_REGENERATE=1\n";
+
+std::string contents(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::vector<std::filesystem::path> bad_programs() {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(kBad)) {
+    if (entry.path().extension() == ".ngc") paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+/// The machine that the bad programs are read for: three axes, a bound on blocks.
+InterpretOptions small_machine() {
+  InterpretOptions options;
+  options.axis_letters = "XYZ";
+  options.max_blocks = 50;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("each bad program is told in the words of its golden text") {
+  REQUIRE(bad_programs().size() > 40);
+  for (const auto& path : bad_programs()) {
+    const std::string rendered =
+        kHead + run(contents(path), small_machine(), path.filename().string()).rendered;
+    auto golden = path;
+    golden.replace_extension(".txt");
+    if (std::getenv("KADR_REGENERATE") != nullptr) std::ofstream(golden, std::ios::binary) << rendered;
+    CAPTURE(path.string());
+    CHECK(rendered == contents(golden));
+  }
+}
+
+TEST_CASE("a bad program is told under the code that begins its name, and every code has a bad program") {
+  std::set<std::string> seen;
+  for (const auto& path : bad_programs()) {
+    const std::string name = path.filename().string();
+    const Outcome outcome = run(contents(path), small_machine(), name);
+    seen.insert(name.substr(0, 5));
+    if (name[0] != 'K') continue;
+    CAPTURE(name);
+    REQUIRE_FALSE(outcome.diagnostics.list().empty());
+    const std::vector<Code> codes = outcome.codes();
+    CHECK(std::any_of(codes.begin(), codes.end(), [&](Code c) { return code_name(c) == name.substr(0, 5); }));
+  }
+  for (const CodeEntry& entry : all_codes()) {
+    const std::string name = code_name(entry.code);
+    // a thousand errors need a test of their own
+    if ((name[1] != '1' && name[1] != '2') || entry.code == Code::too_many_errors) continue;
+    CAPTURE(name);
+    CHECK(seen.count(name) == 1);
+  }
+}
+
+TEST_CASE("six mistakes in one program give exactly six diagnostics") {
+  const Outcome outcome = run(contents(kBad / "six_mistakes.ngc"), small_machine());
+  CHECK(outcome.codes() == std::vector<Code>{Code::word_not_run, Code::bad_number, Code::arc_end_off_circle,
+                                             Code::axis_not_on_machine, Code::decimal_comma,
+                                             Code::word_unused});
+}
+
+TEST_CASE("a mistake is told once, not again by what depends on it") {
+  // the position is unknown after the broken line, so the arc is not judged
+  CHECK(only_code("F1 G1 X10 Y1.2.3\nG2 X20 I5\n") == Code::bad_number);
+  // ... until the axes are given again
+  CHECK(run("F1 G1 X1.2.3\nG1 X0 Y0\nG2 X20 I5\n").codes() ==
+        std::vector<Code>{Code::bad_number, Code::arc_end_off_circle});
+  // the cycle that is not run leaves no motion behind, its hole positions are not errors
+  CHECK(only_code("F1\nG81 X1 Y1 Z-1 R1\nX2\nX3\nG80\n") == Code::word_not_run);
+  // a failed setting is not blamed on its readers
+  CHECK(only_code("#1=[1/0]\n#2=[1/#1]\nG0 X[SQRT[#1-5]]\n") == Code::division_by_zero);
+  // the feed stood on the broken line
+  CHECK(only_code("G1 X1 F1,5\nX2\nX3\n") == Code::decimal_comma);
+  // G20 of a refused line still holds
+  const Outcome outcome = run("G20 G99\nG0 X1\n");
+  CHECK(outcome.moves()[0].end[0] == 25.4);
+}
+
+TEST_CASE("a line with a mistake keeps its plain end point for the lines after it") {
+  CHECK(only_code("F1 G1 X10 P3\nG2 X20 I5\n") == Code::word_unused);
+}
+
+TEST_CASE("a file of nothing but mistakes stops after 1000 errors with a note") {
+  std::string text;
+  for (int i = 0; i < 5000; ++i) text += "G1 X\n";
+  const Outcome outcome = run(text);
+  CHECK(outcome.diagnostics.errors() == 1000);
+  CHECK(outcome.diagnostics.list().size() == 1001);
+  CHECK(outcome.diagnostics.list().back().code == Code::too_many_errors);
+  CHECK(outcome.diagnostics.list().back().severity == Severity::note);
+}
+
+TEST_CASE("a million warnings are counted, a thousand shown") {
+  std::string text = "F1\n";
+  for (int i = 0; i < 3000; ++i) text += "G0 X0\nG2 X10.02 I5\n";
+  const Outcome outcome = run(text);
+  CHECK_FALSE(outcome.diagnostics.has_errors());
+  CHECK(outcome.diagnostics.warnings() == 1000);
+  CHECK(outcome.diagnostics.list().back().label == "2000 further warnings are not shown");
+}
+
+TEST_CASE("the bound on blocks ends the program with an error") {
+  InterpretOptions options;
+  options.max_blocks = 3;
+  const Outcome outcome = run("G0 X1\nX2\nX3\nX4\nX5\n", options);
+  CHECK(outcome.blocks.size() == 3);
+  CHECK(outcome.codes() == std::vector<Code>{Code::too_many_blocks});
+}

@@ -1,0 +1,149 @@
+#include <doctest/doctest.h>
+
+#include "gcode/program.h"
+#include "support.h"
+
+using namespace kadr;
+using namespace kadr::gcode;
+using namespace kadr::gcode::test;
+
+namespace {
+
+std::string printed_back(const std::string& text) {
+  SourceSet sources;
+  const std::uint32_t file = sources.add(SourceText("part.ngc", text));
+  Diagnostics diagnostics;
+  Report report(diagnostics);
+  Program program(sources, file, report);
+  Line line;
+  std::string out;
+  while (program.next(line)) append_source(out, line);
+  return out;
+}
+
+/// A line of tokens that mostly make sense, in all spellings of blanks and case.
+std::string random_line(Random& random) {
+  static const char* const kTokens[] = {"G1",
+                                        "g 0 1",
+                                        "X",
+                                        "Y-1.25",
+                                        "z + .5",
+                                        "F1 2 0",
+                                        "#1=2",
+                                        "#[1+1]=3.5",
+                                        "X#1",
+                                        "Y##2",
+                                        "[",
+                                        "]",
+                                        "X[1+2*3]",
+                                        "I[-#1**2]",
+                                        "SIN[30]",
+                                        "X-SIN[#1 - 2]",
+                                        "Y ATAN[1]/[2]",
+                                        "(text)",
+                                        "( MSG, a )",
+                                        ";rest ",
+                                        "%",
+                                        "/",
+                                        "N10",
+                                        "M3",
+                                        "O100 sub",
+                                        "#<name>=1",
+                                        "1.2.3",
+                                        "F1,5",
+                                        "\t",
+                                        "  ",
+                                        "X[2 m o d 3]",
+                                        "\xD0\xA5",
+                                        "\xFF",
+                                        "(\xCF\xF0)",
+                                        "e5",
+                                        "="};
+  std::string line;
+  const std::uint64_t tokens = random.below(8);
+  for (std::uint64_t i = 0; i < tokens; ++i) {
+    line += kTokens[random.below(std::size(kTokens))];
+    if (random.chance(0.5)) line += ' ';
+  }
+  return line;
+}
+
+}  // namespace
+
+TEST_CASE("a parsed program prints back byte for byte, whatever its blanks, case, line ends and mistakes") {
+  Random random(seed());
+  for (std::uint64_t i = 0; i < count(3000); ++i) {
+    std::string text = random.chance(0.1) ? "\xEF\xBB\xBF" : "";
+    const std::uint64_t lines = random.below(6);
+    for (std::uint64_t k = 0; k < lines; ++k) {
+      text += random_line(random);
+      text += random.chance(0.3) ? "\r\n" : "\n";
+    }
+    if (random.chance(0.5)) text += random_line(random);
+    CAPTURE(text);
+    REQUIRE(printed_back(text) == text);
+  }
+}
+
+TEST_CASE("blanks mean nothing, even inside words and numbers, and case means nothing") {
+  CHECK(last_point("g 0 x 1 2 . 5 y - 3\n")[0] == 12.5);
+  CHECK(last_point("g 0 x 1 2 . 5 y - 3\n")[1] == -3);
+  CHECK(last_point("\tG0\tX[ 2 m o d 3 ] ys i n [30]\n")[0] == 2);
+}
+
+TEST_CASE("numbers may lack digits before or after the point, and are correctly rounded at any length") {
+  CHECK(last_point("G0 X5. Y.25 Z+7 A-.5\n") == AxisValues{5, .25, 7, -.5});
+  CHECK(last_point("G0 X0.1000000000000000055511151231257827\n")[0] == 0.1);
+  CHECK(last_point("G0 X123456.123456789012345678\n")[0] == 123456.123456789012345678);
+}
+
+TEST_CASE("a closing percent sign ends a program and what follows is not read") {
+  const Outcome outcome = run("(head)\n%\nG0 X1\n%\nthis is no program\n");
+  CHECK(outcome.diagnostics.list().empty());
+  CHECK(outcome.trace.size() == 2);
+  CHECK(outcome.trace.back() == "PROGRAM_END");
+}
+
+TEST_CASE("nothing after M2 or M30 is run") {
+  CHECK(run("G0 X1\nM2\nG0 X2 X3\n").diagnostics.list().empty());
+  CHECK(run("G0 X1\nM30\nG0 X2\n").moves().size() == 1);
+}
+
+TEST_CASE("a file without an end gets one program end, an empty file too") {
+  CHECK(run("G0 X1").trace.back() == "PROGRAM_END");
+  CHECK(run("").trace == std::vector<std::string>{"PROGRAM_END"});
+}
+
+TEST_CASE("a deleted block runs unless block delete is on") {
+  InterpretOptions options;
+  CHECK(run("/N5 G0 X1\n/ X2\n", options).moves().size() == 2);
+  options.block_delete = true;
+  CHECK(run("/N5 G0 X1\n/ X2\n", options).moves().empty());
+}
+
+TEST_CASE("the last comment of a line is the message") {
+  const Outcome outcome = run("(MSG,a)(b)\n(first) (msg, Ab C )\n;(MSG, not)\n(  MSG,x)\n(MSG , y)\n");
+  CHECK(outcome.trace == std::vector<std::string>{"MESSAGE \" Ab C \"", "MESSAGE \"x\"", "PROGRAM_END"});
+  CHECK(outcome.codes() == std::vector<Code>{Code::comment_not_run});
+  CHECK_FALSE(outcome.diagnostics.has_errors());
+}
+
+TEST_CASE("debug messages show parameters with six decimals, quotes and bad bytes don't break the trace") {
+  const Outcome outcome = run("#7=1.5\n(DEBUG, a #7 #9999 \"q\" \xFF)\n");
+  CHECK(outcome.trace[0] == "MESSAGE \" a 1.500000 #9999 \\\"q\\\" \xEF\xBF\xBD\"");
+}
+
+TEST_CASE("a byte order mark and CR LF line ends are accepted") {
+  CHECK(last_point("\xEF\xBB\xBFG0 X1\r\nX2\r\n")[0] == 2);
+}
+
+TEST_CASE("spans point at the words that made a block") {
+  const Outcome outcome = run("N10 M3 G1 X5 Y6 F100 (cut)\n");
+  REQUIRE(outcome.moves().size() == 1);
+  // columns: N10=1, M3=5, G1=8 ... Y6 ends at 15
+  CHECK(outcome.moves()[0].span == Span{0, 1, 8, 8});
+}
+
+TEST_CASE("lines have no length limit") {
+  CHECK(last_point("G0 X" + std::string(100000, ' ') + "5 (" + std::string(100000, 'c') + ")\n")[0] == 5);
+}
