@@ -94,7 +94,9 @@ double cube_root(double x) {
 void lower_speed_on_arc(SegmentCaps& caps, const ArcBounds& b, const machine::AxisModel& axis, int index,
                         double centripetal) {
   const double accel = axis.max_accel_u_s2 / b.skew;
-  const double share = std::clamp(centripetal / accel, kNormalShare, kNormalShareMost);
+  const double share = centripetal < kInfinity
+                           ? std::clamp(centripetal / accel, kNormalShare, kNormalShareMost)
+                           : kNormalShare;
   caps.lower_speed(std::sqrt(share * accel / b.curvature), LimitedBy::centripetal, index);
   const double jerk = axis.max_jerk_u_s3 / b.skew;
   caps.lower_speed(cube_root(kTurningJerkShare * jerk / b.turning), LimitedBy::centripetal, index);

@@ -30,13 +30,20 @@ struct PathLimitTable {
 /// Computes all caps.
 ///
 /// Segment, with e = dx/ds, kappa = d2x/ds2, per machine axis j:
-///   v <= programmed feed, v <= max_feed_j / max|e_j|;  path limits are scaled by length / (length that F
-///   measures) arcs: v^2 |kappa| <= path centripetal limit;  v^2 |kappa| <= 0.8 A_j and v^3 |x'''| <= 0.4 J_j
-///   leave room for accelerating on the arc: (|e_j| a)^2 + (v^2 |kappa|)^2 <= A_j^2, |e_j| jerk + v^3 |x'''|
-///   <= 0.8 J_j, 3 v a |kappa| <= 0.6 J_j, so that normal and tangential parts together obey the axis (0.8^2
-///   + 0.6^2 = 1). A centripetal limit between 0.8 and 0.98 A_j is met exactly: the share 0.8 grows up to it.
-/// Joint (paper 003, section 1.2):
-///   v <= min_j min(a_inst_j tau, j_inst_j tau^2) / |delta e_j|,   v^2 |delta kappa_j| <= a_inst_j
+///   v <= programmed feed,   v <= max_feed_j / max|e_j|
+///   a <= A_j / |e_j|,       jerk <= J_j / |e_j|
+/// Limits of [path] count along the length that F measures: they are scaled by length_u / feed_length_u.
+///
+/// Arcs share each axis limit between turning and accelerating along the path:
+///   v^2 |kappa| <= centripetal limit of the path
+///   v^2 |kappa| <= 0.8 A_j,         (|e| a)^2 + (v^2 |kappa|)^2 <= A_j^2
+///   v^3 |x'''|  <= 0.4 J_j,         |e| jerk + v^3 |x'''| <= 0.8 J_j,     3 v a |kappa| <= 0.6 J_j
+/// so that both parts together obey the axis at every angle (0.8^2 + 0.6^2 = 1). A finite centripetal limit
+/// asks for its own share instead of 0.8 A_j; it is met exactly up to 0.98 A_j.
+///
+/// Joint (paper 003, section 1.2), a curvature step counting as a jump of acceleration:
+///   v <= min_j min(a_inst_j tau, j_inst_j tau^2) / |delta e_j|,    v^2 |delta kappa_j| <= a_inst_j
+///
 /// With axis_limits = report the axis limits are left out wherever the path gives an acceleration limit;
 /// corners keep the junction rule and rapids their axis speed.
 tl::expected<PathLimitTable, PlanError> limit_table(const Path& path, const machine::MachineModel& machine);

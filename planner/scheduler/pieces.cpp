@@ -78,6 +78,11 @@ void PieceWriter::ramp(const Element& e) {
 
 void PieceWriter::add(const std::vector<Element>& run, double stretch, double end_time_s) {
   stretch_ = stretch;
+  // at most three pieces per ramp; growing by half keeps many short runs cheap
+  std::size_t more = 0;
+  for (const Element& e : run) more += e.is_hold() ? 1 : 3;
+  if (law_.pieces.size() + more > law_.pieces.capacity())
+    law_.pieces.reserve(std::max(law_.pieces.size() + more, law_.pieces.capacity() * 3 / 2));
   for (const Element& e : run) {
     if (e.is_hold())
       piece(e.time_s(), e.s_u, e.v0_u_s, 0.0, 0.0, e.signature);
@@ -108,8 +113,9 @@ void fill_segment_table(const Path& path, const PathLimitTable& table, FeedPlan&
     const double end = path.start_s_u[i + 1];
     while (p + 1 < pieces.size() && pieces[p + 1].s_u < end) {
       ++p;
-      if (pieces[p].speed_u_s > seg.peak_u_s ||
-          (pieces[p].speed_u_s == seg.peak_u_s && pieces[p].accel_u_s2 == 0.0)) {
+      const JerkPiece& next = pieces[p];
+      const bool holds = next.accel_u_s2 == 0.0 && next.jerk_u_s3 == 0.0;
+      if (next.speed_u_s > seg.peak_u_s || (next.speed_u_s == seg.peak_u_s && holds)) {
         seg.peak_u_s = pieces[p].speed_u_s;
         why = {pieces[p].limited_by, pieces[p].limiting_axis};
       }

@@ -36,6 +36,7 @@ constexpr double kWorthwhile = 1.01;
 // speeds closer than this ratio are one level: no ramps between caps that differ by rounding
 constexpr double kSame = 1.0 + 1e-9;
 constexpr int kLevelRounds = 6;
+constexpr std::size_t kFewPlaces = 4;  // so few are looked at one by one
 constexpr int kReachRounds = 12;
 constexpr double kReachMargin = 1.25;
 // limits that differ by less than this inside a region are taken as their minimum when two ramps meet below
@@ -209,13 +210,16 @@ struct ValleyPlanner::Impl {
     const Ramp up = m == b.v ? direct : ramp_from(a, m, b);
     const Ramp down = m == b.v ? Ramp{} : ramp_to(b, m, a);
     if (!(up.length + down.length <= b.s - a.s)) return meet_below(a, b, direct, m);
-    if (m > b.v && last > first && use_shadows(a, b, m)) return;
-
-    // the plain rule: reach m at the first place that has it, or wherever the ramp ends if that is later
     const std::size_t place = caps.find_at_most(m * kSame, first, last);
     require(place <= last, "the lowest cap of a region is found in it");
     const Anchor up_end = anchor_after(a, up.length, m, b);
     const Anchor down_begin = anchor_before(b, down.length, m, a);
+    // ramps to a higher level are everywhere faster, so a place that these ramps leave at m can't be in a
+    // shadow
+    const bool shadowed = begin_of(place) < up_end.s || begin_of(place) > down_begin.s;
+    if (m > b.v && last > first && shadowed && use_shadows(a, b, m)) return;
+
+    // the plain rule: reach m at the first place that has it, or wherever the ramp ends if that is later
     const Anchor at{std::max(begin_of(place), a.s), m,
                     place % 2 == 0 || begin_of(place) < a.s ? place : place - 1};
     if (at.s > down_begin.s) {  // the way down already passes it
@@ -348,10 +352,12 @@ struct ValleyPlanner::Impl {
   bool use_shadows(const Anchor& a, const Anchor& b, double m) {
     const std::size_t first = a.first_inside();
     const std::size_t last = b.last_inside();
-    const std::size_t third = (last - first) / 3;
+    const double third = (b.s - a.s) / 3.0;
+    const std::size_t left_third = std::clamp(locate_after(a.s + third, a.place, b.place), first, last);
+    const std::size_t right_third =
+        std::clamp(locate_before(b.s - third, b.place, a.place), left_third, last);
     Level level;
-    const double middle = caps.min(first + third, last - third);
-    if (find_level(a, b, m, middle, true, true, level)) {
+    if (find_level(a, b, m, caps.min(left_third, right_third), true, true, level)) {
       const bool left = keeps_below_caps(a, level.up_end, level.up.limits, b);
       const bool right = keeps_below_caps(level.down_begin, b, level.down.limits, b);
       if (left && right) {
@@ -361,13 +367,13 @@ struct ValleyPlanner::Impl {
         return true;
       }
     }
-    if (find_level(a, b, m, caps.min(first, last - third), false, true, level) &&
+    if (find_level(a, b, m, caps.min(first, right_third), false, true, level) &&
         keeps_below_caps(level.down_begin, b, level.down.limits, b)) {
       push_ramp(level.down_begin, b, level.down);
       push_region(a, level.down_begin, level.up);
       return true;
     }
-    if (find_level(a, b, m, caps.min(first + third, last), true, false, level) &&
+    if (find_level(a, b, m, caps.min(left_third, last), true, false, level) &&
         keeps_below_caps(a, level.up_end, level.up.limits, b)) {
       push_region(level.up_end, b, level.down);
       emit_ramp(a, level.up_end, level.up.limits);
@@ -407,6 +413,25 @@ struct ValleyPlanner::Impl {
     s = rising ? p.s + from_low : q.s - from_low;
   }
 
+  /// The same question for a few places, between two fractions of the ramp's time: each by the speed with
+  /// which the ramp comes to its higher end.
+  bool below_each_cap(const Anchor& p, const Anchor& q, RampLimits limits, double t0, double t1,
+                      std::size_t from, std::size_t to) const {
+    for (std::size_t place = from; place <= to; ++place) {
+      const double edge = q.v > p.v ? end_of(place) : begin_of(place);
+      double low = t0, high = t1;
+      double s, v;
+      for (int i = 0; i < 45; ++i) {
+        const double mid = 0.5 * (low + high);
+        ramp_at(p, q, limits, mid, s, v);
+        (s < edge ? low : high) = mid;
+      }
+      ramp_at(p, q, limits, q.v > p.v ? low : high, s, v);
+      if (v > table.cap_u_s[place]) return false;
+    }
+    return true;
+  }
+
   /// True if the ramp p -> q is at or below every cap inside it (q and p themselves excepted). Halves in time
   /// until a part's highest speed is below the lowest cap it passes.
   bool keeps_below_caps(const Anchor& p, const Anchor& q, RampLimits limits, const Anchor& b) const {
@@ -426,13 +451,19 @@ struct ValleyPlanner::Impl {
       double s0, v0, s1, v1;
       ramp_at(p, q, limits, part.t0, s0, v0);
       ramp_at(p, q, limits, part.t1, s1, v1);
-      const std::size_t from =
-          part.t0 > 0.0 ? locate_after(std::clamp(s0, p.s, b.s), p.place, b.place) : first;
-      const std::size_t to = part.t1 < 1.0 ? locate_after(std::clamp(s1, p.s, b.s), p.place, b.place) : last;
-      const double lowest =
-          caps.min(std::clamp(from, first, last), std::clamp(std::max(from, to), first, last));
+      const auto place_at = [&](double s) {
+        return std::clamp(locate_after(std::clamp(s, p.s, b.s), p.place, b.place), first, last);
+      };
+      const std::size_t from = part.t0 > 0.0 ? place_at(s0) : first;
+      const std::size_t to = part.t1 < 1.0 ? std::max(place_at(s1), from) : last;
+      const double lowest = caps.min(from, to);
       if (std::max(v0, v1) <= lowest) continue;
-      if (std::min(v0, v1) > lowest || part.depth == kDepth) return false;
+      if (std::min(v0, v1) > lowest) return false;
+      if (to <= from + kFewPlaces) {
+        if (!below_each_cap(p, q, limits, part.t0, part.t1, from, to)) return false;
+        continue;
+      }
+      if (part.depth == kDepth) return false;
       const double mid = 0.5 * (part.t0 + part.t1);
       parts[count++] = {mid, part.t1, part.depth + 1};
       parts[count++] = {part.t0, mid, part.depth + 1};
