@@ -102,6 +102,10 @@ bool Interpreter::arc_center_words(PlanePoint start, PlanePoint& center) {
          along(axes.second, start.second_mm, center.second_mm);
 }
 
+ArcLimits Interpreter::limits_of_arc() const {
+  return arc_limits(state_.inches, options_.arc_end_tolerance_mm, options_.arc_end_tolerance_relative);
+}
+
 bool Interpreter::refuse_arc(const Arc& arc, PlanePoint end) {
   const PlaneAxes axes = plane_axes(state_.plane);
   const char first = kAxisLetters[static_cast<std::size_t>(axes.first)];
@@ -135,7 +139,12 @@ bool Interpreter::refuse_arc(const Arc& arc, PlanePoint end) {
       const double apart = std::fabs(arc.radius_start_mm - arc.radius_end_mm);
       d.label = fmt::format("radius at start {:.3f} mm, at end {:.3f} mm, differ by {:.3f} mm",
                             arc.radius_start_mm, arc.radius_end_mm, apart);
-      d.notes.push_back(fmt::format("allowed {:.3f} mm (path.arc_end_tolerance_mm)", arc.allowed_mm));
+      const ArcLimits limits = limits_of_arc();
+      d.notes.push_back(
+          fmt::format("allowed {} mm: the larger of {} mm (path.arc_end_tolerance_mm may widen it) and {} % "
+                      "of the radius, at most {} mm",
+                      figure(arc.allowed_mm), figure(limits.least_mm), figure(limits.relative * 100),
+                      figure(limits.ceiling_mm)));
       // the second coordinate that would lie on the circle, on the side where the end is
       const double across = end.first_mm - arc.center.first_mm;
       const double square = (arc.radius_start_mm - across) * (arc.radius_start_mm + across);

@@ -76,6 +76,7 @@ class Interpreter {
   void arc(Motion motion);
   bool find_arc(const AxisValues& end, bool clockwise, Arc& result);
   bool arc_center_words(PlanePoint start, PlanePoint& center);
+  ArcLimits limits_of_arc() const;
   bool refuse_arc(const Arc& arc, PlanePoint end);
   void warn_arc(const Arc& arc);
   bool feed_ready();
