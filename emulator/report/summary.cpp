@@ -46,8 +46,9 @@ std::string counted(std::size_t n, std::string_view word) {
 std::string title(const RunSummary& s, const SummaryContext& c) {
   std::string left = fmt::format("{} on {}", one_line(c.program, 60), one_line(c.machine, 60));
   if (!c.scenario.empty()) left += ", scenario " + one_line(c.scenario, 60);
-  std::string right = s.outcome == "alarm" ? counted(s.alarms, "alarm") : s.outcome;
-  if (s.outcome == "complete" && c.program_warnings > 0) right = counted(c.program_warnings, "warning");
+  std::string right = s.outcome;
+  if (c.program_warnings > 0) right += ", " + counted(c.program_warnings, "warning");
+  if (s.alarms > 0) right += ", " + counted(s.alarms, "alarm");
   const std::size_t used = display_width(left) + display_width(right);
   return left + std::string(used + 2 < kWidth ? kWidth - used : 2, ' ') + right + '\n' +
          std::string(kWidth, '-') + '\n';

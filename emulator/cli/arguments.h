@@ -1,0 +1,72 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "machine/machine.h"
+
+namespace kadr::cli {
+
+enum class Command : std::uint8_t {
+  run,
+  check,
+  plan,
+  canon,
+  info,
+  machine_show,
+  machine_list,
+  machine_check,
+  machine_new,
+  explain,
+  scenario_run,
+  scenario_list,
+  version,
+};
+
+enum class When : std::uint8_t { automatic, always, never };
+enum class DiagnosticFormat : std::uint8_t { human, gcc, json };
+enum class ProgressMode : std::uint8_t { automatic, never, plain };
+
+/// How a command talks.
+struct OutputOptions {
+  bool json = false;   ///< one JSON document on standard output
+  bool quiet = false;  ///< no notes, no progress, no summary
+  When color = When::automatic;
+  ProgressMode progress = ProgressMode::automatic;
+  DiagnosticFormat format = DiagnosticFormat::human;
+  std::size_t max_errors = 20;  ///< diagnostics shown; 0: all
+};
+
+/// The command line as read. Fields that a command does not have keep their defaults.
+struct Arguments {
+  Command command = Command::version;
+  OutputOptions output;
+  std::vector<std::string>
+      files;            ///< programs, logs, machine files, scenarios, codes: what the command works on
+  std::string machine;  ///< -m: file or shipped name; empty: the default machine
+  std::vector<std::string> settings;  ///< --set key=value
+  std::string scenario;
+  std::string log_path;
+  std::string publish_url;
+  bool plant = true;
+  bool log = true;
+  bool strict = false;
+  bool csv = false;
+  bool block_delete = false;
+  bool list = false;
+  bool force = false;
+  bool update = false;
+  std::string junit_path;
+  double until_s = machine::kInfinity;
+  int threads = 1;
+  std::uint32_t first_line = 1;
+  std::uint32_t last_line = UINT32_MAX;
+};
+
+/// Reads the command line. Help goes to standard output, a complaint to standard error.
+/// @return the arguments, or the exit code if there is nothing left to do
+std::variant<Arguments, int> read_arguments(int argc, const char* const* argv);
+
+}  // namespace kadr::cli

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <string>
+
+#include "emulator/cli/commands.h"
+#include "emulator/cli/exit_codes.h"
+#include "emulator/cli/inputs.h"
+#include "emulator/report/text.h"
+#include "gcode/gcode.h"
+
+namespace kadr::cli {
+namespace {
+
+const Diagnostic& first_error(const Diagnostics& diagnostics) {
+  for (const Diagnostic* d : by_place(diagnostics))
+    if (d->severity == Severity::error) return *d;
+  return diagnostics.list().front();
+}
+
+/// The trace's last line for a program with errors.
+std::string error_line(const Diagnostic& d) {
+  const std::string message = d.message.empty() ? std::string(code_entry(d.code).title) : d.message;
+  std::string text = emulator::one_line(
+      fmt::format("{}{}{} [{}]", message, d.label.empty() ? "" : ": ", d.label, code_name(d.code)), 500);
+  for (char& c : text)
+    if (c == '"') c = '\'';
+  return fmt::format("ERROR {} \"{}\"\n", d.span.line, text);
+}
+
+/// "STRAIGHT_FEED 1.000000 ... @12" as {"call": ..., "line": 12, "arguments": [...]}; words stay words.
+std::string call_json(std::string_view line, std::uint32_t source_line) {
+  emulator::Json j;
+  if (const auto at = line.rfind(" @"); at != std::string_view::npos) line = line.substr(0, at);
+  const auto name_end = std::min(line.find(' '), line.size());
+  j["call"] = std::string(line.substr(0, name_end));
+  j["line"] = source_line;
+  emulator::Json words = emulator::Json::array();
+  line.remove_prefix(std::min(name_end + 1, line.size()));
+  if (!line.empty() && line.front() == '"') {
+    words.push_back(std::string(line.substr(1, line.size() < 2 ? 0 : line.size() - 2)));
+    line = {};
+  }
+  while (!line.empty()) {
+    const auto end = std::min(line.find(' '), line.size());
+    const emulator::Json number = emulator::Json::parse(line.substr(0, end), nullptr, false);
+    words.push_back(number.is_number() ? number : emulator::Json(std::string(line.substr(0, end))));
+    line.remove_prefix(std::min(end + 1, line.size()));
+  }
+  j["arguments"] = std::move(words);
+  return emulator::json_line(j);
+}
+
+}  // namespace
+
+int canon_program(const Arguments& arguments, Console& console) {
+  emulator::Job job;
+  load_program(arguments.files.front(), job);
+  const bool json = console.options().json;
+  Diagnostics diagnostics;
+  gcode::InterpretOptions options;
+  options.block_delete = arguments.block_delete;
+
+  if (json)
+    console.data(
+        fmt::format("{{\n  \"kadr\": \"{}\",\n  \"command\": \"canon\",\n  \"calls\": [", KADR_VERSION));
+  std::string line;
+  bool first = true;
+  gcode::interpret(
+      job.sources, job.program, options,
+      [&](const gcode::Block& block) {
+        // nothing moves after an error
+        if (diagnostics.has_errors()) return;
+        if (block.span.line < arguments.first_line || block.span.line > arguments.last_line) return;
+        line.clear();
+        gcode::append_canon(line, block);
+        if (line.empty()) return;
+        if (json) {
+          console.data((first ? "\n    " : ",\n    ") + call_json(line, block.span.line));
+        } else {
+          line += '\n';
+          console.data(line);
+        }
+        first = false;
+      },
+      diagnostics);
+
+  const int code = diagnostics.has_errors() ? kNo : kYes;
+  if (json) {
+    emulator::Json list = emulator::json_of(diagnostics, job.sources);
+    console.data(fmt::format("{}],\n  \"exit_code\": {},\n  \"diagnostics\": {}\n}}\n", first ? "" : "\n  ",
+                             code, emulator::json_line(list)));
+    return code;
+  }
+  if (diagnostics.has_errors()) console.data(error_line(first_error(diagnostics)));
+  console.diagnostics(diagnostics, job.sources, program_text(arguments.files.front()),
+                      Console::Where::errors);
+  return code;
+}
+
+}  // namespace kadr::cli

@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "emulator/cli/commands.h"
+#include "emulator/cli/exit_codes.h"
+#include "emulator/cli/inputs.h"
+#include "emulator/report/check_report.h"
+#include "emulator/report/plan_table.h"
+#include "emulator/report/text.h"
+
+/// `kadr check` and `kadr plan`: everything up to the motion law, nothing that moves.
+namespace kadr::cli {
+namespace {
+
+using emulator::Json;
+
+Json head(const char* command, const std::string& program, const emulator::Job& job,
+          const Diagnostics& diagnostics) {
+  Json j;
+  j["kadr"] = KADR_VERSION;
+  j["command"] = command;
+  j["program"] = program;
+  j["machine"] = job.machine.model.name;
+  j["diagnostics"] = emulator::json_of(diagnostics, job.sources);
+  return j;
+}
+
+/// The whole text of one program's check: `kadr: unreadable` goes to standard error, all else is data.
+int check_one(const Arguments& arguments, const std::string& path, Console& console, Json& documents) {
+  const std::string program = program_text(path);
+  emulator::Job job;
+  Diagnostics diagnostics;
+  if (!load_machine(arguments.machine, arguments.settings, job, diagnostics)) {
+    console.diagnostics(diagnostics, job.sources, "the machine file", Console::Where::errors);
+    return kNotStarted;
+  }
+  try {
+    load_program(path, job);
+  } catch (const WorldError& e) {
+    // the other programs are still checked
+    console.error(e.what());
+    return kNotStarted;
+  }
+  const bool planned = emulator::prepare(job, diagnostics);
+  const int code = refused(diagnostics, arguments.strict) || !planned ? kNo : kYes;
+
+  if (console.options().json) {
+    Json j = head("check", program, job, diagnostics);
+    j["exit_code"] = code;
+    j["check"] = planned ? emulator::json_of(emulator::check_result(job), job.machine.model) : Json(nullptr);
+    documents.push_back(std::move(j));
+    return code;
+  }
+  console.diagnostics(diagnostics, job.sources, program, Console::Where::output);
+  const bool table =
+      planned && !console.options().quiet && console.options().format == DiagnosticFormat::human;
+  if (table) {
+    if (!diagnostics.list().empty()) console.data("\n");
+    console.data(emulator::render_check(emulator::check_result(job), program,
+                                        machine_text(arguments.machine, job.machine.model),
+                                        job.machine.model));
+  }
+  return code;
+}
+
+}  // namespace
+
+int check_programs(const Arguments& arguments, Console& console) {
+  int worst = kYes;
+  Json documents = Json::array();
+  bool first = true;
+  for (const std::string& path : arguments.files) {
+    const bool separated = !first && !console.options().json && !console.options().quiet &&
+                           console.options().format == DiagnosticFormat::human;
+    if (separated) console.data("\n");
+    first = false;
+    worst = std::max(worst, check_one(arguments, path, console, documents));
+  }
+  if (console.options().json) console.document(documents);
+  return worst;
+}
+
+int plan_program(const Arguments& arguments, Console& console) {
+  const std::string& path = arguments.files.front();
+  const std::string program = program_text(path);
+  emulator::Job job;
+  Diagnostics diagnostics;
+  if (!load_machine(arguments.machine, arguments.settings, job, diagnostics)) {
+    console.diagnostics(diagnostics, job.sources, "the machine file", Console::Where::errors);
+    return kNotStarted;
+  }
+  load_program(path, job);
+  // a plan shows what is asked for, also where the machine is too small: `kadr check` refuses that
+  const bool planned = emulator::prepare(job, diagnostics, emulator::SoftLimitRule::warning);
+  const int code = !planned || refused(diagnostics, arguments.strict) ? kNo : kYes;
+
+  if (console.options().json) {
+    Json j = head("plan", program, job, diagnostics);
+    j["exit_code"] = code;
+    j["time_s"] = planned ? Json(job.motion_s + job.dwell_s) : Json(nullptr);
+    j["rows"] = Json::array();
+    // the rows of a long program are streamed into the document's last key
+    std::string text = emulator::json_text(j);
+    text.erase(text.rfind("[]"));
+    console.data(text + "[");
+    bool first = true;
+    if (planned)
+      emulator::for_each_plan_row(job, [&](const emulator::PlanRow& row) {
+        console.data((first ? "\n    " : ",\n    ") + emulator::json_line(emulator::json_of(row)));
+        first = false;
+      });
+    console.data(first ? "]\n}\n" : "\n  ]\n}\n");
+    return code;
+  }
+
+  console.diagnostics(diagnostics, job.sources, program, Console::Where::errors);
+  if (code != kYes) return code;
+  if (arguments.csv) {
+    console.data(emulator::plan_csv_title());
+    emulator::for_each_plan_row(
+        job, [&](const emulator::PlanRow& row) { console.data(emulator::plan_csv_row(row)); });
+    return code;
+  }
+  const emulator::PlanTable table(job);
+  std::size_t rows = 0;
+  console.data(table.title());
+  emulator::for_each_plan_row(job, [&](const emulator::PlanRow& row) {
+    console.data(table.row(row));
+    ++rows;
+  });
+  console.data(table.footer(job, rows));
+  return code;
+}
+
+}  // namespace kadr::cli

@@ -1,0 +1,23 @@
+#pragma once
+#include "emulator/cli/arguments.h"
+#include "emulator/cli/console.h"
+
+/// One function per command: does the work, prints, and returns the exit code. The world's faults are thrown
+/// as WorldError or std::system_error, our own as BrokenPromise; main() turns them into exit codes.
+namespace kadr::cli {
+
+int run_program(const Arguments& arguments, Console& console);
+int check_programs(const Arguments& arguments, Console& console);
+int plan_program(const Arguments& arguments, Console& console);
+int canon_program(const Arguments& arguments, Console& console);
+int log_info(const Arguments& arguments, Console& console);
+int machine_show(const Arguments& arguments, Console& console);
+int machine_list(const Arguments& arguments, Console& console);
+int machine_check(const Arguments& arguments, Console& console);
+int machine_new(const Arguments& arguments, Console& console);
+int explain_codes(const Arguments& arguments, Console& console);
+int scenario_run(const Arguments& arguments, Console& console);
+int scenario_list(const Arguments& arguments, Console& console);
+int print_version(const Arguments& arguments, Console& console);
+
+}  // namespace kadr::cli

@@ -1,0 +1,134 @@
+#include "emulator/cli/console.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <tuple>
+
+#include "emulator/report/text.h"
+
+namespace kadr::cli {
+namespace {
+
+constexpr std::size_t kBuffer_bytes = std::size_t{1} << 18;
+
+/// Writes all of a text to a file descriptor; false with errno if that fails.
+bool write_all(int fd, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(fd, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+bool set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value && *value && std::string_view(value) != "0";
+}
+
+}  // namespace
+
+Console::Console(const OutputOptions& options) : options_(options) { buffer_.reserve(kBuffer_bytes + 4096); }
+
+Console::~Console() {
+  // a command that ends by an exception: what it printed until then still goes out
+  write_all(STDOUT_FILENO, buffer_);
+}
+
+void Console::data(std::string_view text) {
+  buffer_ += text;
+  if (buffer_.size() >= kBuffer_bytes) flush();
+}
+
+void Console::flush() {
+  const std::string out = std::move(buffer_);
+  buffer_.clear();
+  if (write_all(STDOUT_FILENO, out)) return;
+  const int reason = errno;
+  if (reason == EPIPE) {
+    // the reader has enough: end as every filter does
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
+  throw WorldError(fmt::format("standard output: {}", std::strerror(reason)));
+}
+
+void Console::message(std::string_view text) {
+  flush();
+  write_all(STDERR_FILENO, text);
+}
+
+void Console::note(std::string_view text) {
+  if (!options_.quiet) message(fmt::format("kadr: {}\n", text));
+}
+
+void Console::error(std::string_view text) { message(fmt::format("kadr: {}\n", text)); }
+
+bool Console::colour(Where where) const {
+  if (options_.color != When::automatic) return options_.color == When::always;
+  if (set("NO_COLOR")) return false;
+  if (set("CLICOLOR_FORCE")) return true;
+  // standard output has the same bytes on a terminal and in a file
+  return where == Where::errors && ::isatty(STDERR_FILENO) && !std::getenv("CI") &&
+         std::string_view(std::getenv("TERM") ? std::getenv("TERM") : "dumb") != "dumb";
+}
+
+std::vector<const Diagnostic*> by_place(const Diagnostics& list) {
+  std::vector<const Diagnostic*> sorted;
+  for (const Diagnostic& d : list.list()) sorted.push_back(&d);
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Diagnostic* a, const Diagnostic* b) {
+    const auto place = [](const Span& s) {
+      return s.line == 0 ? std::tuple(0u, 0u, 0u) : std::tuple(s.file + 1, s.line, s.column);
+    };
+    return place(a->span) < place(b->span);
+  });
+  return sorted;
+}
+
+void Console::diagnostics(const Diagnostics& list, const SourceSet& sources, const std::string& subject,
+                          Where where) {
+  if (list.list().empty()) return;
+  // errors have the first right to the room there is
+  const std::size_t most = options_.max_errors == 0 ? list.list().size() : options_.max_errors;
+  std::size_t errors = std::min(most, list.errors());
+  std::size_t others = std::min(most - errors, list.list().size() - list.errors());
+  const std::size_t shown = errors + others;
+
+  std::string out;
+  for (const Diagnostic* d : by_place(list)) {
+    std::size_t& room = d->severity == Severity::error ? errors : others;
+    if (room == 0) continue;
+    --room;
+    switch (options_.format) {
+      case DiagnosticFormat::human:
+        out += render_human(*d, sources, colour(where)) + '\n';
+        break;
+      case DiagnosticFormat::gcc:
+        out += render_gcc(*d, sources) + '\n';
+        break;
+      case DiagnosticFormat::json:
+        out += emulator::json_line(emulator::json_of(*d, sources)) + '\n';
+        break;
+    }
+  }
+  if (options_.format == DiagnosticFormat::human) {
+    if (shown < list.list().size())
+      out += fmt::format("{} more not shown (--max-errors 0 shows all)\n", list.list().size() - shown);
+    out += fmt::format("{} in {}\n", count_text(list.errors(), list.warnings()), subject);
+  }
+  if (where == Where::output)
+    data(out);
+  else
+    message(out);
+  if (options_.format != DiagnosticFormat::human && shown < list.list().size())
+    note(fmt::format("{} more diagnostics not shown (--max-errors 0 shows all)", list.list().size() - shown));
+}
+
+}  // namespace kadr::cli

@@ -1,0 +1,53 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "emulator/cli/arguments.h"
+#include "emulator/report/json.h"
+#include "machine/base/diagnostic.h"
+
+namespace kadr::cli {
+
+/// The world's fault: a file, disk or pipe. Exit code 2.
+class WorldError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Standard output and standard error of a command. Data go out in large pieces; messages at once.
+class Console {
+ public:
+  explicit Console(const OutputOptions& options);
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
+  ~Console();
+
+  const OutputOptions& options() const { return options_; }
+  /// Data, to standard output. Throws WorldError when it can't be written.
+  void data(std::string_view text);
+  /// A document in `--json`, as text with a line end.
+  void document(const emulator::Json& json) { data(emulator::json_text(json) + '\n'); }
+  /// A message with "kadr: " before it, to standard error; -q leaves notes out.
+  void note(std::string_view text);
+  void error(std::string_view text);
+  /// Diagnostics in the form asked for, at most --max-errors of them, and a line that counts them.
+  /// `where`: standard output for `kadr check`, whose data they are, else standard error.
+  enum class Where { output, errors };
+  void diagnostics(const Diagnostics& list, const SourceSet& sources, const std::string& subject,
+                   Where where);
+  /// Everything is out; throws WorldError if not.
+  void flush();
+
+ private:
+  void message(std::string_view text);
+  bool colour(Where where) const;
+
+  OutputOptions options_;
+  std::string buffer_;
+};
+
+/// The diagnostics in order of file, line and column; those without a place come first.
+std::vector<const Diagnostic*> by_place(const Diagnostics& list);
+
+}  // namespace kadr::cli

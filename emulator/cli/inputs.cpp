@@ -1,0 +1,73 @@
+#include "emulator/cli/inputs.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+namespace kadr::cli {
+namespace {
+
+constexpr std::string_view kDefaultMachine = "mill3";
+
+SourceText open_text(const std::string& path) {
+  try {
+    return SourceText::open(path);
+  } catch (const std::system_error& e) {
+    throw WorldError(fmt::format("{}: {}", path == "-" ? "standard input" : path, e.code().message()));
+  }
+}
+
+std::string shipped_names() {
+  std::string names;
+  for (const std::string_view name : machine::shipped_machine_names())
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
+}
+
+}  // namespace
+
+bool load_machine(const std::string& name, const std::vector<std::string>& settings, emulator::Job& job,
+                  Diagnostics& diagnostics) {
+  const std::string wanted = name.empty() ? std::string(kDefaultMachine) : name;
+  const std::string_view shipped = machine::shipped_machine(wanted);
+  struct stat status {};
+  if (shipped.empty() && wanted != "-" && ::stat(wanted.c_str(), &status) != 0)
+    throw WorldError(fmt::format("machine {}: {}; machines that ship with kadr: {}", wanted,
+                                 std::strerror(errno), shipped_names()));
+  auto file = machine::read_machine(
+      shipped.empty() ? open_text(wanted) : SourceText(wanted + ".toml", std::string(shipped)), job.sources,
+      settings);
+  if (!file) {
+    for (const Diagnostic& d : file.error().list()) diagnostics.add(d);
+    return false;
+  }
+  job.machine = std::move(*file);
+  return true;
+}
+
+std::string machine_text(const std::string& name, const machine::MachineModel& model) {
+  if (name.empty()) return model.name + " (shipped, the default; -m names another)";
+  if (!machine::shipped_machine(name).empty()) return model.name + " (shipped)";
+  return fmt::format("{} ({})", model.name, name);
+}
+
+void load_program(const std::string& path, emulator::Job& job) {
+  job.program = job.sources.add(open_text(path));
+}
+
+std::string program_text(const std::string& path) { return path == "-" ? "standard input" : path; }
+
+std::uint32_t count_lines(std::string_view text) {
+  const auto ends = std::count(text.begin(), text.end(), '\n');
+  return static_cast<std::uint32_t>(ends) + (text.empty() || text.back() == '\n' ? 0 : 1);
+}
+
+bool refused(const Diagnostics& diagnostics, bool strict) {
+  return diagnostics.has_errors() || (strict && diagnostics.warnings() > 0);
+}
+
+}  // namespace kadr::cli

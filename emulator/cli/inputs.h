@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+
+#include "emulator/cli/console.h"
+#include "emulator/emulator.h"
+
+namespace kadr::cli {
+
+/// Reads a machine into a job. An empty name is mill3; a shipped machine's name goes before a file of that
+/// name.
+/// @return false if it has errors (in `diagnostics`)
+/// @throws WorldError for a name that is neither; std::system_error for a file that can't be read
+bool load_machine(const std::string& name, const std::vector<std::string>& settings, emulator::Job& job,
+                  Diagnostics& diagnostics);
+/// "mill3 (shipped, the default; -m names another)", "shop (shop.toml)"
+std::string machine_text(const std::string& name, const machine::MachineModel& model);
+
+/// Opens a program into a job: `-` is standard input.
+/// @throws WorldError with path and reason
+void load_program(const std::string& path, emulator::Job& job);
+/// The program's name for people: "standard input" for `-`.
+std::string program_text(const std::string& path);
+/// Number of lines of a text.
+std::uint32_t count_lines(std::string_view text);
+
+/// Errors, and warnings where --strict makes them count.
+bool refused(const Diagnostics& diagnostics, bool strict);
+
+}  // namespace kadr::cli

@@ -1,0 +1,171 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "emulator/cli/commands.h"
+#include "emulator/cli/exit_codes.h"
+#include "emulator/cli/inputs.h"
+#include "emulator/report/text.h"
+#include "emulator/report/travel.h"
+
+namespace kadr::cli {
+namespace {
+
+using emulator::Json;
+
+std::string axis_letters(const machine::MachineModel& model) {
+  std::string letters;
+  for (const machine::AxisModel& axis : model.axis)
+    letters += (letters.empty() ? "" : " ") + std::string(1, axis.letter);
+  return letters;
+}
+
+/// First comment line of a shipped machine: what it is.
+std::string description(std::string_view toml) {
+  const std::string_view line = toml.substr(0, toml.find('\n'));
+  if (line.empty() || line.front() != '#') return {};
+  return emulator::one_line(line.substr(1), 100);
+}
+
+/// The machine's text with `name = "..."` replaced.
+std::string renamed(std::string_view toml, const std::string& name) {
+  std::string out;
+  bool done = false;
+  while (!toml.empty()) {
+    const auto end = std::min(toml.find('\n'), toml.size() - 1) + 1;
+    const std::string_view line = toml.substr(0, end);
+    toml.remove_prefix(end);
+    const auto key_end = line.find_first_of(" =");
+    if (!done && line.substr(0, key_end) == "name" && line.find('=') != std::string_view::npos) {
+      const auto open = line.find('"'), close = line.find('"', open + 1);
+      if (open != std::string_view::npos && close != std::string_view::npos) {
+        out += fmt::format("{}\"{}\"{}", line.substr(0, open), name, line.substr(close + 1));
+        done = true;
+        continue;
+      }
+    }
+    out += line;
+  }
+  return out;
+}
+
+void write_file(const std::string& path, std::string_view text, bool overwrite) {
+  std::FILE* file = std::fopen(path.c_str(), overwrite ? "w" : "wx");
+  if (!file) {
+    const int reason = errno;
+    throw WorldError(fmt::format("{}: {}{}", path, std::strerror(reason),
+                                 reason == EEXIST ? "; --force overwrites it" : ""));
+  }
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  const int write_error = errno;
+  if (std::fclose(file) != 0 || !written)
+    throw WorldError(fmt::format("{}: {}", path, std::strerror(written ? errno : write_error)));
+}
+
+Json machine_json(const std::string& file, bool good, const emulator::Job& job,
+                  const Diagnostics& diagnostics) {
+  Json j;
+  j["file"] = file;
+  j["exit_code"] = good ? kYes : kNo;
+  j["name"] = good ? Json(job.machine.model.name) : Json(nullptr);
+  j["axes"] = good ? Json(axis_letters(job.machine.model)) : Json(nullptr);
+  j["diagnostics"] = emulator::json_of(diagnostics, job.sources);
+  return j;
+}
+
+}  // namespace
+
+int machine_show(const Arguments& arguments, Console& console) {
+  emulator::Job job;
+  Diagnostics diagnostics;
+  const bool good = load_machine(arguments.machine, arguments.settings, job, diagnostics);
+  if (console.options().json) {
+    Json j = machine_json(arguments.machine.empty() ? "mill3" : arguments.machine, good, job, diagnostics);
+    j["toml"] = good ? Json(machine::render_machine(job.machine)) : Json(nullptr);
+    console.document(j);
+  } else if (good) {
+    console.data(machine::render_machine(job.machine));
+  } else {
+    console.diagnostics(diagnostics, job.sources, "the machine file", Console::Where::errors);
+  }
+  return good ? kYes : kNotStarted;
+}
+
+int machine_list(const Arguments&, Console& console) {
+  using Align = emulator::TextTable::Align;
+  emulator::TextTable table({{"machine", Align::left}, {"axes", Align::left}, {"what it is", Align::left}});
+  Json list = Json::array();
+  for (const std::string_view name : machine::shipped_machine_names()) {
+    emulator::Job job;
+    Diagnostics diagnostics;
+    load_machine(std::string(name), {}, job, diagnostics);
+    const std::string axes = axis_letters(job.machine.model);
+    const std::string what = description(machine::shipped_machine(name));
+    table.add({std::string(name), axes, what});
+    list.push_back({{"name", name}, {"axes", axes}, {"description", what}});
+  }
+  if (console.options().json)
+    console.document(list);
+  else
+    console.data(table.render());
+  return kYes;
+}
+
+int machine_check(const Arguments& arguments, Console& console) {
+  int worst = kYes;
+  Json documents = Json::array();
+  for (const std::string& file : arguments.files) {
+    emulator::Job job;
+    Diagnostics diagnostics;
+    bool good = false;
+    try {
+      good = load_machine(file, {}, job, diagnostics);
+    } catch (const WorldError& e) {
+      console.error(e.what());
+      worst = kNotStarted;
+      continue;
+    }
+    worst = std::max(worst, good ? kYes : kNo);
+    if (console.options().json) {
+      documents.push_back(machine_json(file, good, job, diagnostics));
+      continue;
+    }
+    console.diagnostics(diagnostics, job.sources, file, Console::Where::output);
+    if (good && !console.options().quiet && console.options().format == DiagnosticFormat::human)
+      console.data(fmt::format("{}: machine {}, axes {}: no errors\n", file, job.machine.model.name,
+                               axis_letters(job.machine.model)));
+  }
+  if (console.options().json) console.document(documents);
+  return worst;
+}
+
+int machine_new(const Arguments& arguments, Console& console) {
+  const std::string& name = arguments.files.front();
+  const bool plain = !name.empty() && name.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                          "0123456789_-") == std::string::npos;
+  if (!plain)
+    throw WorldError(
+        fmt::format("machine name '{}': letters, digits, _ and - make a name; the file is NAME.toml in "
+                    "the current folder",
+                    name));
+  emulator::Job job;
+  Diagnostics diagnostics;
+  if (!load_machine(arguments.machine, {}, job, diagnostics)) {
+    console.diagnostics(diagnostics, job.sources, "the machine file", Console::Where::errors);
+    return kNotStarted;
+  }
+  const std::string path = name + ".toml";
+  write_file(path, renamed(job.machine.text, name), arguments.force);
+  if (console.options().json)
+    console.document(Json({{"file", path}, {"name", name}, {"copied_from", job.machine.model.name}}));
+  else if (!console.options().quiet)
+    console.data(fmt::format("wrote {}, a copy of {}; change it, then: kadr machine check {}\n", path,
+                             job.machine.model.name, path));
+  return kYes;
+}
+
+}  // namespace kadr::cli

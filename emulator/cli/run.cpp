@@ -1,0 +1,238 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+#include <system_error>
+
+#include "emulator/cli/commands.h"
+#include "emulator/cli/exit_codes.h"
+#include "emulator/cli/inputs.h"
+#include "emulator/cli/progress.h"
+#include "emulator/cli/run_header.h"
+#include "emulator/cli/signals.h"
+#include "emulator/report/alarm_list.h"
+#include "emulator/report/summary.h"
+#include "emulator/report/text.h"
+#include "emulator/report/travel.h"
+#include "emulator/scenario/scenario.h"
+
+namespace kadr::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using emulator::Json;
+
+/// "PROG.lcmlog" in the current folder: the program's name without folders and last extension.
+std::string default_log_path(const std::string& program) {
+  const std::string stem = program == "-" ? "stdin" : fs::path(program).stem().string();
+  return (stem.empty() ? "program" : stem) + ".lcmlog";
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored);
+}
+
+/// A log must never take the place of one of its inputs.
+void refuse_bad_log_path(const std::string& log, const Arguments& arguments, const std::string& program) {
+  if (log == "-")
+    throw WorldError("a log can't go to standard output: it is written beside and renamed at the end");
+  for (const std::string* input : {&program, &arguments.machine, &arguments.scenario})
+    if (!input->empty() && (same_file(log, *input) || same_file(log + ".part", *input)))
+      throw WorldError(fmt::format("{}: -o would overwrite this input", *input));
+  if (fs::is_directory(log)) throw WorldError(fmt::format("{}: is a folder; -o names the log itself", log));
+}
+
+/// What is going to be written, told before the run; how much room there is, if that is too little.
+void tell_expected_size(const emulator::Job& job, const Arguments& arguments, const std::string& log,
+                        const emulator::RunHeader& header, Console& console) {
+  const machine::MachineModel& model = job.machine.model;
+  const double planned_s = job.motion_s + job.dwell_s;
+  const double run_s = std::min(planned_s, arguments.until_s);
+  const double part = planned_s > 0 ? run_s / planned_s : 1.0;
+  const auto pulses = static_cast<double>(emulator::estimate_pulses(emulator::axis_travel(job.path), model));
+  const std::size_t text_bytes = header.program_text.size() + header.machine_toml.size() +
+                                 header.scenario_toml.size() + header.settings_toml.size();
+  const std::int64_t bytes = emulator::estimate_log_bytes(
+      model, run_s, static_cast<std::int64_t>(pulses * part),
+      static_cast<std::size_t>(static_cast<double>(job.blocks) * part), arguments.plant, text_bytes);
+  console.note(fmt::format("log {}, about {} for {} of machine time", log, emulator::bytes_text(bytes),
+                           emulator::duration_text(run_s)));
+  std::error_code error;
+  const fs::path folder = fs::absolute(log, error).parent_path();
+  const fs::space_info room = fs::space(folder, error);
+  if (!error && room.available < static_cast<std::uintmax_t>(bytes))
+    console.note(
+        fmt::format("only {} are free there; --no-log, --until, log.steps=false or log.viewer_rate_hz=0 "
+                    "write less",
+                    emulator::bytes_text(static_cast<std::int64_t>(room.available))));
+}
+
+/// Program, machine and settings, from the command line or else from the scenario.
+struct RunInputs {
+  Arguments arguments;  ///< with what the scenario gave filled in
+  emulator::Job job;
+  Diagnostics diagnostics;
+  std::string program;  ///< as given, for people
+  std::string scenario_toml;
+  std::string scenario_name;
+  bool machine_good = false;
+};
+
+void take_scenario(RunInputs& in) {
+  auto scenario = emulator::read_scenario(in.arguments.scenario, in.job.sources);
+  if (!scenario) {
+    for (const Diagnostic& d : scenario.error().list()) in.diagnostics.add(d);
+    return;
+  }
+  in.scenario_toml = scenario->text;
+  in.scenario_name = scenario->name;
+  std::vector<std::string> settings = scenario->settings;
+  settings.insert(settings.end(), in.arguments.settings.begin(), in.arguments.settings.end());
+  in.arguments.settings = std::move(settings);
+  if (in.arguments.machine.empty()) in.arguments.machine = scenario->machine;
+  if (!in.arguments.files.empty()) return;
+  if (!scenario->generated_program.empty()) {
+    in.job.program = in.job.sources.add(SourceText(scenario->program_name, scenario->generated_program));
+    in.program = scenario->program_name;
+  } else {
+    in.arguments.files.push_back(scenario->program_path);
+  }
+}
+
+void read_inputs(RunInputs& in) {
+  if (!in.arguments.scenario.empty()) take_scenario(in);
+  if (in.diagnostics.has_errors()) return;
+  in.machine_good = load_machine(in.arguments.machine, in.arguments.settings, in.job, in.diagnostics);
+  if (!in.arguments.files.empty()) {
+    load_program(in.arguments.files.front(), in.job);
+    in.program = program_text(in.arguments.files.front());
+  }
+}
+
+Json head(const RunInputs& in, int exit_code) {
+  Json j;
+  j["kadr"] = KADR_VERSION;
+  j["command"] = "run";
+  j["exit_code"] = exit_code;
+  j["program"] = in.program;
+  j["machine"] = in.machine_good ? Json(in.job.machine.model.name) : Json(nullptr);
+  j["scenario"] = in.scenario_name.empty() ? Json(nullptr) : Json(in.scenario_name);
+  j["diagnostics"] = emulator::json_of(in.diagnostics, in.job.sources);
+  return j;
+}
+
+/// Nothing moves: what was wrong goes out, in the form asked for.
+int refuse(const RunInputs& in, int exit_code, Console& console) {
+  if (console.options().json) {
+    Json j = head(in, exit_code);
+    j["run"] = nullptr;
+    console.document(j);
+  } else {
+    const std::string subject = in.machine_good ? in.program : "the machine or scenario file";
+    console.diagnostics(in.diagnostics, in.job.sources, subject, Console::Where::errors);
+  }
+  return exit_code;
+}
+
+/// Ends a run that the world or the plant's numerics stopped.
+[[noreturn]] void fail(const std::string& what) { throw WorldError(what); }
+[[noreturn]] void fail(const emulator::LogError& e) { fail(fmt::format("{}: {}", e.path, e.reason)); }
+
+std::unique_ptr<emulator::RunLog> open_log(const RunInputs& in, const emulator::RunHeader& header,
+                                           const std::string& path) {
+  const Arguments& arguments = in.arguments;
+  if (path.empty() && arguments.publish_url.empty()) return nullptr;
+  auto log = emulator::open_lcm_log({path, arguments.publish_url});
+  if (!log) fail(log.error());
+  if (auto begun = (*log)->begin(header); !begun) fail(begun.error());
+  for (const Diagnostic* d : by_place(in.diagnostics))
+    if (auto written = (*log)->diagnostic(*d, Ticks{-1}); !written) fail(written.error());
+  return std::move(*log);
+}
+
+int exit_code(const emulator::RunSummary& summary, int signal) {
+  if (summary.outcome == "interrupted" && signal != 0) return kSignal + signal;
+  return summary.alarms > 0 || summary.outcome == "plant error" ? kAlarm : kYes;
+}
+
+int move(RunInputs& in, Console& console) {
+  const Arguments& arguments = in.arguments;
+  const emulator::Job& job = in.job;
+  std::string log_path = arguments.log_path;
+  if (log_path.empty()) log_path = default_log_path(in.job.sources[in.job.program].name());
+  if (!arguments.log) log_path.clear();
+
+  SignalGuard signals;
+  emulator::RunOptions options;
+  options.plant = arguments.plant;
+  options.threads = arguments.threads;
+  options.until_s = arguments.until_s;
+  options.interrupt = signals.flag();
+  const emulator::RunHeader header = run_header(job, options, in.scenario_toml);
+  if (!log_path.empty()) {
+    refuse_bad_log_path(log_path, arguments, job.sources[job.program].name());
+    tell_expected_size(job, arguments, log_path, header, console);
+  }
+  const auto log = open_log(in, header, log_path);
+  emulator::AlarmList alarms(log.get());
+
+  Progress progress(arguments.output, count_lines(job.sources[job.program].text()));
+  options.progress = [&](double done, std::uint32_t line, double sim_s) {
+    progress.update(done, line, sim_s);
+  };
+  const auto result = emulator::run(job, &alarms, options);
+  const double wall_s = progress.wall_s();
+  progress.erase();
+  if (!result) {
+    if (result.error().world) fail(result.error().what);
+    console.error(result.error().what);
+    return kAlarm;
+  }
+
+  const int code = exit_code(*result, signals.signal());
+  emulator::SummaryContext context;
+  context.program = in.program;
+  context.machine = machine_text(arguments.machine, job.machine.model);
+  context.scenario = in.scenario_name;
+  context.model = &job.machine.model;
+  context.path_unit = emulator::path_unit(job.path, job.machine.model);
+  context.plant = arguments.plant;
+  context.program_warnings = in.diagnostics.warnings();
+  context.alarms = alarms.alarms();
+  context.alarm_counts = alarms.counts();
+  context.wall_s = wall_s;
+  if (!log_path.empty()) {
+    context.log_path = result->outcome == "interrupted" ? log_path + ".part" : log_path;
+    std::error_code error;
+    const auto size = fs::file_size(context.log_path, error);
+    context.log_bytes = error ? 0 : static_cast<std::int64_t>(size);
+  }
+  if (console.options().json) {
+    Json j = head(in, code);
+    j["run"] = emulator::json_of(*result, context);
+    console.document(j);
+  } else if (!console.options().quiet) {
+    console.data(emulator::render_summary(*result, context));
+  }
+  if (result->outcome == "interrupted")
+    console.error(
+        fmt::format("interrupted{}", log_path.empty() ? "" : "; what was written is in " + context.log_path));
+  return code;
+}
+
+}  // namespace
+
+int run_program(const Arguments& arguments, Console& console) {
+  RunInputs in;
+  in.arguments = arguments;
+  read_inputs(in);
+  if (!in.machine_good) return refuse(in, kNotStarted, console);
+  const bool planned = emulator::prepare(in.job, in.diagnostics, emulator::SoftLimitRule::warning);
+  if (!planned || refused(in.diagnostics, arguments.strict)) return refuse(in, kNo, console);
+  if (!console.options().json)
+    console.diagnostics(in.diagnostics, in.job.sources, in.program, Console::Where::errors);
+  return move(in, console);
+}
+
+}  // namespace kadr::cli

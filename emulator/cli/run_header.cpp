@@ -1,0 +1,65 @@
+#include "emulator/cli/run_header.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "machine/base/hash.h"
+
+namespace kadr::cli {
+namespace {
+
+std::string file_name(const std::string& path) {
+  if (path == "-") return "stdin";
+  const auto slash = path.rfind('/');
+  return slash == std::string::npos ? path : path.substr(slash + 1);
+}
+
+/// The lines without their comments: these name files as the user gave them, and equal inputs give equal logs
+/// wherever they lie.
+std::string without_comments(std::string_view toml) {
+  std::string out;
+  while (!toml.empty()) {
+    const auto end = toml.find('\n');
+    std::string_view line = toml.substr(0, end);
+    toml.remove_prefix(end == std::string_view::npos ? toml.size() : end + 1);
+    bool quoted = false;
+    std::size_t kept = 0;
+    for (; kept < line.size() && (quoted || line[kept] != '#'); ++kept)
+      if (line[kept] == '"') quoted = !quoted;
+    line = line.substr(0, kept);
+    while (!line.empty() && (line.back() == ' ' || line.back() == '\r')) line.remove_suffix(1);
+    if (line.empty()) continue;
+    out += line;
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace
+
+emulator::RunHeader run_header(const emulator::Job& job, const emulator::RunOptions& options,
+                               const std::string& scenario_toml) {
+  emulator::RunHeader header;
+  const SourceText& program = job.sources[job.program];
+  header.program_name = file_name(program.name());
+  header.program_text = program.text();
+  header.machine_toml = job.machine.text;
+  header.scenario_toml = scenario_toml;
+  header.settings_toml = without_comments(machine::render_machine(job.machine));
+  header.settings_toml += fmt::format("[run]\nplant = {}\n", options.plant);
+  if (options.until_s != machine::kInfinity)
+    header.settings_toml += fmt::format("until_s = {}\n", options.until_s);
+  header.machine = &job.machine.model;
+
+  Hash64 hash;
+  for (const std::string* text :
+       {&header.program_text, &header.machine_toml, &header.scenario_toml, &header.settings_toml}) {
+    hash.integer(static_cast<std::int64_t>(text->size()));
+    hash.bytes(text->data(), text->size());
+  }
+  header.inputs_hash = hash.digest();
+  return header;
+}
+
+}  // namespace kadr::cli

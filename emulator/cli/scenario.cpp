@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "emulator/cli/commands.h"
+#include "emulator/cli/exit_codes.h"
+#include "emulator/report/text.h"
+#include "emulator/scenario/scenario.h"
+
+namespace kadr::cli {
+namespace {
+
+using emulator::Json;
+
+void write_file(const std::string& path, std::string_view text) {
+  std::FILE* file = std::fopen(path.c_str(), "w");
+  if (!file) throw WorldError(fmt::format("{}: {}", path, std::strerror(errno)));
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  if (std::fclose(file) != 0 || !written) throw WorldError(fmt::format("{}: {}", path, std::strerror(errno)));
+}
+
+/// Rewrites the expectations of a scenario with what it did.
+void update(const std::string& path, const emulator::ScenarioResult& result, Console& console) {
+  SourceSet sources;
+  const auto scenario = emulator::read_scenario(path, sources);
+  if (!scenario || !result.failure.empty()) return;
+  const std::string text = emulator::updated_text(*scenario, result);
+  if (text == scenario->text) return;
+  write_file(scenario->file, text);
+  console.note(fmt::format("updated {}", scenario->file));
+}
+
+}  // namespace
+
+int scenario_run(const Arguments& arguments, Console& console) {
+  std::vector<emulator::ScenarioResult> results;
+  bool all_passed = true;
+  for (const std::string& path : emulator::find_scenarios(arguments.files)) {
+    results.push_back(emulator::run_scenario(path));
+    const emulator::ScenarioResult& result = results.back();
+    all_passed = all_passed && result.passed();
+    if (arguments.update) update(path, result, console);
+    if (console.options().json || (console.options().quiet && result.passed())) continue;
+    std::string text = emulator::render_result(result);
+    if (text.empty() || text.back() != '\n') text += '\n';
+    console.data(text);
+  }
+  if (console.options().json) {
+    std::string text = emulator::render_json(results);
+    if (text.empty() || text.back() != '\n') text += '\n';
+    console.data(text);
+  } else if (!console.options().quiet) {
+    std::string text = emulator::render_totals(results);
+    if (text.empty() || text.back() != '\n') text += '\n';
+    console.data(text);
+  }
+  if (!arguments.junit_path.empty()) {
+    if (arguments.junit_path == "-")
+      console.data(emulator::render_junit(results));
+    else
+      write_file(arguments.junit_path, emulator::render_junit(results));
+  }
+  return all_passed || arguments.update ? kYes : kNo;
+}
+
+int scenario_list(const Arguments& arguments, Console& console) {
+  using Align = emulator::TextTable::Align;
+  emulator::TextTable table({{"scenario", Align::left},
+                             {"machine", Align::left},
+                             {"program", Align::left},
+                             {"what it shows", Align::left}});
+  Json list = Json::array();
+  int code = kYes;
+  for (const std::string& path : emulator::find_scenarios(arguments.files)) {
+    SourceSet sources;
+    const auto scenario = emulator::read_scenario(path, sources);
+    if (!scenario) {
+      console.diagnostics(scenario.error(), sources, path, Console::Where::errors);
+      code = kNo;
+      continue;
+    }
+    table.add({scenario->name, scenario->machine, scenario->program_name,
+               emulator::one_line(scenario->summary, 200)});
+    list.push_back({{"name", scenario->name},
+                    {"file", scenario->file},
+                    {"machine", scenario->machine},
+                    {"program", scenario->program_name},
+                    {"summary", scenario->summary}});
+  }
+  if (console.options().json)
+    console.document(list);
+  else
+    console.data(table.render());
+  return code;
+}
+
+}  // namespace kadr::cli
