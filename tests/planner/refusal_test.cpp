@@ -1,0 +1,83 @@
+#include <doctest/doctest.h>
+
+#include "../support/golden.h"
+#include "machine/base/diagnostic.h"
+#include "planner_support.h"
+
+// What can't be planned: code, place, measured and allowed value, help.
+namespace kadr::test {
+namespace {
+
+const char kProgram[] =
+    "G21\n"
+    "G1 X10 F0\n"
+    "G18 G2 X10 I5 F300\n";
+
+/// The diagnostic of planning one line to X10 whose span is line 2 of the program.
+Diagnostic refused(const machine::MachineModel& machine, double feed_u_s) {
+  planner::PathBuilder builder(machine, {});
+  gcode::Block b;
+  b.kind = gcode::BlockKind::feed;
+  b.end = xyz(10);
+  b.length_u = 10.0;
+  b.feed_u_s = feed_u_s;
+  b.span = {0, 2, 1, 9};
+  builder.add(b);
+  const auto plan = planner::plan(builder.path(), machine);
+  REQUIRE_FALSE(plan);
+  return plan.error().diagnostic;
+}
+/// Golden texts are named by code, as in tests/golden/planner/K4001.txt.
+void check_text(const Diagnostic& d) {
+  SourceSet sources;
+  sources.add(SourceText("part.ngc", kProgram));
+  check_golden(std::string(KADR_SOURCE_DIR "/tests/golden/planner/") + code_name(d.code) + ".txt",
+               "tests/planner/refusal_test.cpp", render_human(d, sources));
+}
+
+}  // namespace
+
+TEST_CASE("a feed of zero is K4001 at the move") {
+  check_text(refused(plain_machine(), 0.0));
+  CHECK(refused(plain_machine(), std::nan("")).code == Code::feed_not_plannable);
+  CHECK(refused(plain_machine(), kInfinity).code == Code::feed_not_plannable);
+  CHECK(refused(plain_machine(), -1.0).code == Code::feed_not_plannable);
+}
+
+TEST_CASE("an axis that may not accelerate is K4002") {
+  auto machine = plain_machine();
+  machine.axis[0].max_accel_u_s2 = 0.0;
+  check_text(refused(machine, 10.0));
+  machine = plain_machine();
+  machine.axis[0].max_feed_u_s = 0.0;
+  CHECK(refused(machine, 10.0).label == "largest feed is zero for this move of X");
+  machine = plain_machine();
+  machine.axis[0].max_jerk_u_s3 = 0.0;
+  CHECK(refused(machine, 10.0).label == "jerk limit is zero for this move of X");
+  machine = plain_machine();
+  machine.axis[0].max_accel_u_s2 = kInfinity;
+  CHECK(refused(machine, 10.0).label == "nothing limits the acceleration for this move of X");
+}
+
+TEST_CASE("a motion of more than 1e9 s is K4003 at its slowest move") {
+  check_text(refused(plain_machine(), 1e-9));
+}
+
+TEST_CASE("an arc in a plane the machine does not have is K4004") {
+  const auto machine = plain_machine("XY");
+  planner::PathBuilder builder(machine, {});
+  gcode::Block b;
+  b.kind = gcode::BlockKind::arc;
+  b.plane = gcode::Plane::zx;
+  b.end = xyz(10);
+  b.center_second_mm = 5.0;
+  b.turns = 1;
+  b.feed_u_s = 5.0;
+  b.span = {0, 3, 5, 9};
+  builder.add(b);
+  const auto plan = planner::plan(builder.path(), machine);
+  REQUIRE_FALSE(plan);
+  check_text(plan.error().diagnostic);
+}
+
+}  // namespace kadr::test
