@@ -39,8 +39,9 @@ struct PlantError {
 struct LostSteps {
   int axis = 0;
   ControlTicks tick;
-  Steps steps;  ///< whole teeth in steps, since the last report; negative: the rotor fell behind in minus
-                ///< direction
+  /// Whole teeth in steps, since the last report; negative if the rotor stayed behind a motion in plus
+  /// direction.
+  Steps steps;
 };
 
 /// Per axis energy since the reset, joules; closes: motor work = kinetic + spring + dissipated, to 1e-9 of
