@@ -72,10 +72,8 @@ void Interpreter::check_codes() {
                               g_name(motion_code)),
                   "write them on two lines"));
   }
-  if ((nonmodal_code == 920 || words_.g(GGroup::tool_length) == 431) && !words_.has_axis()) {
-    const GGroup group = nonmodal_code == 920 ? GGroup::nonmodal : GGroup::tool_length;
-    error(problem(Code::word_missing, g_span(group),
-                  fmt::format("{} needs at least one axis word", g_name(words_.g(group)))));
+  if (nonmodal_code == 920 && !words_.has_axis()) {
+    error(problem(Code::word_missing, g_span(GGroup::nonmodal), "G92 needs at least one axis word"));
   }
   if (words_.has_axis() && !takes_axes && !names_motion && !state_.uncertain.motion &&
       (motion_code == 800 || state_.motion == Motion::none)) {
