@@ -51,8 +51,9 @@ class Receiver {
  public:
   explicit Receiver(const std::string& url) : lcm_(url + "&recv_buf_size=4000000") {
     if (!lcm_.good()) return;
-    subscription_ = lcm_.subscribe(".*", &Receiver::take, this);
-    if (subscription_) subscription_->setQueueCapacity(0);  // 0: no limit
+    // the C interface: the C++ one calls its handler through an object of another type, which UBSan refuses
+    subscription_ = ::lcm_subscribe(lcm_.getUnderlyingLCM(), ".*", &Receiver::take, this);
+    if (subscription_) ::lcm_subscription_set_queue_capacity(subscription_, 0);  // 0: no limit
   }
   bool good() const { return subscription_ != nullptr; }
   void receive_for(std::chrono::milliseconds time) { lcm_.handleTimeout(static_cast<int>(time.count())); }
@@ -60,13 +61,14 @@ class Receiver {
   std::vector<Message> messages;
 
  private:
-  void take(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+  static void take(const lcm_recv_buf_t* buffer, const char* channel, void* self) {
     const auto* bytes = static_cast<const std::uint8_t*>(buffer->data);
     // LCM's own question whether multicast works
-    if (channel != "LCM_SELF_TEST") messages.push_back({channel, {bytes, bytes + buffer->data_size}});
+    if (std::strcmp(channel, "LCM_SELF_TEST") == 0) return;
+    static_cast<Receiver*>(self)->messages.push_back({channel, {bytes, bytes + buffer->data_size}});
   }
   lcm::LCM lcm_;
-  lcm::Subscription* subscription_ = nullptr;
+  lcm_subscription_t* subscription_ = nullptr;
 };
 
 /// True if a message sent to the URL comes back on this network.
