@@ -62,18 +62,22 @@ class RandomProgram {
 
   void part() {
     writer_.mode = r_.chance(0.15) ? gcode::PathMode::exact_stop : gcode::PathMode::exact_path;
+    // one draw per statement: the order of arguments is the compiler's choice
+    const double speed = feed();
+    const double long_way = r_.decades(0.1, 100.0);
+    const double any_way = r_.decades(1e-4, 100.0);
     switch (r_.below(11)) {
       case 0:
         writer_.rapid(moved(r_.decades(0.01, 200.0), true));
         break;
       case 1:
-        writer_.line(moved(r_.decades(1e-4, 100.0), false), feed());
+        writer_.line(moved(any_way, false), speed);
         break;
       case 2:
-        writer_.line(moved(r_.decades(0.1, 100.0), true), feed());
+        writer_.line(moved(long_way, true), speed);
         break;
       case 3:
-        writer_.timed_line(moved(r_.decades(0.1, 50.0), true), r_.decades(0.01, 5.0));
+        writer_.timed_line(moved(0.5 * long_way, true), 2.0 / speed);
         break;
       case 4:
         arc(1 + r_.below(3), false);
@@ -94,7 +98,7 @@ class RandomProgram {
         curve();
         break;
       default:
-        writer_.line(writer_.at(), feed());
+        writer_.line(writer_.at(), speed);
         writer_.stop();
         break;
     }
@@ -121,7 +125,8 @@ class RandomProgram {
     }
     if (r_.chance(0.4)) to[static_cast<std::size_t>(axes.normal)] += r_.between(-10.0, 10.0);
     if (machine_.find_axis('A') >= 0 && r_.chance(0.3)) to[3] += r_.between(-90.0, 90.0);
-    writer_.arc(plane, cf, cs, r_.chance(0.5) ? turns : -turns, to, feed());
+    const int signed_turns = r_.chance(0.5) ? turns : -turns;
+    writer_.arc(plane, cf, cs, signed_turns, to, feed());
   }
 
   /// A straight line in equal or unequal pieces.
