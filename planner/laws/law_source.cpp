@@ -6,6 +6,10 @@
 namespace kadr::planner {
 namespace {
 
+/// A law that ends on a control tick may miss it by the rounding of its summed durations; far below a base
+/// tick.
+constexpr double kEndSlack_s = 1e-9;
+
 /// Linear feed over a tick that keeps the law's path and speeds at both ends:
 ///   ramp_begin = S/tau - (v1 - v0)/2,  ramp_end = S/tau + (v1 - v0)/2
 /// Where that would run backwards, the path rests for a part of the tick: it starts late, or ends early.
@@ -67,7 +71,7 @@ LawSource::LawSource(const MotionLaw& law, const machine::MachineModel& machine)
 }
 
 bool LawSource::finished() const {
-  return static_cast<double>(tick_.value) * machine_.clock.tau_s() >= law_.duration_s;
+  return static_cast<double>(tick_.value) * machine_.clock.tau_s() >= law_.duration_s - kEndSlack_s;
 }
 
 TickMotion LawSource::advance(const OperatorInput&) {
@@ -87,9 +91,10 @@ TickMotion LawSource::advance(const OperatorInput&) {
   const double begin = static_cast<double>(tick_.value) * tau;
   const std::size_t hint_begin = hint_;
   ++tick_;
-  const double end = static_cast<double>(tick_.value) * tau;
+  const double end = finished() ? law_.duration_s : static_cast<double>(tick_.value) * tau;
   const MotionState next = law_.eval(end, hint_);
-  m.s_end_u = std::max(next.s_u, m.s_begin_u);
+  // the last bits of the polynomials neither turn the path back nor take it past its end
+  m.s_end_u = std::min(std::max(next.s_u, m.s_begin_u), law_.length_u);
   m.speed_end_u_s = next.speed_u_s;
   m.accel_end_u_s2 = next.accel_u_s2;
   const JerkPiece& piece = law_.pieces[hint_];
