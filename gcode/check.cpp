@@ -85,7 +85,7 @@ void Interpreter::check_codes() {
   }
   if (nonmodal_code == 530) {
     const Motion motion = motion_of_line();
-    const bool line_motion = motion == Motion::traverse || motion == Motion::feed;
+    const bool line_motion = moves() && (motion == Motion::traverse || motion == Motion::feed);
     const bool incremental =
         words_.g(GGroup::distance) != kNoCode ? words_.g(GGroup::distance) == 910 : state_.incremental;
     if (!state_.uncertain.motion && (!line_motion || incremental)) {

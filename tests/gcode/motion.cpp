@@ -117,6 +117,7 @@ TEST_CASE("G53 goes to machine coordinates whatever the offsets") {
   CHECK(last_point("G10 L2 P1 X100\nG54\nG43.1 X5\nG53 G0 X3\n")[0] == 3);
   CHECK(only_code("G91 G53 G0 X3\n") == Code::g53_misplaced);
   CHECK(only_code("F1 G53 G2 X3 I1\n") == Code::g53_misplaced);
+  CHECK(only_code("G0 X1\nG53\n") == Code::g53_misplaced);
 }
 
 TEST_CASE("G28 goes by way of the named point and moves only the named axes on to the reference") {
