@@ -189,7 +189,8 @@ void Monitor::watch_path_error(const TickView& view) {
 void Monitor::watch_stop(const TickView& view, std::vector<EventRecord>& events) {
   const bool moved = view.motion->s_end_u > view.motion->s_begin_u;
   const bool at_rest = view.motion->speed_end_u_s == 0;
-  if (moved && stopped_) end_stop(events);
+  const Ticks begin{view.motion->tick.value * machine_.clock.control_tick.value};
+  if (moved && stopped_) end_stop(begin, events);
   if (moved)
     for (std::size_t a = 0; a < axes_.size(); ++a)
       if (view.batch->axis[a].command.position_begin_u != view.batch->axis[a].command.position_end_u)
@@ -199,7 +200,6 @@ void Monitor::watch_stop(const TickView& view, std::vector<EventRecord>& events)
   if (at_rest && moving_) {
     moving_ = false;
     stopped_ = true;
-    stop_tick_ = Ticks{(view.motion->tick.value + 1) * machine_.clock.control_tick.value};
     stop_segment_ = segment_;
     for (std::size_t a = 0; a < axes_.size(); ++a) {
       Axis& axis = axes_[a];
@@ -215,11 +215,11 @@ void Monitor::watch_stop(const TickView& view, std::vector<EventRecord>& events)
   }
 }
 
-void Monitor::end_stop(std::vector<EventRecord>& events) {
+void Monitor::end_stop(Ticks now, std::vector<EventRecord>& events) {
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     Axis& axis = axes_[a];
     if (axis.moved_since_stop && axis.omega_rad_s > 0) {
-      EventRecord e = event_here(stop_tick_, "residual", a, axis.stop_residual_u, 0.0);
+      EventRecord e = event_here(now, "residual", a, axis.stop_residual_u, 0.0);
       e.block = path_.segments[stop_segment_].block;
       e.span = path_.segments[stop_segment_].span;
       const machine::AxisModel& model = machine_.axis[a];
@@ -282,7 +282,7 @@ void Monitor::finish(Ticks end, std::vector<EventRecord>& events, std::vector<Bl
                              machine_.axis[a].letter, excursion.worst, excursion.limit);
         events.push_back(std::move(e));
       }
-  if (stopped_) end_stop(events);
+  if (stopped_) end_stop(end, events);
   if (block_open_) end_block(end, block_ends);
 }
 

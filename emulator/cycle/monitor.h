@@ -24,7 +24,7 @@ struct TickView {
 /// allowed besides. An overrun is one alarm when it begins and one "alarm end" with the worst value when it
 /// is over. Residual vibration after a stop is the larger of the envelope of the free link at the stop,
 ///   X = sqrt(x1^2 + ((v1 + zeta w x1)/wd)^2)      (paper 001, eq. 20 as corrected)
-/// and of |x1| until the next motion.
+/// and of |x1| until the next motion; it is told when that begins, with the block that ended in the stop.
 class Monitor {
  public:
   Monitor(const planner::Path& path, const machine::MachineModel& machine);
@@ -64,7 +64,7 @@ class Monitor {
   void watch_stop(const TickView& view, std::vector<EventRecord>& events);
   void watch_lost_steps(const std::vector<plant::LostSteps>& lost, Ticks tick,
                         std::vector<EventRecord>& events);
-  void end_stop(std::vector<EventRecord>& events);
+  void end_stop(Ticks now, std::vector<EventRecord>& events);
   void end_block(Ticks tick, std::vector<BlockEndRecord>& block_ends);
   EventRecord event_here(Ticks tick, const char* kind, std::size_t axis, double value, double limit) const;
 
@@ -80,7 +80,6 @@ class Monitor {
   std::size_t speed_segment_ = 0;
   int joint_ticks_ago_ = 1000;  // control ticks since a joint was passed
   bool moving_ = false, stopped_ = false;
-  Ticks stop_tick_;
   std::size_t stop_segment_ = 0;
   double path_error_u_ = 0, peak_feed_u_s_ = 0, held_error_u_ = 0;
   std::size_t alarms_ = 0;

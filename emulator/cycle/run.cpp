@@ -92,7 +92,7 @@ std::string event_text(const gcode::Block& b) {
     case BlockKind::program_end:
       return "program end";
     default:
-      return b.text;
+      return b.text.substr(std::min(b.text.find_first_not_of(' '), b.text.size()));
   }
 }
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace kadr::emulator {
 namespace {
 
@@ -36,9 +39,13 @@ void check_soft_limits(const planner::Path& path, const machine::MachineModel& m
     if (axis.soft_min_u == -machine::kInfinity && axis.soft_max_u == machine::kInfinity) continue;
     for (std::size_t i = 0; i < path.size(); ++i) {
       const auto [low_u, high_u] = planner::axis_extent(path, i, static_cast<int>(a));
-      if (high_u > axis.soft_max_u + kSlack_u)
+      // a move that only comes back from outside is not told again
+      const double start_u = path.node(i)[a];
+      if (high_u > std::max(axis.soft_max_u, start_u) + kSlack_u ||
+          (i == 0 && start_u > axis.soft_max_u + kSlack_u))
         report(path.segments[i], axis, high_u, axis.soft_max_u, rule, diagnostics);
-      if (low_u < axis.soft_min_u - kSlack_u)
+      if (low_u < std::min(axis.soft_min_u, start_u) - kSlack_u ||
+          (i == 0 && start_u < axis.soft_min_u - kSlack_u))
         report(path.segments[i], axis, low_u, axis.soft_min_u, rule, diagnostics);
     }
   }
