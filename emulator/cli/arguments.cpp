@@ -55,8 +55,12 @@ class Reader {
         throw CLI::RequiredError("PROG");
     } catch (const CLI::CallForHelp&) {
       const CLI::App* asked = &app_;
-      while (!asked->get_subcommands().empty()) asked = asked->get_subcommands().front();
-      fmt::print("{}", asked->help());
+      std::string before;
+      while (!asked->get_subcommands().empty()) {
+        before += (before.empty() ? "" : " ") + asked->get_name();
+        asked = asked->get_subcommands().front();
+      }
+      fmt::print("{}", asked->help(before));
       return kYes;
     } catch (const CLI::Success& e) {
       fmt::print("{}\n", e.what());
@@ -138,7 +142,7 @@ class Reader {
                     "Machine file, or the name of a shipped machine (`kadr machine list`); default: mill3")
         ->type_name("FILE|NAME");
     sub->add_option("--set", arguments_.settings,
-                    "Change one value of the machine file, e.g. path.max_feed_mm_s=80; repeatable")
+                    "Change one value of the machine file, e.g. feed.max_mm_s=80; repeatable")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false)
         ->take_all();
@@ -267,7 +271,7 @@ class Reader {
                              "Print every value in force with unit and origin, as a machine file");
     show->add_option("MACHINE", arguments_.machine, "Machine file or shipped name; default: mill3")
         ->type_name("");
-    show->add_option("--set", arguments_.settings, "Change one value, e.g. path.max_feed_mm_s=80; repeatable")
+    show->add_option("--set", arguments_.settings, "Change one value, e.g. feed.max_mm_s=80; repeatable")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false)
         ->take_all();

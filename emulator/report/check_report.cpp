@@ -60,7 +60,8 @@ std::string render_check(const CheckResult& r, const std::string& program, const
   out += fmt::format("  path         {} {}   ({} rapid)", fixed(r.path_u, 3), r.path_unit,
                      fixed(r.rapid_path_u, 3));
   if (r.peak_u_s > 0)
-    out += fmt::format("   peak feed {} {}/s (line {})", fixed(r.peak_u_s, 3), r.path_unit, r.peak_line);
+    out += fmt::format("   peak feed {} {} (line {})", fixed(r.peak_u_s, 3), speed_unit(r.path_unit),
+                       r.peak_line);
   out += '\n';
 
   using Align = TextTable::Align;

@@ -171,8 +171,9 @@ std::string render_summary(const RunSummary& s, const SummaryContext& c) {
   out += head("time", fmt::format("{}   ({} in motion, {} standing)   {} control ticks, {} blocks",
                                   duration_text(time_s), duration_text(s.motion_s), duration_text(s.dwell_s),
                                   grouped(s.control_ticks.value), grouped(s.blocks)));
-  out += head("path", fmt::format("{} {}   feed mean {}, peak {} {}/s", fixed(s.path_u, 3), c.path_unit,
-                                  fixed(s.mean_feed_u_s, 3), fixed(s.peak_feed_u_s, 3), c.path_unit));
+  out += head("path",
+              fmt::format("{} {}   feed mean {}, peak {} {}", fixed(s.path_u, 3), c.path_unit,
+                          fixed(s.mean_feed_u_s, 3), fixed(s.peak_feed_u_s, 3), speed_unit(c.path_unit)));
   out += motion_table(s, c);
   out += acceleration_table(s, c);
   if (c.plant) {

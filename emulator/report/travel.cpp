@@ -75,4 +75,8 @@ std::string path_unit(const planner::Path& path, const machine::MachineModel& ma
   return !rotary ? "mm" : !linear ? "deg" : "mm+deg";
 }
 
+std::string speed_unit(const std::string& path_unit) {
+  return path_unit == "mm+deg" ? "mm/s or deg/s" : path_unit + "/s";
+}
+
 }  // namespace kadr::emulator

@@ -28,4 +28,7 @@ const char* segment_unit(const planner::Path& path, std::size_t segment,
 /// Unit of a program's path: "mm", "deg", or "mm+deg" if it has segments of both kinds.
 std::string path_unit(const planner::Path& path, const machine::MachineModel& machine);
 
+/// "mm/s", "deg/s", or "mm/s or deg/s" for speeds along such a path.
+std::string speed_unit(const std::string& path_unit);
+
 }  // namespace kadr::emulator

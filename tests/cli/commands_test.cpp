@@ -1,0 +1,500 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/cli/programs.h"
+#include "tests/cli/run_kadr.h"
+
+namespace test = kadr::test;
+using kadr::test::call;
+using kadr::test::check_golden;
+using kadr::test::Finished;
+using kadr::test::Scratch;
+using Json = nlohmann::json;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// The summary without its last line, the only one with wall-clock figures.
+std::string without_wall(const std::string& summary) {
+  const auto at = summary.rfind("\nwall ");
+  REQUIRE(at != std::string::npos);
+  return summary.substr(0, at + 1);
+}
+
+/// "codes in order of line" of a list of diagnostics
+std::vector<std::string> codes(const Json& diagnostics) {
+  std::vector<std::string> list;
+  for (const Json& d : diagnostics) list.push_back(d["code"]);
+  return list;
+}
+
+}  // namespace
+
+TEST_CASE("kadr run prints a summary and writes PROG.lcmlog in the current folder") {
+  const Scratch scratch;
+  scratch.write("square.ngc", test::kSquare);
+  const Finished run = call({"run", "square.ngc"}, scratch.path());
+  CHECK(run.code == 0);
+  CHECK(contains(run.out, "square.ngc on mill3 (shipped, the default; -m names another)"));
+  CHECK(contains(run.out, "steps hash"));
+  CHECK(contains(run.err, "log square.lcmlog, about "));
+  CHECK(scratch.has("square.lcmlog"));
+  CHECK(!scratch.has("square.lcmlog.part"));
+  CHECK(!contains(run.out, "\x1b"));
+  // the wall-clock line is the last
+  CHECK(run.out.find("\nwall ") + 1 == run.out.rfind('\n', run.out.size() - 2) + 1);
+}
+
+TEST_CASE(
+    "the same run twice gives the same log, byte for byte, and the same summary but for its last line") {
+  const Scratch scratch;
+  scratch.write("square.ngc", test::kSquare);
+  const Finished first = call({"run", "square.ngc"}, scratch.path());
+  const std::string log = scratch.read("square.lcmlog");
+  CHECK(log.size() > 10'000);
+  const Finished second = call({"run", "square.ngc", "--threads", "2"}, scratch.path());
+  CHECK(scratch.read("square.lcmlog") == log);
+  CHECK(without_wall(first.out) == without_wall(second.out));
+}
+
+TEST_CASE("options of kadr run: other log, no log, no plant, --until") {
+  const Scratch scratch;
+  scratch.write("square.ngc", test::kSquare);
+  SUBCASE("-o") {
+    CHECK(call({"run", "square.ngc", "-o", "other.lcmlog"}, scratch.path()).code == 0);
+    CHECK(scratch.has("other.lcmlog"));
+    CHECK(!scratch.has("square.lcmlog"));
+  }
+  SUBCASE("--no-log, options before the program") {
+    const Finished run = call({"run", "--no-log", "square.ngc"}, scratch.path());
+    CHECK(run.code == 0);
+    CHECK(!scratch.has("square.lcmlog"));
+    CHECK(!contains(run.out, "\nlog "));
+    CHECK(run.err.empty());
+  }
+  SUBCASE("--no-plant gives the same pulses and no load") {
+    const Json with = Json::parse(call({"run", "square.ngc", "--no-log", "--json"}, scratch.path()).out);
+    const Json without =
+        Json::parse(call({"run", "square.ngc", "--no-log", "--no-plant", "--json"}, scratch.path()).out);
+    CHECK(with["run"]["steps_hash"] == without["run"]["steps_hash"]);
+    CHECK(with["run"]["axes"][0]["load"].is_object());
+    CHECK(without["run"]["axes"][0]["load"].is_null());
+  }
+  SUBCASE("--until stops at that machine time") {
+    const Finished run = call({"run", "square.ngc", "--no-log", "--until", "0.5", "--json"}, scratch.path());
+    CHECK(run.code == 0);
+    const Json j = Json::parse(run.out);
+    CHECK(j["run"]["time_s"] == doctest::Approx(0.5));
+    CHECK(j["run"]["outcome"] == "stopped by --until");
+  }
+  SUBCASE("--set changes a value of the machine") {
+    const Json slow = Json::parse(
+        call({"run", "square.ngc", "--no-log", "--json", "--set", "feed.max_mm_s=5"}, scratch.path()).out);
+    // 80 mm at 5 mm/s take 16 s, without acceleration and the way to the start
+    CHECK(slow["run"]["time_s"] > 16.0);
+    CHECK(slow["run"]["time_s"] < 20.0);
+  }
+}
+
+TEST_CASE("six mistakes give six diagnostics with carets, exit 1, and nothing moves") {
+  const Scratch scratch;
+  scratch.write("six.ngc", test::kSixMistakes);
+  const Finished run = call({"run", "six.ngc"}, scratch.path());
+  CHECK(run.code == 1);
+  CHECK(run.out.empty());
+  CHECK(!scratch.has("six.lcmlog"));
+  CHECK(!scratch.has("six.lcmlog.part"));
+  CHECK(contains(run.err, "6 errors in six.ngc\n"));
+  check_golden("six_mistakes.txt", run.err);
+
+  const Finished json = call({"run", "six.ngc", "--json"}, scratch.path());
+  CHECK(json.code == 1);
+  const Json j = Json::parse(json.out);
+  CHECK(j["diagnostics"].size() == 6);
+  CHECK(j["run"].is_null());
+  // one mistake in each of the lines 3 to 8
+  for (std::size_t i = 0; i < j["diagnostics"].size(); ++i) CHECK(j["diagnostics"][i]["line"] == i + 3);
+
+  const Finished check = call({"check", "six.ngc", "--json"}, scratch.path());
+  CHECK(check.code == 1);
+  CHECK(codes(Json::parse(check.out)[0]["diagnostics"]) == codes(j["diagnostics"]));
+}
+
+TEST_CASE("the gcc form has one line a diagnostic, --max-errors shows fewer") {
+  const Scratch scratch;
+  scratch.write("six.ngc", test::kSixMistakes);
+  const Finished all = call({"check", "six.ngc", "--format", "gcc"}, scratch.path());
+  CHECK(all.code == 1);
+  CHECK(std::count(all.out.begin(), all.out.end(), '\n') == 6);
+  CHECK(all.out.substr(0, 10) == "six.ngc:3:");
+  CHECK(all.err.empty());
+  const Finished two = call({"check", "six.ngc", "--format", "gcc", "--max-errors", "2"}, scratch.path());
+  CHECK(std::count(two.out.begin(), two.out.end(), '\n') == 2);
+  CHECK(contains(two.err, "4 more diagnostics not shown"));
+  const Finished lines = call({"check", "six.ngc", "--format", "json"}, scratch.path());
+  CHECK(std::count(lines.out.begin(), lines.out.end(), '\n') == 6);
+  CHECK(Json::parse(lines.out.substr(0, lines.out.find('\n')))["line"] == 3);
+}
+
+TEST_CASE("programs that can't be read: exit 2, path and reason, no log") {
+  const Scratch scratch;
+  for (const std::string command : {"run", "check", "plan", "canon"}) {
+    CAPTURE(command);
+    const Finished missing = call({command, "missing.ngc"}, scratch.path());
+    CHECK(missing.code == 2);
+    CHECK(missing.out.empty());
+    CHECK(missing.err == "kadr: missing.ngc: No such file or directory\n");
+    const Finished folder = call({command, "."}, scratch.path());
+    CHECK(folder.code == 2);
+    CHECK(folder.err == "kadr: .: Is a directory\n");
+  }
+  CHECK(!scratch.has("missing.lcmlog"));
+}
+
+TEST_CASE("an empty program, a program of comments and a file of 0 bytes run and take no time") {
+  const Scratch scratch;
+  for (const std::string text : {"", "(nothing)\n", "\n\n", "%\n%\n"}) {
+    CAPTURE(text);
+    scratch.write("empty.ngc", text);
+    const Finished run = call({"run", "empty.ngc", "--json"}, scratch.path());
+    CHECK(run.code == 0);
+    const Json j = Json::parse(run.out);
+    CHECK(j["run"]["pulses"] == 0);
+    CHECK(j["run"]["blocks"] == 0);
+    CHECK(j["run"]["motion_s"] == 0);
+    CHECK(call({"run", "empty.ngc"}, scratch.path()).code == 0);
+    CHECK(call({"check", "empty.ngc"}, scratch.path()).code == 0);
+    CHECK(call({"plan", "empty.ngc"}, scratch.path()).code == 0);
+    CHECK(call({"canon", "empty.ngc"}, scratch.path()).code == 0);
+    CHECK(call({"info", "empty.lcmlog"}, scratch.path()).code == 0);
+  }
+}
+
+TEST_CASE("a program from standard input runs as one from a file") {
+  const Scratch scratch;
+  scratch.write("square.ngc", test::kSquare);
+  const Json file = Json::parse(call({"run", "square.ngc", "--no-log", "--json"}, scratch.path()).out);
+  const Finished run = call({"run", "-", "--json"}, scratch.path(), test::kSquare);
+  CHECK(run.code == 0);
+  CHECK(scratch.has("stdin.lcmlog"));
+  CHECK(Json::parse(run.out)["run"]["steps_hash"] == file["run"]["steps_hash"]);
+  const Finished canon = call({"canon", "-"}, scratch.path(), test::kSquare);
+  CHECK(canon.out == call({"canon", "square.ngc"}, scratch.path()).out);
+}
+
+TEST_CASE("kadr check tells time, travel and what limits the feed, and has no log") {
+  const Scratch scratch;
+  scratch.write("square.ngc", test::kSquare);
+  const Finished check = call({"check", "square.ngc"}, scratch.path());
+  CHECK(check.code == 0);
+  CHECK(check.err.empty());
+  check_golden("check_square.txt", check.out);
+  CHECK(!scratch.has("square.lcmlog"));
+  const Json j = Json::parse(call({"check", "square.ngc", "--json"}, scratch.path()).out)[0];
+  CHECK(j["check"]["dwell_s"] == 0.5);
+  CHECK(j["check"]["axes"][0]["max_u"] == 30.0);
+  double shared_s = 0;
+  for (const Json& share : j["check"]["limited_by"]) shared_s += share["time_s"].get<double>();
+  CHECK(shared_s == doctest::Approx(j["check"]["time_s"].get<double>()));
+}
+
+TEST_CASE("kadr check goes on with the other programs and answers with the worst") {
+  const Scratch scratch;
+  scratch.write("square.ngc", test::kSquare);
+  scratch.write("six.ngc", test::kSixMistakes);
+  const Finished both = call({"check", "six.ngc", "square.ngc"}, scratch.path());
+  CHECK(both.code == 1);
+  CHECK(contains(both.out, "square.ngc on mill3"));
+  const Finished three = call({"check", "missing.ngc", "six.ngc", "square.ngc", "--json"}, scratch.path());
+  CHECK(three.code == 2);
+  CHECK(Json::parse(three.out).size() == 2);
+}
+
+TEST_CASE("a soft limit that a program leaves is an error of kadr check and an alarm of kadr run") {
+  const Scratch scratch;
+  scratch.write("far.ngc", "G21 G90\nG0 X100\nG1 X100000 F6000\nM2\n");
+  const Finished check = call({"check", "far.ngc"}, scratch.path());
+  CHECK(check.code == 1);
+  CHECK(contains(check.out, "error[K4101]"));
+  CHECK(contains(check.out, "OUTSIDE"));
+  const Finished run =
+      call({"run", "far.ngc", "--no-plant", "--no-log", "--until", "20", "--json"}, scratch.path());
+  CHECK(run.code == 3);
+  const Json j = Json::parse(run.out);
+  CHECK(j["diagnostics"][0]["severity"] == "warning");
+  CHECK(j["run"]["alarm_counts"].contains("K5101"));
+  CHECK(j["run"]["alarm_list"][0]["line"] == 3);
+  CHECK(j["exit_code"] == 3);
+  const Finished strict = call({"run", "far.ngc", "--strict"}, scratch.path());
+  CHECK(strict.code == 1);
+  CHECK(!scratch.has("far.lcmlog"));
+}
+
+TEST_CASE("kadr plan prints a row a block, as table, CSV and JSON with the same numbers") {
+  const Scratch scratch;
+  scratch.write("square.ngc", test::kSquare);
+  const Finished table = call({"plan", "square.ngc"}, scratch.path());
+  CHECK(table.code == 0);
+  check_golden("plan_square.txt", table.out);
+  const Finished csv = call({"plan", "square.ngc", "--csv"}, scratch.path());
+  CHECK(csv.code == 0);
+  CHECK(csv.out.substr(0, csv.out.find('\n')) ==
+        "line,motion,unit,length_u,begin_s,time_s,programmed_u_s,peak_u_s,end_u_s,limited_by,text");
+  // rapid, four sides and a dwell
+  CHECK(std::count(csv.out.begin(), csv.out.end(), '\n') == 7);
+  const Json j = Json::parse(call({"plan", "square.ngc", "--json"}, scratch.path()).out);
+  REQUIRE(j["rows"].size() == 6);
+  CHECK(j["rows"][1]["length_u"] == 20.0);
+  CHECK(j["rows"][1]["programmed_u_s"] == 10.0);
+  CHECK(j["rows"][3]["motion"] == "dwell");
+  CHECK(j["rows"][3]["time_s"] == 0.5);
+  // each row begins where the one before it ends
+  double end_s = 0;
+  for (const Json& row : j["rows"]) {
+    CHECK(row["begin_s"] == doctest::Approx(end_s));
+    end_s = row["begin_s"].get<double>() + row["time_s"].get<double>();
+  }
+  CHECK(end_s == doctest::Approx(j["time_s"].get<double>()));
+  CHECK(Json::parse(call({"plan", "-", "--json"}, scratch.path(), "").out)["rows"].empty());
+}
+
+TEST_CASE("kadr canon prints one call a line, in mm, and leaves out / lines on demand") {
+  const Scratch scratch;
+  scratch.write("part.ngc", "G20 G90\n/G0 X2\nG1 X1 F10 (MSG, hi)\nM2\n");
+  const Finished all = call({"canon", "part.ngc"}, scratch.path());
+  CHECK(all.code == 0);
+  CHECK(contains(all.out, "STRAIGHT_TRAVERSE 50.800000 0.000000"));
+  CHECK(contains(all.out, "STRAIGHT_FEED 25.400000 0.000000"));
+  check_golden("canon_part.txt", all.out);
+  const Finished some = call({"canon", "part.ngc", "--block-delete"}, scratch.path());
+  CHECK(!contains(some.out, "STRAIGHT_TRAVERSE"));
+  const Finished third = call({"canon", "part.ngc", "--lines", "2"}, scratch.path());
+  CHECK(std::count(third.out.begin(), third.out.end(), '\n') == 1);
+  const Json j = Json::parse(call({"canon", "part.ngc", "--json"}, scratch.path()).out);
+  bool found = false;
+  for (const Json& call : j["calls"])
+    if (call["call"] == "STRAIGHT_FEED") {
+      found = true;
+      CHECK(call["line"] == 3);
+      CHECK(call["arguments"][0] == 25.4);
+      CHECK(call["arguments"].size() == 9);
+    }
+  CHECK(found);
+}
+
+TEST_CASE("kadr canon of a program with an error prints the moves before it and an ERROR line") {
+  const Scratch scratch;
+  scratch.write("bad.ngc", "G21\nG0 X1\nG0 X2 G1 X3\nG0 X4\nM2\n");
+  const Finished run = call({"canon", "bad.ngc"}, scratch.path());
+  CHECK(run.code == 1);
+  CHECK(contains(run.out, "STRAIGHT_TRAVERSE 1.000000"));
+  CHECK(!contains(run.out, "STRAIGHT_TRAVERSE 4.000000"));
+  const auto last = run.out.rfind('\n', run.out.size() - 2) + 1;
+  CHECK(run.out.substr(last, 9) == "ERROR 3 \"");
+  CHECK(contains(run.err, "--> bad.ngc:3:"));
+  CHECK(Json::parse(call({"canon", "bad.ngc", "--json"}, scratch.path()).out)["exit_code"] == 1);
+}
+
+TEST_CASE("kadr info tells what a log holds and that its hashes agree") {
+  const Scratch scratch;
+  scratch.write("square.ngc", test::kSquare);
+  const Json run = Json::parse(call({"run", "square.ngc", "--json"}, scratch.path()).out);
+  const Finished info = call({"info", "square.lcmlog"}, scratch.path());
+  CHECK(info.code == 0);
+  CHECK(contains(info.out, "KADR_TICKS"));
+  const Json j = Json::parse(call({"info", "square.lcmlog", "--json"}, scratch.path()).out)[0];
+  CHECK(j["state"] == "complete");
+  CHECK(j["steps_hash"] == run["run"]["steps_hash"]);
+  CHECK(j["steps_hash_agrees"] == true);
+  CHECK(j["content_hash_agrees"] == true);
+  CHECK(j["axes"][0]["pulses"] == run["run"]["axes"][0]["pulses"]);
+  CHECK(j["file_bytes"] == run["run"]["log"]["bytes"]);
+  CHECK(j["control_ticks"] == run["run"]["control_ticks"]);
+}
+
+TEST_CASE("the inputs hash of a log follows the inputs and not the place they lie in") {
+  const Scratch scratch;
+  scratch.write("square.ngc", test::kSquare);
+  const auto hash = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"-o", "x.lcmlog", "-q"});
+    REQUIRE(call(arguments, scratch.path()).code == 0);
+    return Json::parse(call({"info", "x.lcmlog", "--json"}, scratch.path()).out)[0]["inputs_hash"]
+        .get<std::string>();
+  };
+  const std::string plain = hash({"run", "square.ngc"});
+  CHECK(hash({"run", "./square.ngc"}) == plain);
+  CHECK(hash({"run", "square.ngc", "-m", "mill3"}) == plain);
+  CHECK(hash({"run", "square.ngc", "--threads", "2"}) == plain);
+  CHECK(hash({"run", "square.ngc", "--no-plant"}) != plain);
+  CHECK(hash({"run", "square.ngc", "--set", "feed.max_mm_s=5"}) != plain);
+}
+
+TEST_CASE("kadr info refuses what is no log: exit 2") {
+  const Scratch scratch;
+  scratch.write("text.lcmlog", "this is no log\n");
+  scratch.write("empty.lcmlog", "");
+  for (const std::string file : {"text.lcmlog", "empty.lcmlog", "missing.lcmlog"}) {
+    CAPTURE(file);
+    const Finished info = call({"info", file}, scratch.path());
+    CHECK(info.code == 2);
+    CHECK(contains(info.err, file));
+    CHECK(info.out.empty());
+  }
+}
+
+TEST_CASE("kadr machine: list, show, new, check") {
+  const Scratch scratch;
+  const Json list = Json::parse(call({"machine", "list", "--json"}, scratch.path()).out);
+  REQUIRE(list.size() == 4);
+  CHECK(list[0]["name"] == "mill3");
+  CHECK(contains(call({"machine", "list"}, scratch.path()).out, "winder4"));
+
+  const Finished made = call({"machine", "new", "shop", "--from", "winder4"}, scratch.path());
+  CHECK(made.code == 0);
+  REQUIRE(scratch.has("shop.toml"));
+  const Finished check = call({"machine", "check", "shop.toml"}, scratch.path());
+  CHECK(check.code == 0);
+  CHECK(check.out == "shop.toml: machine shop, axes X Y A B: no errors\n");
+  CHECK(call({"machine", "new", "shop"}, scratch.path()).code == 2);
+  CHECK(call({"machine", "new", "shop", "--force"}, scratch.path()).code == 0);
+  CHECK(call({"machine", "new", "../shop"}, scratch.path()).code == 2);
+
+  const Finished show = call({"machine", "show", "shop.toml"}, scratch.path());
+  CHECK(show.code == 0);
+  // what is shown is a machine file again
+  scratch.write("again.toml", show.out);
+  CHECK(call({"machine", "check", "again.toml"}, scratch.path()).code == 0);
+  scratch.write("square.ngc", test::kSquare);
+  CHECK(contains(call({"run", "square.ngc", "-m", "shop.toml", "--no-log"}, scratch.path()).out,
+                 "square.ngc on shop (shop.toml)"));
+}
+
+TEST_CASE("a machine file with mistakes: exit 2 of kadr run, exit 1 of kadr machine check, carets in both") {
+  const Scratch scratch;
+  call({"machine", "new", "shop"}, scratch.path());
+  scratch.write("bad.toml", scratch.read("shop.toml") + "\n[nonsense]\nfoo = 1\n");
+  scratch.write("square.ngc", test::kSquare);
+  const Finished run = call({"run", "square.ngc", "-m", "bad.toml"}, scratch.path());
+  CHECK(run.code == 2);
+  CHECK(run.out.empty());
+  CHECK(contains(run.err, "error[K3"));
+  CHECK(contains(run.err, "--> bad.toml:"));
+  CHECK(contains(run.err, "^"));
+  CHECK(!scratch.has("square.lcmlog"));
+  const Finished check = call({"machine", "check", "bad.toml"}, scratch.path());
+  CHECK(check.code == 1);
+  CHECK(contains(check.out, "error[K3"));
+  const Finished unknown = call({"run", "square.ngc", "-m", "mill4"}, scratch.path());
+  CHECK(unknown.code == 2);
+  CHECK(unknown.err ==
+        "kadr: machine mill4: No such file or directory; machines that ship with kadr: mill3, winder4, rig1, "
+        "robot7\n");
+  const Finished set = call({"run", "square.ngc", "--set", "path.no_such_key=1"}, scratch.path());
+  CHECK(set.code == 2);
+  CHECK(contains(set.err, "no_such_key"));
+  const Json json = Json::parse(call({"run", "square.ngc", "-m", "bad.toml", "--json"}, scratch.path()).out);
+  CHECK(json["exit_code"] == 2);
+  CHECK(json["diagnostics"].size() >= 1);
+}
+
+TEST_CASE("kadr explain tells about a code, lists all, refuses unknown ones") {
+  const Finished one = call({"explain", "K4101"});
+  CHECK(one.code == 0);
+  CHECK(one.out.substr(0, 7) == "K4101: ");
+  CHECK(call({"explain", "4101"}).out == one.out);
+  const Finished list = call({"explain", "--list"});
+  CHECK(contains(list.out, "\nK5105  motor lost steps\n"));
+  const Json all = Json::parse(call({"explain", "--list", "--json"}).out);
+  CHECK(all.size() >= 20);
+  for (const Json& entry : all) CHECK(entry["explanation"].get<std::string>().size() > 20);
+  const Finished unknown = call({"explain", "K0001"});
+  CHECK(unknown.code == 2);
+  CHECK(contains(unknown.err, "there is no diagnostic 'K0001'"));
+  CHECK(call({"explain"}).code == 2);
+}
+
+TEST_CASE("kadr version names version, compiler and log format") {
+  const Finished version = call({"version"});
+  CHECK(version.code == 0);
+  CHECK(version.out.substr(0, 5) == "kadr ");
+  const Json j = Json::parse(call({"version", "--json"}).out);
+  CHECK(j["log_format"] == 1);
+  CHECK(version.out.substr(0, 10) == call({"--version"}).out.substr(0, 10));
+}
+
+TEST_CASE("usage mistakes: exit 2, a complaint and nothing on standard output") {
+  const Scratch scratch;
+  scratch.write("square.ngc", test::kSquare);
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{}, "which command?"},
+      {{"frobnicate"}, "there is no command 'frobnicate'"},
+      {{"run"}, "PROG"},
+      {{"run", "square.ngc", "--bogus"}, "--bogus"},
+      {{"run", "square.ngc", "other.ngc"}, "PROG"},
+      {{"run", "square.ngc", "--until", "soon"}, "--until takes seconds"},
+      {{"run", "square.ngc", "--until", "-1"}, "--until"},
+      {{"run", "square.ngc", "--until", "nan"}, "--until takes seconds"},
+      {{"run", "square.ngc", "--until", "1,5"}, "--until takes seconds"},
+      {{"run", "square.ngc", "--threads", "3"}, "takes 1 or 2"},
+      {{"run", "square.ngc", "--progress", "loud"}, "--progress knows"},
+      {{"run", "square.ngc", "-o", "-"}, "standard output"},
+      {{"run", "square.ngc", "-o", "."}, "is a folder"},
+      {{"run", "square.ngc", "-o", "square.ngc"}, "would overwrite"},
+      {{"run", "square.ngc", "-o", "no/such/folder/x.lcmlog"}, "No such file or directory"},
+      {{"run", "square.ngc", "--no-log", "--publish", "bogus://x"}, "bogus://x"},
+      {{"canon", "square.ngc", "--lines", "5-2"}, "--lines takes"},
+      {{"machine"}, "subcommand"},
+      {{"check", "square.ngc", "--format", "xml"}, "--format knows"},
+  };
+  for (const auto& [arguments, complaint] : cases) {
+    std::string line;
+    for (const std::string& a : arguments) line += a + ' ';
+    CAPTURE(line);
+    const Finished run = call(arguments, scratch.path());
+    CHECK(run.code == 2);
+    CHECK(run.out.empty());
+    CAPTURE(run.err);
+    CHECK(contains(run.err, complaint));
+  }
+  CHECK(scratch.read("square.ngc") == test::kSquare);
+}
+
+TEST_CASE("help texts go to standard output, name every command and the units of their numbers") {
+  const Finished help = call({"--help"});
+  CHECK(help.code == 0);
+  CHECK(help.err.empty());
+  for (const std::string command :
+       {"run", "check", "plan", "canon", "info", "machine", "explain", "scenario", "version"})
+    CHECK(contains(help.out, "\n  " + command + " "));
+  const Finished run = call({"run", "--help"});
+  CHECK(run.code == 0);
+  CHECK(contains(run.out, "Usage: kadr run "));
+  CHECK(contains(run.out, "seconds of machine time"));
+  CHECK(contains(run.out, "feed.max_mm_s=80"));
+  const Finished plan = call({"plan", "-h"});
+  CHECK(contains(plan.out, "mm/s"));
+  CHECK(contains(plan.out, "deg/s"));
+  CHECK(contains(call({"canon", "--help"}).out, "mm/min"));
+  CHECK(contains(call({"info", "--help"}).out, "in s"));
+  CHECK(call({"machine", "new", "--help"}).code == 0);
+}
+
+TEST_CASE("-q leaves out everything but data and errors") {
+  const Scratch scratch;
+  scratch.write("square.ngc", test::kSquare);
+  scratch.write("six.ngc", test::kSixMistakes);
+  const Finished run = call({"run", "square.ngc", "-q"}, scratch.path());
+  CHECK(run.code == 0);
+  CHECK(run.out.empty());
+  CHECK(run.err.empty());
+  CHECK(contains(call({"run", "six.ngc", "-q"}, scratch.path()).err, "6 errors"));
+  CHECK(!call({"plan", "square.ngc", "-q"}, scratch.path()).out.empty());
+}
