@@ -1,18 +1,11 @@
-#include <fmt/format.h>
-
-#include <exception>
-#include <new>
-#include <string>
-#include <string_view>
-#include <system_error>
 #include <variant>
 
 #include "emulator/cli/arguments.h"
 #include "emulator/cli/commands.h"
 #include "emulator/cli/console.h"
 #include "emulator/cli/exit_codes.h"
+#include "emulator/cli/guard.h"
 #include "emulator/cli/signals.h"
-#include "machine/base/require.h"
 
 namespace kadr::cli {
 namespace {
@@ -49,58 +42,14 @@ int dispatch(const Arguments& arguments, Console& console) {
   return kInternal;
 }
 
-/// The command line as one can paste it into a shell.
-std::string shell_line(int argc, const char* const* argv) {
-  constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
-  std::string line = "kadr";
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view word = argv[i];
-    line += ' ';
-    if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
-      line += word;
-      continue;
-    }
-    line += '\'';
-    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    line += '\'';
-  }
-  return line;
-}
-
-int report_fault(const char* what, int argc, const char* const* argv) {
-  fmt::print(stderr,
-             "kadr: this is a fault of kadr, not of your files; please report it\n"
-             "  promise:   {}\n"
-             "  version:   {}\n"
-             "  reproduce: {}\n",
-             what, KADR_VERSION, shell_line(argc, argv));
-  return kInternal;
-}
-
-int guarded(int argc, const char* const* argv) {
-  try {
-    const auto read = read_arguments(argc, argv);
-    if (const int* code = std::get_if<int>(&read)) return *code;
-    const Arguments& arguments = std::get<Arguments>(read);
-    Console console(arguments.output);
-    const int code = dispatch(arguments, console);
-    console.flush();
-    return code;
-  } catch (const WorldError& e) {
-    fmt::print(stderr, "kadr: {}\n", e.what());
-    return kNotStarted;
-  } catch (const BrokenPromise& e) {
-    return report_fault(e.what(), argc, argv);
-  } catch (const std::system_error& e) {
-    fmt::print(stderr, "kadr: {}\n", e.what());
-    return kNotStarted;
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "kadr: out of memory\n");
-    return kNotStarted;
-  } catch (const std::exception& e) {
-    return report_fault(e.what(), argc, argv);
-  }
+int work(int argc, const char* const* argv) {
+  const auto read = read_arguments(argc, argv);
+  if (const int* code = std::get_if<int>(&read)) return *code;
+  const Arguments& arguments = std::get<Arguments>(read);
+  Console console(arguments.output);
+  const int code = dispatch(arguments, console);
+  console.flush();
+  return code;
 }
 
 }  // namespace
@@ -108,5 +57,5 @@ int guarded(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   kadr::cli::ignore_write_signals();
-  return kadr::cli::guarded(argc, argv);
+  return kadr::cli::guarded(argc, argv, [&] { return kadr::cli::work(argc, argv); });
 }

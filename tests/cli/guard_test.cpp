@@ -1,0 +1,43 @@
+#include <doctest/doctest.h>
+
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "emulator/cli/console.h"
+#include "emulator/cli/guard.h"
+#include "emulator/cli/progress.h"
+#include "machine/base/require.h"
+
+using namespace kadr;
+using namespace kadr::cli;
+
+TEST_CASE("a broken promise of kadr ends with 70, the world's faults with 2, and all else as the work says") {
+  const char* argv[] = {"kadr", "run", "my part.ngc"};
+  const auto end_of = [&](auto thrown) { return guarded(3, argv, [&]() -> int { throw thrown; }); };
+  CHECK(guarded(3, argv, [] { return 3; }) == 3);
+  CHECK(guarded(3, argv, []() -> int {
+          require(1 + 1 == 3, "one and one are three");
+          return 0;
+        }) == 70);
+  CHECK(end_of(std::out_of_range("vector::at")) == 70);
+  CHECK(end_of(WorldError("x.lcmlog: No space left on device")) == 2);
+  CHECK(end_of(std::system_error(2, std::generic_category(), "x.ngc")) == 2);
+  CHECK(end_of(std::bad_alloc()) == 2);
+}
+
+TEST_CASE("the reproduction line can be pasted into a shell") {
+  const char* argv[] = {"/usr/bin/kadr", "run", "my part.ngc", "it's.ngc", "--set", "a=1", ""};
+  CHECK(shell_line(7, argv) == "kadr run 'my part.ngc' 'it'\\''s.ngc' --set a=1 ''");
+}
+
+TEST_CASE("progress: 58 % of the path, 12.4 s of machine time in 0.3 s") {
+  // 12.4 / 0.3 = 41.3; the rest takes 0.3 * 0.42 / 0.58 = 0.2 s
+  CHECK(progress_bar(0.58, 701, 1190, 12.4, 0.3) ==
+        "run  ██████░░░░░░  58 %  line 701/1190  12.4 s of machine  41x real time  ETA 0:00");
+  CHECK(progress_bar(0.5, 1, 2, 36000, 7200) ==
+        "run  ██████░░░░░░  50 %  line 1/2  36000.0 s of machine  5.0x real time  ETA 2:00:00");
+  CHECK(progress_bar(0, 1, 2, 0, 0) == "run  ░░░░░░░░░░░░   0 %  line 1/2  0.0 s of machine  0.0x real time");
+  CHECK(progress_line(0.58, 701, 1190, 12.4) == "kadr: run 58 % line 701/1190 sim 12.4 s");
+}
