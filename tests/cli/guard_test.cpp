@@ -35,7 +35,7 @@ TEST_CASE("the reproduction line can be pasted into a shell") {
 TEST_CASE("progress: 58.5 % of the path, 12.4 s of machine time in 0.3 s") {
   // 12.4 / 0.3 = 41.3; the rest takes 0.3 * 0.415 / 0.585 = 0.2 s
   CHECK(progress_bar(0.585, 701, 1190, 12.4, 0.3) ==
-        "run  ██████░░░░░░  58 %  line 701/1190  12.4 s of machine  41x real time  ETA 0:00");
+        "run  ███████░░░░░  58 %  line 701/1190  12.4 s of machine  41x real time  ETA 0:00");
   CHECK(progress_bar(0.5, 1, 2, 36000, 7200) ==
         "run  ██████░░░░░░  50 %  line 1/2  36000.0 s of machine  5.0x real time  ETA 2:00:00");
   CHECK(progress_bar(0, 1, 2, 0, 0) == "run  ░░░░░░░░░░░░   0 %  line 1/2  0.0 s of machine  0.0x real time");
