@@ -165,13 +165,7 @@ void Interpreter::check_values() {
   if (words_.g(GGroup::path) == 640 && words_.has('P') && words_.value('P') < 0) {
     error(problem(Code::word_out_of_range, words_.span(*line_, 'P'), "a tolerance below 0"));
   }
-  if (words_.g(GGroup::tool_length) == 430 && words_.has('H') && words_.value('H') != 0) {
-    Diagnostic d = problem(Code::tool_length_unknown, words_.span(*line_, 'H'),
-                           fmt::format("no length is known for tool {}", figure(words_.value('H'))),
-                           "give the length itself: G43.1 Z and the length");
-    d.notes.emplace_back("kadr has no tool table; only H0 has a length: zero");
-    error(std::move(d));
-  }
+  if (words_.g(GGroup::tool_length) == 430) check_whole('H', 0, kLargestTool);
 }
 
 bool Interpreter::require_word(char letter, GGroup group, std::string_view what) {

@@ -93,11 +93,14 @@ void Interpreter::tool_length() {
     }
   } else if (code == 430 || code == 490) {
     state_.tool_offset = {};
-    if (code == 430 && !words_.has('H') && state_.tool_in_spindle != 0) {
-      Diagnostic d = problem(Code::tool_length_unknown, g_span(GGroup::tool_length),
-                             fmt::format("length of tool {} taken as 0", state_.tool_in_spindle),
+    const bool by_number = code == 430 && words_.has('H');
+    const double tool = by_number ? words_.value('H') : code == 430 ? state_.tool_in_spindle : 0;
+    if (tool != 0) {
+      Diagnostic d = problem(Code::tool_length_unknown,
+                             by_number ? words_.span(*line_, 'H') : g_span(GGroup::tool_length),
+                             fmt::format("length of tool {} taken as 0", figure(tool)),
                              "give the length itself: G43.1 Z and the length");
-      d.notes.emplace_back("kadr has no tool table");
+      d.notes.emplace_back("kadr has no tool table; positions are those of a tool without length");
       report_.warning(std::move(d));
     }
   }

@@ -109,10 +109,13 @@ TEST_CASE("codes of the dialect that kadr does not run are named, unknown ones t
   }
 }
 
-TEST_CASE("a tool length without a table is zero for H0 and refused for others") {
+TEST_CASE("a tool length without a table is zero, and told unless H0 asks for it") {
   CHECK(run("G43 H0\nG49\nG43\n").codes().empty());
-  CHECK(only_code("G43 H3\n") == Code::tool_length_unknown);
-  const Outcome outcome = run("T3 M6\nG43\n");
-  CHECK(outcome.codes() == std::vector<Code>{Code::tool_length_unknown});
-  CHECK_FALSE(outcome.diagnostics.has_errors());
+  for (const std::string program : {"G43 H3\n", "T3 M6\nG43\n"}) {
+    CAPTURE(program);
+    const Outcome outcome = run(program);
+    CHECK(outcome.codes() == std::vector<Code>{Code::tool_length_unknown});
+    CHECK_FALSE(outcome.diagnostics.has_errors());
+  }
+  CHECK(only_code("G43 H-1\n") == Code::word_out_of_range);
 }
