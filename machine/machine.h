@@ -23,34 +23,35 @@ enum class TickFeed : std::uint8_t { linear, constant };
 enum class AxisLimitRule : std::uint8_t { enforce, report };
 enum class OnAlarm : std::uint8_t { report, stop };
 
-/// Two masses on one axis (paper 001, eq. 5-6). SI: kg, N/m, N s/m; for a rotary axis kg m^2, N m/rad, N m s/rad.
+/// Two masses on one axis (paper 001, eq. 5-6). SI: kg, N/m, N s/m; for a rotary axis kg m^2, N m/rad, N m
+/// s/rad.
 struct TwoMassModel {
   MotorModel motor = MotorModel::rigid;
-  double base_mass = 0;          ///< m0: motor and carriage, > 0
-  double link_mass = 0;          ///< m1: flexible part, > 0
-  double link_stiffness = 0;     ///< k, > 0
-  double link_damping = 0;       ///< c, >= 0
-  double base_friction = 0;      ///< b0, viscous, >= 0
-  double motor_stiffness = 0;    ///< Km of `spring`, > 0
-  double motor_damping = 0;      ///< bm, >= 0
-  double holding_force = 0;      ///< F_hold of `stepper`, > 0
-  double tooth_pitch_u = 0;      ///< `stepper`: motion per electrical period (four full steps), mm or deg, > 0
+  double base_mass = 0;        ///< m0: motor and carriage, > 0
+  double link_mass = 0;        ///< m1: flexible part, > 0
+  double link_stiffness = 0;   ///< k, > 0
+  double link_damping = 0;     ///< c, >= 0
+  double base_friction = 0;    ///< b0, viscous, >= 0
+  double motor_stiffness = 0;  ///< Km of `spring`, > 0
+  double motor_damping = 0;    ///< bm, >= 0
+  double holding_force = 0;    ///< F_hold of `stepper`, > 0
+  double tooth_pitch_u = 0;    ///< `stepper`: motion per electrical period (four full steps), mm or deg, > 0
   bool operator==(const TwoMassModel&) const = default;
 };
 
 struct AxisModel {
   char letter = 'X';
   AxisKind kind = AxisKind::linear;
-  double step_u = 0;                               ///< one motor step, > 0
+  double step_u = 0;  ///< one motor step, > 0
   double soft_min_u = -kInfinity;
   double soft_max_u = kInfinity;
-  double home_u = 0;                               ///< machine position at program start
-  double max_feed_u_s = 0;                         ///< also the rapid rate
+  double home_u = 0;        ///< machine position at program start
+  double max_feed_u_s = 0;  ///< also the rapid rate
   double max_accel_u_s2 = 0;
-  double max_jerk_u_s3 = kInfinity;                ///< inf: trapezoidal profile
-  double junction_accel_u_s2 = 0;                  ///< allowed acceleration step at a corner (over one tau)
-  double junction_jerk_u_s3 = kInfinity;           ///< allowed jerk at a corner (over one tau)
-  bool has_plant = false;                          ///< false: not modelled, moves as `rigid` without a link
+  double max_jerk_u_s3 = kInfinity;       ///< inf: trapezoidal profile
+  double junction_accel_u_s2 = 0;         ///< allowed acceleration step at a corner (over one tau)
+  double junction_jerk_u_s3 = kInfinity;  ///< allowed jerk at a corner (over one tau)
+  bool has_plant = false;                 ///< false: not modelled, moves as `rigid` without a link
   TwoMassModel plant;
   bool operator==(const AxisModel&) const = default;
 };
@@ -68,16 +69,16 @@ struct PathLimits {
   double max_accel_mm_s2 = kInfinity;
   double max_jerk_mm_s3 = kInfinity;
   double centripetal_accel_mm_s2 = kInfinity;
-  double arc_end_tolerance_mm = 0.01;      ///< radius difference accepted between an arc's start and end
+  double arc_end_tolerance_mm = 0.01;  ///< radius difference accepted between an arc's start and end
   double arc_end_tolerance_relative = 0.001;
   bool operator==(const PathLimits&) const = default;
 };
 
 struct PlannerSettings {
-  bool whole_ticks = true;                          ///< motion ends on a control tick (paper 003, eq. 2)
+  bool whole_ticks = true;  ///< motion ends on a control tick (paper 003, eq. 2)
   AxisLimitRule axis_limits = AxisLimitRule::enforce;
   TickFeed tick_feed = TickFeed::linear;
-  double tool_change_s = 0;                         ///< dwell that M6 costs
+  double tool_change_s = 0;  ///< dwell that M6 costs
   bool operator==(const PlannerSettings&) const = default;
 };
 
@@ -88,10 +89,10 @@ struct PlantSettings {
 };
 
 struct LogSettings {
-  bool ticks = true;              ///< KADR_TICKS
-  bool steps = true;              ///< KADR_STEPS
-  int block_ticks = 32;           ///< control ticks per exact message, 16..64
-  double viewer_rate_hz = 100;    ///< KADR_FEED, KADR_AXIS_*; 0 switches them off
+  bool ticks = true;            ///< KADR_TICKS
+  bool steps = true;            ///< KADR_STEPS
+  int block_ticks = 32;         ///< control ticks per exact message, 16..64
+  double viewer_rate_hz = 100;  ///< KADR_FEED, KADR_AXIS_*; 0 switches them off
   bool operator==(const LogSettings&) const = default;
 };
 
@@ -104,14 +105,15 @@ struct MachineModel {
   PlantSettings plant;
   LogSettings log;
   OnAlarm on_alarm = OnAlarm::report;
-  AxisValues home2{};           ///< G30 position, machine coordinates
+  AxisValues home2{};  ///< G30 position, machine coordinates
 
   /// Index in `axis` by letter, -1 if the machine has no such axis.
   int find_axis(char letter) const;
   bool operator==(const MachineModel&) const = default;
 };
 
-/// Where a value comes from: its key as in a setting ("axis.X.max_mm_s") and "mill3.toml:42" or "command line".
+/// Where a value comes from: its key as in a setting ("axis.X.max_mm_s") and "mill3.toml:42" or "command
+/// line".
 struct KeyOrigin {
   std::string key;
   std::string origin;
@@ -121,7 +123,8 @@ struct KeyOrigin {
 struct MachineFile {
   MachineModel model;
   std::string text;
-  std::vector<KeyOrigin> origins = {};  ///< values that were given, in the order of reading; all others are defaults
+  std::vector<KeyOrigin> origins =
+      {};  ///< values that were given, in the order of reading; all others are defaults
 };
 
 /// Reads a machine file (TOML; docs in machine/files/mill3.toml). All mistakes of the file are told at once.
@@ -130,7 +133,8 @@ struct MachineFile {
 tl::expected<MachineFile, Diagnostics> read_machine(SourceText text, SourceSet& sources,
                                                     const std::vector<std::string>& overrides = {});
 
-/// A machine that ships with kadr: "mill3", "winder4", "rig1", "robot7"; empty text if there is none of that name.
+/// A machine that ships with kadr: "mill3", "winder4", "rig1", "robot7"; empty text if there is none of that
+/// name.
 std::string_view shipped_machine(std::string_view name);
 std::vector<std::string_view> shipped_machine_names();
 

@@ -6,19 +6,22 @@
 
 namespace kadr {
 
-/// Motion of one axis that the interpolator followed in this control tick, before the lattice; axis units (mm or deg).
+/// Motion of one axis that the interpolator followed in this control tick, before the lattice; axis units (mm
+/// or deg).
 struct AxisCommand {
   double position_begin_u = 0;
   double position_end_u = 0;
   double speed_begin_u_s = 0;  ///< just after the tick's beginning
-  double speed_end_u_s = 0;    ///< just before its end; differs from the next begin at a corner taken without a stop
+  double speed_end_u_s =
+      0;  ///< just before its end; differs from the next begin at a corner taken without a stop
 };
 
 /// Pulses of one axis in one control tick. Offsets never decrease and are < the control tick's length.
 struct AxisPulses {
-  std::vector<std::uint16_t> offset_ticks;   ///< [count], base ticks from the beginning of the control tick
-  std::int8_t first_sign = 1;                ///< +1 or -1, direction of the first pulse
-  std::vector<std::uint16_t> reversals;      ///< pulse indices at which the direction flips; empty in almost every tick
+  std::vector<std::uint16_t> offset_ticks;  ///< [count], base ticks from the beginning of the control tick
+  std::int8_t first_sign = 1;               ///< +1 or -1, direction of the first pulse
+  std::vector<std::uint16_t>
+      reversals;  ///< pulse indices at which the direction flips; empty in almost every tick
   AxisCommand command;
 
   std::size_t count() const { return offset_ticks.size(); }
@@ -28,7 +31,10 @@ struct AxisPulses {
     int sign = first_sign;
     std::size_t next = 0;
     for (std::size_t i = 0; i < offset_ticks.size(); ++i) {
-      if (next < reversals.size() && reversals[next] == i) { sign = -sign; ++next; }
+      if (next < reversals.size() && reversals[next] == i) {
+        sign = -sign;
+        ++next;
+      }
       f(offset_ticks[i], sign);
     }
   }
@@ -40,7 +46,11 @@ struct AxisPulses {
     for_each([&](std::uint16_t, int sign) { net += sign; });
     return net;
   }
-  void clear() { offset_ticks.clear(); reversals.clear(); first_sign = 1; }
+  void clear() {
+    offset_ticks.clear();
+    reversals.clear();
+    first_sign = 1;
+  }
 };
 
 /// All step pulses of one control tick, axis by axis; made by the interpolator, read by plant and log.

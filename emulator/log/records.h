@@ -8,12 +8,13 @@
 #include "planner/motion_source.h"
 #include "plant/plant.h"
 
-/// What the cycle tells the log, in tick order; a pure function of the inputs: no clock, address, locale or thread.
+/// What the cycle tells the log, in tick order; a pure function of the inputs: no clock, address, locale or
+/// thread.
 namespace kadr::emulator {
 
 /// First message: everything needed to run again and to compare.
 struct RunHeader {
-  std::string program_name;   ///< file name without folders
+  std::string program_name;  ///< file name without folders
   std::string program_text;
   std::string machine_toml;   ///< as read
   std::string scenario_toml;  ///< as read, empty if none
@@ -25,90 +26,94 @@ struct RunHeader {
 /// One motion block, when its motion begins.
 struct BlockRecord {
   Ticks tick;
-  std::uint32_t block = 0;         ///< running number
-  Span span;                       ///< line and column in the program
-  std::string text;                ///< the program line
-  std::string motion;              ///< "rapid" "line" "arc"
+  std::uint32_t block = 0;  ///< running number
+  Span span;                ///< line and column in the program
+  std::string text;         ///< the program line
+  std::string motion;       ///< "rapid" "line" "arc"
   double length_u = 0;
   double programmed_u_s = 0;
   double planned_peak_u_s = 0;
   double planned_end_u_s = 0;
-  double planned_s = 0;            ///< duration
-  std::string limited_by;          ///< e.g. "program", "axis X speed"
+  double planned_s = 0;    ///< duration
+  std::string limited_by;  ///< e.g. "program", "axis X speed"
 };
 
-/// What a motion block did, at the first control tick at which another block has begun; only of blocks that were under way at
-/// the end of at least one control tick.
+/// What a motion block did, at the first control tick at which another block has begun; only of blocks that
+/// were under way at the end of at least one control tick.
 struct BlockEndRecord {
   Ticks tick;
   std::uint32_t block = 0;
   std::uint32_t line = 0;
-  std::vector<double> peak_link_u;      ///< [axes] largest |x1| at control ticks
-  std::vector<double> peak_following_u; ///< [axes] largest |tool - command| at control ticks
+  std::vector<double> peak_link_u;       ///< [axes] largest |x1| at control ticks
+  std::vector<double> peak_following_u;  ///< [axes] largest |tool - command| at control ticks
 };
 
 /// One control tick, at its end. Axis arrays live in the batch (commands) and `axis` (plant).
 struct TickRecord {
-  ControlTicks tick;               ///< the tick that ended
-  std::uint32_t block = 0;         ///< running number of the block at the tick's end
+  ControlTicks tick;        ///< the tick that ended
+  std::uint32_t block = 0;  ///< running number of the block at the tick's end
   const planner::TickMotion* motion = nullptr;
-  const std::vector<std::int64_t>* position_steps = nullptr;   ///< [axes]
-  const std::vector<plant::AxisState>* axis = nullptr;         ///< [axes]; null without plant
+  const std::vector<std::int64_t>* position_steps = nullptr;  ///< [axes]
+  const std::vector<plant::AxisState>* axis = nullptr;        ///< [axes]; null without plant
 };
 
-/// Something that happened at a tick: "spindle", "coolant", "tool", "dwell", "message", "stop", "alarm", "residual", ...
+/// Something that happened at a tick: "spindle", "coolant", "tool", "dwell", "message", "stop", "alarm",
+/// "residual", ...
 struct EventRecord {
   Ticks tick;
   std::uint32_t block = 0;
   Span span;
   std::string kind;
-  Code code{};                     ///< of an alarm, else 0
-  int axis = -1;                   ///< machine axis, or -1
-  double value = 0;                ///< measured
-  double limit = 0;                ///< allowed, of an alarm
-  std::string text;                ///< one sentence with units
+  Code code{};       ///< of an alarm, else 0
+  int axis = -1;     ///< machine axis, or -1
+  double value = 0;  ///< measured
+  double limit = 0;  ///< allowed, of an alarm
+  std::string text;  ///< one sentence with units
 };
 
 struct AxisSummary {
-  std::int64_t pulses = 0;            ///< counted, both directions
+  std::int64_t pulses = 0;  ///< counted, both directions
   std::int64_t net_steps = 0;
-  std::int64_t end_steps = 0;         ///< lattice node at the end, from machine zero
+  std::int64_t end_steps = 0;  ///< lattice node at the end, from machine zero
   double end_u = 0;
-  double min_u = 0, max_u = 0;        ///< commanded extremes at control ticks
+  double min_u = 0, max_u = 0;  ///< commanded extremes at control ticks
   double peak_feed_u_s = 0;
   Ticks peak_feed_tick;
   double peak_accel_u_s2 = 0;
   double peak_jerk_u_s3 = 0;
-  double peak_vibration_u = 0;        ///< |x1|
+  double peak_vibration_u = 0;  ///< |x1|
   Ticks peak_vibration_tick;
   std::uint32_t peak_vibration_line = 0;
   double rms_vibration_u = 0;
-  double residual_u = 0;              ///< largest envelope after a stop
-  double peak_following_u = 0;        ///< |tool - command|
+  double residual_u = 0;        ///< largest envelope after a stop
+  double peak_following_u = 0;  ///< |tool - command|
   double rms_following_u = 0;
   std::int64_t lost_steps = 0;
 };
 
-struct LimitShare { std::string limited_by; double time_s; };
+struct LimitShare {
+  std::string limited_by;
+  double time_s;
+};
 
 /// Last message; a log without it was cut off.
 struct RunSummary {
-  std::string outcome = "complete";   ///< "complete", "alarm", "interrupted", "plant error"
-  Ticks ticks;                        ///< length of the run
+  std::string outcome = "complete";  ///< "complete", "alarm", "interrupted", "plant error"
+  Ticks ticks;                       ///< length of the run
   ControlTicks control_ticks;
   std::uint32_t blocks = 0;
   double path_u = 0;
-  double mean_feed_u_s = 0;           ///< over the time in motion
+  double mean_feed_u_s = 0;  ///< over the time in motion
   double peak_feed_u_s = 0;
   double motion_s = 0, dwell_s = 0;
   std::int64_t pulses = 0;
-  std::uint64_t steps_hash = 0;       ///< offsets and signs of every pulse, by tick and axis
-  double path_error_u = 0;            ///< largest distance of the tool from the command, over the axes X Y Z
-  double held_error_u = 0;            ///< tick_feed = constant: largest distance from the law along the path
-  std::vector<AxisSummary> axis;      ///< [axes]
-  std::vector<LimitShare> limited_by; ///< descending time
+  std::uint64_t steps_hash = 0;        ///< offsets and signs of every pulse, by tick and axis
+  double path_error_u = 0;             ///< largest distance of the tool from the command, over the axes X Y Z
+  double held_error_u = 0;             ///< tick_feed = constant: largest distance from the law along the path
+  std::vector<AxisSummary> axis;       ///< [axes]
+  std::vector<LimitShare> limited_by;  ///< descending time
   std::size_t alarms = 0, warnings = 0;
-  int exit_code = 0;                  ///< 0, or 3 with alarms
+  int exit_code = 0;  ///< 0, or 3 with alarms
 };
 
 }  // namespace kadr::emulator

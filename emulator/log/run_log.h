@@ -29,21 +29,24 @@ class RunLog {
   virtual tl::expected<void, LogError> end(const RunSummary& summary) = 0;
 };
 
-/// Size of a log in bytes before it is written, from planned time and pulse count; within 15 % of what is written then.
+/// Size of a log in bytes before it is written, from planned time and pulse count; within 15 % of what is
+/// written then.
 /// @param plant       the run has a plant (its states are logged)
 /// @param text_bytes  program, machine, scenario and settings texts together
 std::int64_t estimate_log_bytes(const machine::MachineModel& machine, double planned_s, std::int64_t pulses,
                                 std::size_t blocks, bool plant = true, std::size_t text_bytes = 0);
 
 struct LcmLogOptions {
-  std::string path;         ///< event log to write ("" : none). Written as path + ".part", renamed by end() unless the
-                            ///< outcome is "interrupted"
-  std::string publish_url;  ///< LCM provider to publish to besides ("" : none); "ttl=0" is added to a udpm URL without a ttl
+  std::string path;  ///< event log to write ("" : none). Written as path + ".part", renamed by end() unless
+                     ///< the outcome is "interrupted"
+  std::string publish_url;  ///< LCM provider to publish to besides ("" : none); "ttl=0" is added to a udpm
+                            ///< URL without a ttl
 };
 
-/// LCM event log with simulated time stamps (docs/log_format.md). Encodes and writes on the calling thread; each whole block
-/// of log.block_ticks control ticks is handed to the kernel at once, so that a kill loses no more than the block under way.
-/// After an error every call gives that error again and nothing more is written.
+/// LCM event log with simulated time stamps (docs/log_format.md). Encodes and writes on the calling thread;
+/// each whole block of log.block_ticks control ticks is handed to the kernel at once, so that a kill loses no
+/// more than the block under way. After an error every call gives that error again and nothing more is
+/// written.
 tl::expected<std::unique_ptr<RunLog>, LogError> open_lcm_log(const LcmLogOptions& options);
 
 }  // namespace kadr::emulator

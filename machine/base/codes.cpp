@@ -22,7 +22,8 @@ std::span<const CodeEntry> all_codes() {
 #include "machine/base/codes/reading.inc"
 #undef KADR_CODE
     };
-    std::sort(list.begin(), list.end(), [](const CodeEntry& a, const CodeEntry& b) { return a.code < b.code; });
+    std::sort(list.begin(), list.end(),
+              [](const CodeEntry& a, const CodeEntry& b) { return a.code < b.code; });
     return list;
   }();
   return entries;
@@ -30,8 +31,8 @@ std::span<const CodeEntry> all_codes() {
 
 const CodeEntry& code_entry(Code code) {
   const auto list = all_codes();
-  const auto it = std::lower_bound(list.begin(), list.end(), code,
-                                   [](const CodeEntry& e, Code c) { return e.code < c; });
+  const auto it =
+      std::lower_bound(list.begin(), list.end(), code, [](const CodeEntry& e, Code c) { return e.code < c; });
   require(it != list.end() && it->code == code, "every code is listed in machine/base/codes");
   return *it;
 }

@@ -11,9 +11,18 @@ struct Count {
   constexpr auto operator<=>(const Count&) const = default;
   friend constexpr Count operator+(Count a, Count b) { return {a.value + b.value}; }
   friend constexpr Count operator-(Count a, Count b) { return {a.value - b.value}; }
-  constexpr Count& operator+=(Count b) { value += b.value; return *this; }
-  constexpr Count& operator-=(Count b) { value -= b.value; return *this; }
-  constexpr Count& operator++() { ++value; return *this; }
+  constexpr Count& operator+=(Count b) {
+    value += b.value;
+    return *this;
+  }
+  constexpr Count& operator-=(Count b) {
+    value -= b.value;
+    return *this;
+  }
+  constexpr Count& operator++() {
+    ++value;
+    return *this;
+  }
 };
 
 using Ticks = Count<struct TicksTag>;                ///< base-clock ticks since program start

@@ -19,12 +19,14 @@ struct Span {
   constexpr bool operator==(const Span&) const = default;
 };
 
-/// A text as read: a control program, machine or scenario file. The bytes stay as they are (no line-end conversion).
+/// A text as read: a control program, machine or scenario file. The bytes stay as they are (no line-end
+/// conversion).
 class SourceText {
  public:
   /// A text already in memory.
   SourceText(std::string name, std::string text);
-  /// Maps a file read-only; throws std::system_error with the path if it can't be opened ("-" reads standard input).
+  /// Maps a file read-only; throws std::system_error with the path if it can't be opened ("-" reads standard
+  /// input).
   static SourceText open(const std::string& path);
 
   SourceText(SourceText&&) noexcept;
@@ -33,7 +35,8 @@ class SourceText {
 
   const std::string& name() const { return name_; }  ///< as the user gave it
   std::string_view text() const { return text_; }
-  /// Line by 1-based number, without its line end; empty beyond the end. The line index is built at the first call.
+  /// Line by 1-based number, without its line end; empty beyond the end. The line index is built at the first
+  /// call.
   std::string_view line(std::uint32_t number) const;
 
  private:

@@ -67,8 +67,10 @@ class FakeRun {
   emulator::TickRecord record_;
 };
 
-/// True if the exact data of a log, as far as it goes, are those of the FakeRun, pulse by pulse and bit by bit.
-bool holds_fake_run(const std::string& path, const machine::MachineModel& machine, FakeRunOptions options = {});
+/// True if the exact data of a log, as far as it goes, are those of the FakeRun, pulse by pulse and bit by
+/// bit.
+bool holds_fake_run(const std::string& path, const machine::MachineModel& machine,
+                    FakeRunOptions options = {});
 
 emulator::RunHeader log_header(const machine::MachineModel& machine);
 emulator::RunSummary log_summary(const machine::MachineModel& machine, std::int64_t control_ticks,
