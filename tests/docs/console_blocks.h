@@ -25,7 +25,9 @@ bool matches_line(const std::string& pattern, const std::string& line);
 /// True if the output is what is expected, "[...]" standing for any lines.
 bool matches_output(const std::vector<std::string>& expected, const std::vector<std::string>& output);
 
-/// Runs the command with bash in a folder; the programs of `bin` come first. Output and "(exit N)".
+/// Runs the command with bash in a folder; the programs of `bin` come first. Output without lines of
+/// progress, and
+/// "(exit N)".
 std::vector<std::string> run_command(const std::string& command, const std::string& folder,
                                      const std::string& bin);
 

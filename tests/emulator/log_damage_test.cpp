@@ -103,6 +103,8 @@ TEST_CASE("a flipped bit never goes unseen in a complete log, and never harms th
     }
     if (info) REQUIRE_FALSE(render_log_info(*info).empty());
   }
+  CHECK(damaged + refused + found_by_hash == count);
+  if (count < 500) return;  // too few to meet every kind
   CHECK(damaged > 0);
   CHECK(refused > 0);
   CHECK(found_by_hash > 0);
