@@ -14,6 +14,8 @@ const char* unit(const machine::AxisModel& axis) {
 
 /// Rounding of second differences over tau, relative to the limit watched.
 constexpr double kRelativeSlack = 1e-6;
+/// A motor that has kept up for so long is no longer slipping.
+constexpr double kSlipPause_s = 0.1;
 /// A position that is a limit but for rounding is inside.
 constexpr double kPositionSlack_u = 1e-9;
 
@@ -236,14 +238,35 @@ void Monitor::end_stop(Ticks now, std::vector<EventRecord>& events) {
 
 void Monitor::lost_steps(const std::vector<plant::LostSteps>& lost, Ticks tick,
                          std::vector<EventRecord>& events) {
+  for (Axis& axis : axes_)
+    if (axis.slip_ticks_ago >= 0) ++axis.slip_ticks_ago;
   for (const plant::LostSteps& l : lost) {
     const auto a = static_cast<std::size_t>(l.axis);
-    axes_[a].summary.lost_steps += l.steps.value;
-    ++alarms_;
-    EventRecord e = event_here(tick, "alarm", a, static_cast<double>(l.steps.value), 0.0);
+    Axis& axis = axes_[a];
+    axis.summary.lost_steps += l.steps.value;
+    axis.slip_steps += l.steps.value;
+    if (axis.slip_ticks_ago < 0) {
+      ++alarms_;
+      EventRecord e = event_here(tick, "alarm", a, static_cast<double>(l.steps.value), 0.0);
+      e.code = Code::lost_steps;
+      e.text = fmt::format("axis {} lost {} steps", machine_.axis[a].letter, l.steps.value);
+      events.push_back(std::move(e));
+    }
+    axis.slip_ticks_ago = 0;
+  }
+  end_slips(static_cast<std::int64_t>(kSlipPause_s / tau_s_), tick, events);
+}
+
+void Monitor::end_slips(std::int64_t after_ticks, Ticks now, std::vector<EventRecord>& events) {
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
+    Axis& axis = axes_[a];
+    if (axis.slip_ticks_ago < after_ticks || axis.slip_ticks_ago < 0) continue;
+    EventRecord e = event_here(now, "alarm end", a, static_cast<double>(axis.slip_steps), 0.0);
     e.code = Code::lost_steps;
-    e.text = fmt::format("axis {} lost {} steps", machine_.axis[a].letter, l.steps.value);
+    e.text = fmt::format("axis {} lost {} steps in all", machine_.axis[a].letter, axis.slip_steps);
     events.push_back(std::move(e));
+    axis.slip_steps = 0;
+    axis.slip_ticks_ago = -1;
   }
 }
 
@@ -282,6 +305,7 @@ void Monitor::finish(Ticks end, std::vector<EventRecord>& events, std::vector<Bl
                              machine_.axis[a].letter, excursion.worst, excursion.limit);
         events.push_back(std::move(e));
       }
+  end_slips(0, end, events);
   if (stopped_) end_stop(end, events);
   if (block_open_) end_block(end, block_ends);
 }

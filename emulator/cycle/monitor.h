@@ -30,7 +30,8 @@ class Monitor {
   Monitor(const planner::Path& path, const machine::MachineModel& machine);
   /// Looks at the tick; alarms and residuals are appended to `events`.
   void tick(const TickView& view, std::vector<EventRecord>& events, std::vector<BlockEndRecord>& block_ends);
-  /// Lost steps are found by the plant; they become alarms here.
+  /// Lost steps are found by the plant; they become alarms here. A motor that keeps slipping is one alarm: it
+  /// ends after 0.1 s without a loss, with the steps lost in all.
   void lost_steps(const std::vector<plant::LostSteps>& lost, Ticks tick, std::vector<EventRecord>& events);
   /// Ends what is open (overruns, residual of the last stop, last block).
   void finish(Ticks end, std::vector<EventRecord>& events, std::vector<BlockEndRecord>& block_ends);
@@ -52,6 +53,8 @@ class Monitor {
     double omega_rad_s = 0, damped_rad_s = 0, zeta = 0;  // of the link, 0 without one
     double vibration_squares_u2 = 0, following_squares_u2 = 0;
     double stop_residual_u = 0;
+    std::int64_t slip_steps = 0;       // lost in the slip under way
+    std::int64_t slip_ticks_ago = -1;  // control ticks since its last loss; -1: no slip
     double block_link_u = 0, block_following_u = 0;
     bool moved_since_stop = false;
   };
@@ -64,6 +67,7 @@ class Monitor {
   void watch_stop(const TickView& view, std::vector<EventRecord>& events);
   void watch_lost_steps(const std::vector<plant::LostSteps>& lost, Ticks tick,
                         std::vector<EventRecord>& events);
+  void end_slips(std::int64_t after_ticks, Ticks now, std::vector<EventRecord>& events);
   void end_stop(Ticks now, std::vector<EventRecord>& events);
   void end_block(Ticks tick, std::vector<BlockEndRecord>& block_ends);
   EventRecord event_here(Ticks tick, const char* kind, std::size_t axis, double value, double limit) const;

@@ -323,8 +323,11 @@ class Cycle {
       const double node_u = job_.path.size() == 0 ? machine_.axis[a].home_u : job_.path.node(0)[a];
       summary.axis[a].end_steps = lattice_node(node_u, machine_.axis[a].step_u) + summary.axis[a].net_steps;
     }
-    for (std::size_t i = 0; i < job_.path.size() && i < next_block_; ++i)
-      summary.path_u += job_.path.segments[i].feed_length_u;
+    for (std::size_t i = 0; i < job_.path.size() && i < next_block_; ++i) {
+      const planner::PathSegment& segment = job_.path.segments[i];
+      const double done = std::clamp((motion_.s_end_u - job_.path.start_s_u[i]) / segment.length_u, 0.0, 1.0);
+      summary.path_u += done * segment.feed_length_u;
+    }
     summary.motion_s = static_cast<double>(motion_ticks_) * machine_.clock.tau_s();
     summary.dwell_s = job_.dwell_s;
     summary.mean_feed_u_s = summary.motion_s > 0 ? summary.path_u / summary.motion_s : 0.0;

@@ -263,3 +263,40 @@ TEST_CASE("random programs under enforced limits raise no alarm and end on the e
       CHECK(r.summary.axis[a].end_steps == static_cast<std::int64_t>(std::floor(last[a] / 0.002 + 0.5)));
   }
 }
+
+TEST_CASE("a motor too weak for its load is one alarm, and its end tells all steps lost") {
+  // 5.5 kg at 2 m/s2 need 11 N; 5 N of holding force fall behind by electrical periods of 0.4 mm = 200 steps
+  machine::MachineModel m = test_machine(1);
+  m.axis[0].plant.motor = machine::MotorModel::stepper;
+  m.axis[0].plant.holding_force = 5;
+  m.axis[0].plant.motor_damping = 1;
+  RunResult r;
+  run_program(r, "G1 X50 F6000\nG4 P0.5\nM2\n", m);
+  const auto alarms = r.log.of_kind("alarm");
+  const auto ends = r.log.of_kind("alarm end");
+  REQUIRE(alarms.size() >= 1);
+  CHECK(alarms.size() == ends.size());
+  CHECK(r.summary.alarms == alarms.size());
+  CHECK(alarms.size() <= 3);
+  double lost = 0;
+  for (const auto& e : ends) lost += e.value;
+  CHECK(static_cast<std::int64_t>(lost) == r.summary.axis[0].lost_steps);
+  CHECK(r.summary.axis[0].lost_steps % 200 == 0);
+  CHECK(r.summary.axis[0].lost_steps < 0);
+  // the same motor with enough force keeps every step
+  m.axis[0].plant.holding_force = 200;
+  RunResult strong;
+  run_program(strong, "G1 X50 F6000\nG4 P0.5\nM2\n", m);
+  CHECK(strong.summary.alarms == 0);
+  CHECK(strong.summary.axis[0].lost_steps == 0);
+}
+
+TEST_CASE("a run that ends early has gone only the path it has gone") {
+  // after 0.6 s: 5 mm of ramp and 0.5 s at 100 mm/s
+  emulator::RunOptions options;
+  options.until_s = 0.6;
+  RunResult r;
+  run_program(r, "G1 X100 F6000\nM2\n", test_machine(1), options);
+  CHECK(r.summary.path_u == doctest::Approx(55.0).epsilon(1e-9));
+  CHECK(r.summary.axis[0].end_u == doctest::Approx(55.0).epsilon(1e-9));
+}
