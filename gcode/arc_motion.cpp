@@ -70,7 +70,7 @@ bool Interpreter::find_arc(const AxisValues& end, bool clockwise, Arc& result) {
           problem(Code::arc_center_missing, span, "neither a centre (I J K) nor a radius (R) is given"));
     }
     PlanePoint center;
-    if (!arc_center_words(from, center)) return false;
+    if (!arc_center_words(center)) return false;
     result = arc_about(
         from, to, center,
         arc_limits(state_.inches, options_.arc_end_tolerance_mm, options_.arc_end_tolerance_relative));
@@ -80,7 +80,7 @@ bool Interpreter::find_arc(const AxisValues& end, bool clockwise, Arc& result) {
   return true;
 }
 
-bool Interpreter::arc_center_words(PlanePoint start, PlanePoint& center) {
+bool Interpreter::arc_center_words(PlanePoint& center) {
   const PlaneAxes axes = plane_axes(state_.plane);
   const char across = offset_letter(axes.normal);
   if (words_.has(across)) {
@@ -88,18 +88,20 @@ bool Interpreter::arc_center_words(PlanePoint start, PlanePoint& center) {
                          fmt::format("{} points out of the plane {}", across, plane_name(state_.plane)),
                          "choose the plane with G17, G18 or G19 before the arc"));
   }
-  const auto along = [&](int axis, double from, double& to) {
+  // the centre in program coordinates, from there to the machine's as every end point
+  AxisValues program = state_.to_program(state_.position);
+  for (const int axis : {axes.first, axes.second}) {
     const char letter = offset_letter(axis);
     if (state_.arc_centers_absolute && !words_.has(letter)) {
       return error(problem(Code::arc_center_missing, action_span(), fmt::format("{} is missing", letter),
                            "under G90.1 both coordinates of the centre must be given"));
     }
     const double value = words_.has(letter) ? words_.value(letter) * state_.length_factor() : 0;
-    to = state_.arc_centers_absolute ? value + state_.offset(axis) : from + value;
-    return true;
-  };
-  return along(axes.first, start.first_mm, center.first_mm) &&
-         along(axes.second, start.second_mm, center.second_mm);
+    double& along = program[static_cast<std::size_t>(axis)];
+    along = state_.arc_centers_absolute ? value : along + value;
+  }
+  center = in_plane(state_.to_machine(program), axes);
+  return true;
 }
 
 ArcLimits Interpreter::limits_of_arc() const {
@@ -112,8 +114,12 @@ bool Interpreter::refuse_arc(const Arc& arc, PlanePoint end) {
   const char second = kAxisLetters[static_cast<std::size_t>(axes.second)];
   const double unit = state_.length_factor();
   const auto point = [&](double a_mm, double b_mm) {
-    return fmt::format("{}{} {}{}", first, figure((a_mm - state_.offset(axes.first)) / unit), second,
-                       figure((b_mm - state_.offset(axes.second)) / unit));
+    AxisValues at = state_.position;
+    at[static_cast<std::size_t>(axes.first)] = a_mm;
+    at[static_cast<std::size_t>(axes.second)] = b_mm;
+    at = state_.to_program(at);
+    return fmt::format("{}{} {}{}", first, figure(at[static_cast<std::size_t>(axes.first)] / unit), second,
+                       figure(at[static_cast<std::size_t>(axes.second)] / unit));
   };
   const PlanePoint start = in_plane(state_.position, axes);
   const Span span = action_span();

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "machine/base/axes.h"
 #include "machine/base/diagnostic.h"
@@ -14,6 +15,9 @@ enum class BlockKind : std::uint8_t {
   traverse,           ///< G0: straight at the rapid rate
   feed,               ///< G1
   arc,                ///< G2 G3, helix
+  spline,             ///< G5 G5.1 G5.2: spline
+  probe,              ///< G38.2 to G38.5: straight until the probe changes, at most to `end`
+  rigid_tap,          ///< G33.1: to `end` in step with the spindle, and back to where it began
   dwell,              ///< G4
   set_feed_rate,      ///< value: mm/min or deg/min, 1/min under G93
   set_feed_mode,      ///< feed_mode
@@ -26,9 +30,17 @@ enum class BlockKind : std::uint8_t {
   mist_off,
   flood_on,
   flood_off,
-  select_tool,  ///< number
-  change_tool,  ///< number
-  message,      ///< text
+  sync_start,  ///< feed follows the spindle from here on; value: mm/rev, number 1: by its speed (G95), 0: by
+               ///< its angle
+  sync_stop,   ///< the feed no longer follows the spindle
+  spindle_mode,     ///< G96: value, surface speed in m/min, maximum_rpm; G97: value 0
+  select_tool,      ///< number
+  change_tool,      ///< number
+  set_tool_number,  ///< number; M61: no change, another number for the tool in the spindle
+  digital_output,   ///< number, on, with_motion (M62 to M65)
+  analog_output,    ///< number, value, with_motion (M67 M68)
+  wait_input,       ///< wait (M66)
+  message,          ///< text
   program_stop,
   optional_stop,
   program_end,
@@ -38,7 +50,7 @@ enum class BlockKind : std::uint8_t {
 };
 
 enum class Plane : std::uint8_t { xy, zx, yz };
-enum class FeedMode : std::uint8_t { units_per_minute, inverse_time };
+enum class FeedMode : std::uint8_t { units_per_minute, inverse_time, units_per_revolution };
 enum class PathMode : std::uint8_t { exact_path, exact_stop, continuous };
 
 /// Axes of a plane as indices into AxisValues: first, second (counter-clockwise from first to second),
@@ -53,6 +65,29 @@ constexpr PlaneAxes plane_axes(Plane p) {
 /// What F measures for one move (NIST rule): X Y Z length if one of them moves, else U V W, else A B C in
 /// degrees.
 enum class FeedLength : std::uint8_t { xyz, uvw, rotary };
+
+/// A control point of a spline: machine coordinates in X and Y, mm, and its weight.
+struct SplinePoint {
+  double x_mm = 0;
+  double y_mm = 0;
+  double weight = 1;
+};
+
+/// What M66 waits for.
+enum class WaitMode : std::uint8_t { immediate, rise, fall, high, low };
+struct InputWait {
+  int number = 0;
+  bool analog = false;
+  WaitMode mode = WaitMode::immediate;
+  double timeout_s = 0;
+};
+
+/// When G38 ends and whether it must.
+struct ProbeRule {
+  bool away = false;      ///< G38.4 G38.5: ends as contact is lost
+  bool must_trip = true;  ///< G38.2 G38.4: reaching `end` is an error
+  bool tripped = true;    ///< whether the stock plane was met (or left)
+};
 
 struct Block {
   BlockKind kind = BlockKind::comment;
@@ -73,6 +108,18 @@ struct Block {
   double center_first_mm = 0;  ///< machine coordinates in the plane's first and second axis
   double center_second_mm = 0;
   int turns = 0;  ///< > 0 counter-clockwise; 1: up to one turn
+
+  // spline: B-spline of that order over clamped uniform knots; the first point is the start, the last the end
+  std::vector<SplinePoint> control_points;
+  int order = 0;  ///< 3: quadratic (G5.1), 4: cubic (G5)
+
+  double pitch_u_rev =
+      0;  ///< feed that follows the spindle: mm or deg per turn along length_u; 0: it does not
+  ProbeRule probe;
+  InputWait wait;
+  bool on = false;           ///< digital_output
+  bool with_motion = false;  ///< output changes as the next motion begins, not at once
+  double maximum_rpm = 0;    ///< spindle_mode, 0: none
 
   // the rest
   double dwell_s = 0;

@@ -94,6 +94,11 @@ void append_place(std::string& out, const Block& block) {
   out.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
 }
 
+std::string_view wait_name(WaitMode mode) {
+  constexpr std::array<std::string_view, 5> kNames = {" immediate", " rise", " fall", " high", " low"};
+  return kNames[static_cast<std::size_t>(mode)];
+}
+
 void numbered(LineWriter& line, std::string_view name, int number) {
   line.text(name);
   line.text(" ");
@@ -121,6 +126,27 @@ bool write(LineWriter& line, const Block& block) {
       line.text(" ");
       line.integer(block.turns);
       break;
+    case BlockKind::spline:
+      line.text("NURBS_FEED");
+      position(line, block.end);
+      break;
+    case BlockKind::probe:
+      line.text("STRAIGHT_PROBE");
+      position(line, block.end);
+      break;
+    case BlockKind::rigid_tap:
+      line.text("RIGID_TAP");
+      position(line, block.end);
+      break;
+    case BlockKind::sync_start:
+      line.text("START_SPEED_FEED_SYNC");
+      line.fixed(block.value);
+      line.text(" ");
+      line.integer(block.number);
+      break;
+    case BlockKind::sync_stop:
+      line.text("STOP_SPEED_FEED_SYNC");
+      break;
     case BlockKind::dwell:
       line.text("DWELL");
       line.fixed(block.dwell_s);
@@ -130,7 +156,9 @@ bool write(LineWriter& line, const Block& block) {
       line.fixed(block.value);
       break;
     case BlockKind::set_feed_mode:
-      line.text(block.feed_mode == FeedMode::inverse_time ? "SET_FEED_MODE G93" : "SET_FEED_MODE G94");
+      line.text(block.feed_mode == FeedMode::inverse_time           ? "SET_FEED_MODE G93"
+                : block.feed_mode == FeedMode::units_per_revolution ? "SET_FEED_MODE G95"
+                                                                    : "SET_FEED_MODE G94");
       break;
     case BlockKind::set_path_mode:
       line.text("SET_MOTION_CONTROL_MODE ");
@@ -172,6 +200,25 @@ bool write(LineWriter& line, const Block& block) {
     case BlockKind::change_tool:
       numbered(line, "CHANGE_TOOL", block.number);
       break;
+    case BlockKind::set_tool_number:
+      numbered(line, "CHANGE_TOOL_NUMBER", block.number);
+      break;
+    case BlockKind::digital_output:
+      numbered(line, "SET_DIGITAL", block.number);
+      line.text(block.on ? " on" : " off");
+      line.text(block.with_motion ? " @motion" : " @now");
+      break;
+    case BlockKind::analog_output:
+      numbered(line, "SET_ANALOG", block.number);
+      line.fixed(block.value);
+      line.text(block.with_motion ? " @motion" : " @now");
+      break;
+    case BlockKind::wait_input:
+      numbered(line, "WAIT_INPUT", block.wait.number);
+      line.text(block.wait.analog ? " analog" : " digital");
+      line.text(wait_name(block.wait.mode));
+      line.fixed(block.wait.timeout_s);
+      break;
     case BlockKind::program_stop:
       line.text("PROGRAM_STOP");
       break;
@@ -185,6 +232,7 @@ bool write(LineWriter& line, const Block& block) {
     case BlockKind::comment:
     case BlockKind::feed_override:
     case BlockKind::speed_override:
+    case BlockKind::spindle_mode:
       return false;
   }
   line.place(block.span.line);

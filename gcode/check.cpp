@@ -14,24 +14,54 @@ constexpr int kLargestSystem = kWorkSystems;
 /// Codes that read a letter, for the message about a letter that nobody reads.
 std::string_view users_of(char letter) {
   switch (letter) {
+    case 'D':
+      return "D belongs to G41 G42 G41.1 G42.1 G96";
+    case 'E':
+      return "E belongs to G76 M66 M67 M68";
     case 'H':
-      return "H belongs to G43";
+      return "H belongs to G43 G43.2 G76";
     case 'I':
-      return "I belongs to G2 and G3";
     case 'J':
-      return "J belongs to G2 and G3";
+      return "I and J belong to G2 G3 G5 G5.1 G10 G33.1 G76";
     case 'K':
-      return "K belongs to G2 and G3";
+      return "K belongs to G2 G3 G33 G33.1 G76";
     case 'L':
-      return "L belongs to G10";
+      return "L belongs to G5.2 G10 G41.1 G42.1, cycles, M66 and M98";
     case 'P':
-      return "P belongs to G2 G3 G4 G10 G64 M50 M51";
+      return "P belongs to G2 G3 G4 G5 G5.2 G10 G64 G76, cycles, M50 M51 M53 M62 to M66 and M98";
     case 'Q':
-      return "Q belongs to G64";
+      return "Q belongs to G5 G10 G64 G73 G76 G83 M61 M66 M67 M68";
     case 'R':
-      return "R belongs to G2 and G3";
+      return "R belongs to G2 G3 G10 G76 and cycles";
+    case '$':
+      return "$ names a spindle: it belongs to S, M3 M4 M5, G33 G33.1 G76 G96 G97";
     default:
       return "no code that kadr runs reads this letter";
+  }
+}
+
+/// Letters besides axes, F, S and T that a motion reads.
+std::uint32_t letters_of_motion(Motion motion, int code) {
+  switch (motion) {
+    case Motion::arc_clockwise:
+    case Motion::arc_counterclockwise:
+      return letter_bits("IJKRP");
+    case Motion::cubic_spline:
+      return letter_bits("IJPQ");
+    case Motion::quadratic_spline:
+      return letter_bits("IJ");
+    case Motion::nurbs:
+      return code == 52 ? letter_bits("PL") : letter_bit('P');
+    case Motion::thread:
+      return letter_bits("K$");
+    case Motion::rigid_tap:
+      return letter_bits("KI$");
+    case Motion::thread_cycle:
+      return letter_bits("PIJRKQHEL$");
+    case Motion::cycle:
+      return letter_bits("RLPQ$");
+    default:
+      return 0;
   }
 }
 
@@ -98,22 +128,55 @@ void Interpreter::check_codes() {
 }
 
 std::uint32_t Interpreter::usable_letters() const {
-  std::uint32_t letters = kAxisBits | letter_bits("FST");
-  if (moves() && is_arc(motion_of_line())) letters |= letter_bits("IJKRP");
+  std::uint32_t letters = kAxisBits | letter_bits("FST@^");
+  if (moves()) letters |= letters_of_motion(motion_of_line(), words_.g(GGroup::motion));
   switch (words_.g(GGroup::nonmodal)) {
     case 40:
       letters |= letter_bit('P');
       break;
     case 100:
-      letters |= letter_bits("LP");
+      letters |= letter_bits("LPRQIJ");
       break;
     default:
       break;
   }
   if (words_.g(GGroup::path) == 640) letters |= letter_bits("PQ");
-  if (words_.g(GGroup::tool_length) == 430) letters |= letter_bit('H');
+  const int length = words_.g(GGroup::tool_length);
+  if (length == 430 || length == 432) letters |= letter_bit('H');
+  switch (words_.g(GGroup::compensation)) {
+    case 410:
+    case 420:
+      letters |= letter_bit('D');
+      break;
+    case 411:
+    case 421:
+      letters |= letter_bits("DL");
+      break;
+    default:
+      break;
+  }
+  const int mode = words_.g(GGroup::spindle_mode);
+  if (mode == 960) letters |= letter_bit('D');
+  if (mode != kNoCode || words_.has('S') || words_.m(MGroup::spindle) != kNoCode) letters |= letter_bit('$');
   const int override_code = words_.m(MGroup::overrides);
-  if (override_code == 50 || override_code == 51) letters |= letter_bit('P');
+  if (override_code >= 50) letters |= letter_bit('P');
+  if (override_code == 51) letters |= letter_bit('$');
+  switch (words_.m(MGroup::inputs)) {
+    case kNoCode:
+      break;
+    case 66:
+      letters |= letter_bits("PELQ");
+      break;
+    case 67:
+    case 68:
+      letters |= letter_bits("EQ");
+      break;
+    default:
+      letters |= letter_bit('P');
+      break;
+  }
+  if (words_.m(MGroup::tool_change) == 61) letters |= letter_bit('Q');
+  if (words_.m(MGroup::call) == 98) letters |= letter_bits("PL");
   return letters;
 }
 
@@ -121,7 +184,7 @@ void Interpreter::check_unused() {
   if (state_.uncertain.motion) return;
   const std::uint32_t unused = words_.present & ~usable_letters();
   if (unused == 0) return;
-  for (char letter = 'A'; letter <= 'Z'; ++letter) {
+  for (const char letter : kWordLetters) {
     if ((unused & letter_bit(letter)) == 0) continue;
     Diagnostic d = problem(Code::word_unused, words_.span(*line_, letter),
                            fmt::format("nothing on this line reads {}", letter));

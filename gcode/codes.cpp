@@ -17,13 +17,34 @@ constexpr GEntry kRunG[] = {{0, GGroup::motion},
                             {10, GGroup::motion},
                             {20, GGroup::motion},
                             {30, GGroup::motion},
+                            {50, GGroup::motion},
+                            {51, GGroup::motion},
+                            {52, GGroup::motion},
+                            {53, GGroup::motion},
+                            {330, GGroup::motion},
+                            {331, GGroup::motion},
+                            {382, GGroup::motion},
+                            {383, GGroup::motion},
+                            {384, GGroup::motion},
+                            {385, GGroup::motion},
+                            {730, GGroup::motion},
+                            {740, GGroup::motion},
+                            {760, GGroup::motion},
                             {800, GGroup::motion},
+                            {810, GGroup::motion},
+                            {820, GGroup::motion},
+                            {830, GGroup::motion},
+                            {840, GGroup::motion},
+                            {850, GGroup::motion},
+                            {860, GGroup::motion},
+                            {890, GGroup::motion},
                             {40, GGroup::nonmodal},
                             {100, GGroup::nonmodal},
                             {280, GGroup::nonmodal},
                             {281, GGroup::nonmodal},
                             {300, GGroup::nonmodal},
                             {301, GGroup::nonmodal},
+                            {520, GGroup::nonmodal},
                             {530, GGroup::nonmodal},
                             {920, GGroup::nonmodal},
                             {921, GGroup::nonmodal},
@@ -35,8 +56,13 @@ constexpr GEntry kRunG[] = {{0, GGroup::motion},
                             {200, GGroup::units},
                             {210, GGroup::units},
                             {400, GGroup::compensation},
+                            {410, GGroup::compensation},
+                            {411, GGroup::compensation},
+                            {420, GGroup::compensation},
+                            {421, GGroup::compensation},
                             {430, GGroup::tool_length},
                             {431, GGroup::tool_length},
+                            {432, GGroup::tool_length},
                             {490, GGroup::tool_length},
                             {540, GGroup::coordinate_system},
                             {550, GGroup::coordinate_system},
@@ -55,22 +81,33 @@ constexpr GEntry kRunG[] = {{0, GGroup::motion},
                             {901, GGroup::arc_distance},
                             {911, GGroup::arc_distance},
                             {930, GGroup::feed_mode},
-                            {940, GGroup::feed_mode}};
+                            {940, GGroup::feed_mode},
+                            {950, GGroup::feed_mode},
+                            {960, GGroup::spindle_mode},
+                            {970, GGroup::spindle_mode},
+                            {980, GGroup::retract},
+                            {990, GGroup::retract},
+                            {70, GGroup::diameter},
+                            {80, GGroup::diameter}};
 
-constexpr int kKnownG[] = {50,  51,  52,  53,  70,  80,  171, 181, 191, 330, 331, 332, 382, 383, 384, 385,
-                           410, 411, 420, 421, 432, 500, 510, 520, 700, 710, 711, 712, 720, 721, 722, 730,
-                           740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890, 950, 960, 970, 980, 990};
+constexpr int kKnownG[] = {171, 181, 191, 332, 500, 510, 700, 710, 711, 712, 720, 721, 722, 870, 880};
 
 struct MEntry {
   int number;
   MGroup group;
 };
-constexpr MEntry kRunM[] = {
-    {0, MGroup::stop},       {1, MGroup::stop},        {2, MGroup::stop},       {30, MGroup::stop},
-    {60, MGroup::stop},      {6, MGroup::tool_change}, {3, MGroup::spindle},    {4, MGroup::spindle},
-    {5, MGroup::spindle},    {7, MGroup::coolant},     {8, MGroup::coolant},    {9, MGroup::coolant},
-    {48, MGroup::overrides}, {49, MGroup::overrides},  {50, MGroup::overrides}, {51, MGroup::overrides}};
-constexpr int kKnownM[] = {19, 52, 53, 61, 62, 63, 64, 65, 66, 67, 68, 70, 71, 72, 73, 98, 99};
+constexpr MEntry kRunM[] = {{0, MGroup::stop},         {1, MGroup::stop},         {2, MGroup::stop},
+                            {30, MGroup::stop},        {60, MGroup::stop},        {6, MGroup::tool_change},
+                            {61, MGroup::tool_change}, {3, MGroup::spindle},      {4, MGroup::spindle},
+                            {5, MGroup::spindle},      {7, MGroup::coolant},      {8, MGroup::coolant},
+                            {9, MGroup::coolant},      {48, MGroup::overrides},   {49, MGroup::overrides},
+                            {50, MGroup::overrides},   {51, MGroup::overrides},   {53, MGroup::overrides},
+                            {62, MGroup::inputs},      {63, MGroup::inputs},      {64, MGroup::inputs},
+                            {65, MGroup::inputs},      {66, MGroup::inputs},      {67, MGroup::inputs},
+                            {68, MGroup::inputs},      {70, MGroup::modal_state}, {71, MGroup::modal_state},
+                            {72, MGroup::modal_state}, {73, MGroup::modal_state}, {98, MGroup::call},
+                            {99, MGroup::call}};
+constexpr int kKnownM[] = {19, 52};
 constexpr int kFirstUserM = 100;  // M100 .. M199 are the user's own
 
 constexpr std::array<GCode, kGTableSize> make_g_table() {

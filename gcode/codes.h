@@ -6,28 +6,34 @@ namespace kadr::gcode {
 
 /// Modal groups of G codes (RS-274/NGC numbers them 0 to 13); one code of a group per line.
 enum class GGroup : std::uint8_t {
-  nonmodal,           ///< G4 G10 G28 G30 G53 G92: hold for their line only
-  motion,             ///< G0 G1 G2 G3 G80
+  nonmodal,           ///< G4 G10 G28 G30 G52 G53 G92: hold for their line only
+  motion,             ///< G0 to G3, splines, probing, threads, cycles, G80
   plane,              ///< G17 G18 G19
   distance,           ///< G90 G91
   arc_distance,       ///< G90.1 G91.1
-  feed_mode,          ///< G93 G94
+  feed_mode,          ///< G93 G94 G95
   units,              ///< G20 G21
-  compensation,       ///< G40
-  tool_length,        ///< G43 G43.1 G49
+  compensation,       ///< G40 G41 G42 G41.1 G42.1
+  tool_length,        ///< G43 G43.1 G43.2 G49
   coordinate_system,  ///< G54 .. G59.3
   path,               ///< G61 G61.1 G64
+  retract,            ///< G98 G99
+  spindle_mode,       ///< G96 G97
+  diameter,           ///< G7 G8
 };
-inline constexpr int kGGroups = 11;
+inline constexpr int kGGroups = 14;
 
 enum class MGroup : std::uint8_t {
   stop,         ///< M0 M1 M2 M30 M60
-  tool_change,  ///< M6
+  inputs,       ///< M62 to M68
+  tool_change,  ///< M6 M61
   spindle,      ///< M3 M4 M5
   coolant,      ///< M7 M8 M9
-  overrides,    ///< M48 M49 M50 M51
+  overrides,    ///< M48 M49 M50 M51 M53
+  modal_state,  ///< M70 to M73
+  call,         ///< M98 M99
 };
-inline constexpr int kMGroups = 5;
+inline constexpr int kMGroups = 8;
 
 enum class Standing : std::uint8_t {
   unknown,  ///< not a code of the dialect

@@ -5,7 +5,7 @@
 
 namespace kadr::gcode {
 
-void interpret(const SourceSet& sources, std::uint32_t file, const InterpretOptions& options,
+void interpret(SourceSet& sources, std::uint32_t file, const InterpretOptions& options,
                const std::function<void(const Block&)>& sink, Diagnostics& diagnostics) {
   Report report(diagnostics);
   Program program(sources, file, report);

@@ -1,13 +1,42 @@
 #pragma once
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "gcode/block.h"
+#include "gcode/tool_table.h"
 #include "machine/base/diagnostic.h"
 
 /// The G-code front end: text -> parse tree (what was written, with spans) -> Blocks (what it means).
 /// Dialect: RS-274/NGC. Every mistake of a program is told in one run; an unknown word is never skipped.
 namespace kadr::gcode {
+
+/// Which controller's reading of codes that differ.
+enum class Dialect : std::uint8_t { linuxcnc, grbl, marlin, fanuc };
+
+/// Bounds that a program may not exceed; each message names the setting. 0: no bound.
+struct Bounds {
+  std::uint64_t blocks = 0;
+  std::uint32_t call_depth = 100;          ///< subroutines within each other
+  std::uint64_t loop_passes = 10'000'000;  ///< passes of all loops together
+  std::uint64_t file_bytes = 4ULL << 30;   ///< of the program and of each file that it calls
+  std::uint32_t line_bytes = 65'536;
+};
+
+/// Material that a probe meets: the half space below (or above) a plane across one axis, machine coordinates.
+struct StockPlane {
+  int axis = 2;  ///< program axis
+  double position_u = 0;
+  bool below = true;  ///< the material lies where the axis reads less
+};
+
+/// What an input reads as M66 ends. `reached` is false if the time ran out.
+struct InputReading {
+  bool reached = false;
+  double value = 0;
+};
 
 struct InterpretOptions {
   std::string axis_letters = "XYZABCUVW";  ///< axes of the machine; a word of another axis is an error
@@ -16,15 +45,20 @@ struct InterpretOptions {
   AxisValues g30{};                        ///< G30 reference point, machine coordinates
   double arc_end_tolerance_mm = 0.01;      ///< docs: PathLimits
   double arc_end_tolerance_relative = 0.001;
-  bool block_delete = false;     ///< leave out lines that begin with '/'
-  std::uint32_t max_blocks = 0;  ///< 0: no bound
+  bool block_delete = false;  ///< leave out lines that begin with '/'
+  Dialect dialect = Dialect::linuxcnc;
+  Bounds bounds;
+  std::vector<std::string> sub_folders;  ///< where called files are looked for after the program's own folder
+  std::optional<ToolTable> tools;        ///< none: tools have no length and no radius
+  std::optional<StockPlane> stock;       ///< none: a probe meets material at the end of its move
+  std::function<InputReading(const InputWait&)> read_input;  ///< asked at M66; none: every input reads 0
 };
 
 /// Reads and interprets sources[file], handing each Block to `sink` in program order. Streaming: memory does
 /// not grow with the program. After the first error blocks are still made where possible, so that later
 /// mistakes are told too; the caller moves nothing if diagnostics.has_errors(). The file that ends without
 /// M2/M30/% still gets a program_end block.
-void interpret(const SourceSet& sources, std::uint32_t file, const InterpretOptions& options,
+void interpret(SourceSet& sources, std::uint32_t file, const InterpretOptions& options,
                const std::function<void(const Block&)>& sink, Diagnostics& diagnostics);
 
 /// One line of the canonical trace for a block (without line end), e.g.

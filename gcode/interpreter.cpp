@@ -11,6 +11,7 @@ Interpreter::Interpreter(const InterpretOptions& options, Report& report, const 
   state_.position = options.home;
   write_axis_parameters(state_, parameter::kG28, options.g28);
   write_axis_parameters(state_, parameter::kG30, options.g30);
+  if (options.tools) state_.tools = *options.tools;
   for (const char letter : options.axis_letters) axes_on_machine_ |= letter_bit(letter);
 }
 
@@ -35,21 +36,27 @@ void Interpreter::execute() {
   parameters();
   if (words_.comment >= 0) comment();
   if (!words_.any) return;
+  spindle_mode();
   feed_mode();
   feed_rate();
   spindle_speed();
   select_tool();
+  inputs_and_outputs();
   change_tool();
   spindle();
+  modal_state();
   coolant();
   overrides();
   dwell();
   plane();
   units();
+  diameter_mode();
+  compensation();
   tool_length();
   work_system();
   path_control();
   distance_mode();
+  retract_mode();
   nonmodal();
   motion();
   stop();
@@ -119,9 +126,9 @@ void Interpreter::simple_block(BlockKind kind, Span span) {
 
 void Interpreter::emit(Block& block) {
   if (silent_ || ended_) return;
-  if (options_.max_blocks != 0 && blocks_ >= options_.max_blocks) {
+  if (options_.bounds.blocks != 0 && blocks_ >= options_.bounds.blocks) {
     error(problem(Code::too_many_blocks, block.span, fmt::format("block {} would begin here", blocks_ + 1),
-                  fmt::format("allowed are {} blocks", options_.max_blocks)));
+                  fmt::format("allowed are {} blocks", options_.bounds.blocks)));
     ended_ = true;
     return;
   }

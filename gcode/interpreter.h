@@ -63,6 +63,7 @@ class Interpreter {
   void nonmodal();
   void go_to_reference(int parameters);
   void set_work_offset();
+  void set_local_offset();
   void set_g92();
   void refresh_offsets();
 
@@ -75,13 +76,41 @@ class Interpreter {
   void straight(Motion motion);
   void arc(Motion motion);
   bool find_arc(const AxisValues& end, bool clockwise, Arc& result);
-  bool arc_center_words(PlanePoint start, PlanePoint& center);
+  bool arc_center_words(PlanePoint& center);
   ArcLimits limits_of_arc() const;
   bool refuse_arc(const Arc& arc, PlanePoint end);
   void warn_arc(const Arc& arc);
   bool feed_ready();
   void set_feed(Block& block);
   void move_to(const AxisValues& end);
+
+  // splines.cpp: G5 G5.1 G5.2 G5.3
+  void spline();
+  void add_nurbs_point();
+  void end_nurbs();
+
+  // threads.cpp: G33 G33.1 G76 G95 G96 G97
+  void thread();
+  void rigid_tap();
+  void thread_cycle();
+  void spindle_mode();
+
+  // cycles.cpp: G73 G74 G81 to G86 G89, G98 G99
+  void cycle();
+  void retract_mode();
+
+  // probe.cpp: G38.2 to G38.5
+  void probe();
+
+  // compensation.cpp: G40 G41 G42 G41.1 G42.1
+  void compensation();
+
+  // inputs.cpp: M62 to M68
+  void inputs_and_outputs();
+
+  // modal_state.cpp: M70 to M73, G7 G8
+  void modal_state();
+  void diameter_mode();
 
   // interpreter.cpp
   void execute();

@@ -50,10 +50,30 @@ Motion Interpreter::motion_of_line() const {
       return Motion::arc_clockwise;
     case 30:
       return Motion::arc_counterclockwise;
+    case 50:
+      return Motion::cubic_spline;
+    case 51:
+      return Motion::quadratic_spline;
+    case 52:
+      return Motion::nurbs;
+    case 330:
+      return Motion::thread;
+    case 331:
+      return Motion::rigid_tap;
+    case 382:
+    case 383:
+    case 384:
+    case 385:
+      return Motion::probe;
+    case 760:
+      return Motion::thread_cycle;
+    case 53:
     case 800:
       return Motion::none;
-    default:
+    case kNoCode:
       return state_.motion;
+    default:
+      return Motion::cycle;
   }
 }
 
@@ -63,35 +83,65 @@ bool Interpreter::axis_words_taken() const {
 
 bool Interpreter::moves() const {
   const int code = words_.g(GGroup::motion);
-  if (code != kNoCode) return code != 800;
+  if (code != kNoCode) return code != 800 && code != 53;
   if (axis_words_taken()) return false;
   return words_.has_axis() || (is_arc(state_.motion) && (words_.present & letter_bits("IJK")) != 0);
 }
 
 void Interpreter::motion() {
-  if (words_.g(GGroup::motion) != kNoCode) {
+  const int code = words_.g(GGroup::motion);
+  if (code != kNoCode) {
     state_.motion = motion_of_line();
+    if (state_.motion == Motion::cycle) state_.cycle_code = code;
+    if (state_.motion == Motion::probe) state_.probe_code = code;
     state_.uncertain.motion = false;
+    if (code == 53) return end_nurbs();
   }
   if (!moves()) return;
   if (state_.uncertain.motion) return move_to(target());
-  if (is_arc(state_.motion)) return arc(state_.motion);
-  straight(state_.motion);
+  switch (state_.motion) {
+    case Motion::none:
+      return;
+    case Motion::traverse:
+    case Motion::feed:
+      return straight(state_.motion);
+    case Motion::arc_clockwise:
+    case Motion::arc_counterclockwise:
+      return arc(state_.motion);
+    case Motion::cubic_spline:
+    case Motion::quadratic_spline:
+      return spline();
+    case Motion::nurbs:
+      return add_nurbs_point();
+    case Motion::thread:
+      return thread();
+    case Motion::rigid_tap:
+      return rigid_tap();
+    case Motion::probe:
+      return probe();
+    case Motion::thread_cycle:
+      return thread_cycle();
+    case Motion::cycle:
+      return cycle();
+  }
 }
 
 AxisValues Interpreter::target() const {
   AxisValues end = state_.position;
   const bool machine_coordinates = words_.g(GGroup::nonmodal) == 530;
+  AxisValues program = machine_coordinates ? end : state_.to_program(end);
+  bool named = false;
   for (int axis = 0; axis < kProgramAxes; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     if (!words_.has(kAxisLetters[a])) continue;
     const double value = state_.to_base_units(axis, words_.value(kAxisLetters[a]));
-    if (state_.incremental) {
-      end[a] += value;
-      continue;
-    }
-    const double wanted = machine_coordinates ? value : value + state_.offset(axis);
-    if (std::fabs(wanted - end[a]) > kSamePoint_u) end[a] = wanted;
+    program[a] = state_.incremental ? program[a] + value : value;
+    named = true;
+  }
+  if (!named) return end;
+  const AxisValues wanted = machine_coordinates ? program : state_.to_machine(program);
+  for (std::size_t a = 0; a < kProgramAxes; ++a) {
+    if (std::fabs(wanted[a] - end[a]) > kSamePoint_u) end[a] = wanted[a];
   }
   return end;
 }

@@ -86,9 +86,7 @@ bool Parser::parse_item(char c) {
     case '@':
     case '^':
     case '$':
-      return fail(Code::word_not_run, {cursor_.at(), cursor_.at() + 1},
-                  c == '$' ? "kadr runs one spindle: $ is not run"
-                           : fmt::format("polar coordinates {} are not run", c));
+      return parse_word(c);
     default:
       return bad_character();
   }

@@ -24,6 +24,9 @@ void Interpreter::nonmodal() {
     case 301:
       write_axis_parameters(state_, parameter::kG30, state_.position);
       break;
+    case 520:
+      set_local_offset();
+      break;
     case 920:
       set_g92();
       break;
@@ -70,23 +73,26 @@ void Interpreter::set_work_offset() {
   if (system == 0) system = state_.work_system;
   const int first = parameter::kWorkOffset + (system - 1) * parameter::kWorkOffsetStride;
   AxisValues offset = read_axis_parameters(state_, first);
+  const AxisValues here = state_.to_program(state_.position);
   for (int axis = 0; axis < kProgramAxes; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     if (!words_.has(kAxisLetters[a])) continue;
     const double value = state_.to_base_units(axis, words_.value(kAxisLetters[a]));
-    const double here = state_.position[a] - state_.g92_offset[a] - state_.tool_offset[a];
-    offset[a] = words_.value('L') == 20 ? here - value : value;
+    offset[a] = words_.value('L') == 20 ? state_.work_offset[a] + here[a] - value : value;
   }
   write_axis_parameters(state_, first, offset);
   if (system == state_.work_system) refresh_offsets();
 }
 
+void Interpreter::set_local_offset() {}
+
 void Interpreter::set_g92() {
+  const AxisValues here = state_.to_program(state_.position);
   for (int axis = 0; axis < kProgramAxes; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     if (!words_.has(kAxisLetters[a])) continue;
     const double value = state_.to_base_units(axis, words_.value(kAxisLetters[a]));
-    state_.g92_offset[a] = state_.position[a] - state_.work_offset[a] - state_.tool_offset[a] - value;
+    state_.g92_offset[a] += here[a] - value;
   }
   write_axis_parameters(state_, parameter::kG92, state_.g92_offset);
   state_.parameters[parameter::kG92Active] = 1;

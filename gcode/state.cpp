@@ -4,6 +4,30 @@
 
 namespace kadr::gcode {
 
+AxisValues State::to_machine(const AxisValues& program) const {
+  AxisValues at;
+  for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] = program[a] + g92_offset[a];
+  if (rotation_deg != 0) {
+    const double x = at[0], y = at[1];
+    at[0] = x * rotation_cos - y * rotation_sin;
+    at[1] = x * rotation_sin + y * rotation_cos;
+  }
+  for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] += work_offset[a] + tool_offset[a];
+  return at;
+}
+
+AxisValues State::to_program(const AxisValues& machine) const {
+  AxisValues at;
+  for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] = machine[a] - work_offset[a] - tool_offset[a];
+  if (rotation_deg != 0) {
+    const double x = at[0], y = at[1];
+    at[0] = x * rotation_cos + y * rotation_sin;
+    at[1] = y * rotation_cos - x * rotation_sin;
+  }
+  for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] -= g92_offset[a];
+  return at;
+}
+
 double read_parameter(const State& state, int index) {
   if (index == parameter::kToolNumber) return state.tool_in_spindle;
   if (index == parameter::kWorkSystem) return state.work_system;

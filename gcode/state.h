@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gcode/block.h"
+#include "gcode/tool_table.h"
 #include "machine/base/axes.h"
 
 namespace kadr::gcode {
@@ -11,7 +12,22 @@ namespace kadr::gcode {
 inline constexpr double kMillimetresPerInch = 25.4;
 inline constexpr int kWorkSystems = 9;  ///< G54 .. G59.3
 
-enum class Motion : std::uint8_t { none, traverse, feed, arc_clockwise, arc_counterclockwise };
+/// The motion code that holds.
+enum class Motion : std::uint8_t {
+  none,
+  traverse,
+  feed,
+  arc_clockwise,
+  arc_counterclockwise,
+  cubic_spline,      ///< G5
+  quadratic_spline,  ///< G5.1
+  nurbs,             ///< G5.2 until G5.3
+  thread,            ///< G33
+  rigid_tap,         ///< G33.1
+  probe,             ///< G38.2 to G38.5, which one: State::probe_code
+  thread_cycle,      ///< G76
+  cycle,             ///< G73 G74 G81 to G86 G89, which one: State::cycle_code
+};
 constexpr bool is_arc(Motion motion) {
   return motion == Motion::arc_clockwise || motion == Motion::arc_counterclockwise;
 }
@@ -20,16 +36,20 @@ constexpr bool is_arc(Motion motion) {
 namespace parameter {
 inline constexpr int kFirst = 1;
 inline constexpr int kLast = 5601;
-inline constexpr int kG28 = 5161;         ///< .. 5169
-inline constexpr int kG30 = 5181;         ///< .. 5189
+inline constexpr int kG28 = 5161;    ///< .. 5169
+inline constexpr int kG30 = 5181;    ///< .. 5189
+inline constexpr int kProbe = 5061;  ///< .. 5069, where the last probing tripped, program coordinates
+inline constexpr int kProbeTripped = 5070;
+inline constexpr int kInput = 5399;       ///< what the last M66 read
 inline constexpr int kG92Active = 5210;   ///< 1 while the G92 offset holds
 inline constexpr int kG92 = 5211;         ///< .. 5219
 inline constexpr int kWorkSystem = 5220;  ///< 1 .. 9: G54 .. G59.3
 inline constexpr int kWorkOffset = 5221;  ///< .. 5229, then 20 further for each system
 inline constexpr int kWorkOffsetStride = 20;
-inline constexpr int kToolNumber = 5400;  ///< 5400 .. 5428 are read-only
-inline constexpr int kToolOffset = 5401;  ///< .. 5409
-inline constexpr int kPosition = 5420;    ///< .. 5428, program coordinates in the units in force
+inline constexpr int kWorkRotation = 5230;  ///< of G54 in degrees, then 20 further for each system
+inline constexpr int kToolNumber = 5400;    ///< 5400 .. 5428 are read-only
+inline constexpr int kToolOffset = 5401;    ///< .. 5409
+inline constexpr int kPosition = 5420;      ///< .. 5428, program coordinates in the units in force
 inline constexpr int kReadOnlyLast = 5428;
 }  // namespace parameter
 
@@ -47,7 +67,9 @@ struct State {
   AxisValues work_offset{};  ///< of the work system in force
   AxisValues g92_offset{};   ///< in force
   AxisValues tool_offset{};
-  int work_system = 1;  ///< 1 .. 9
+  int work_system = 1;      ///< 1 .. 9
+  double rotation_deg = 0;  ///< of the work system in force, about Z
+  double rotation_cos = 1, rotation_sin = 0;
 
   Motion motion = Motion::none;
   Plane plane = Plane::xy;
@@ -67,6 +89,9 @@ struct State {
   double spindle_rpm = 0;
   bool mist = false, flood = false;
   int tool_selected = 0;
+  ToolTable tools;     ///< as G10 L1 L10 L11 have changed it
+  int cycle_code = 0;  ///< ten times the G number
+  int probe_code = 0;
   int tool_in_spindle = 0;
 
   std::vector<double> parameters = std::vector<double>(parameter::kLast + 1, 0.0);
@@ -80,14 +105,13 @@ struct State {
   double to_program_units(int axis, double value) const {
     return is_rotary_letter(kAxisLetters[static_cast<std::size_t>(axis)]) ? value : value / length_factor();
   }
-  /// Machine coordinate of program coordinate 0.
-  double offset(int axis) const {
-    const auto a = static_cast<std::size_t>(axis);
-    return work_offset[a] + g92_offset[a] + tool_offset[a];
-  }
+  /// Program coordinates in mm and deg -> machine coordinates:
+  ///   machine = work + R(rotation) · (program + g92) + tool,  R turns X and Y about Z
+  AxisValues to_machine(const AxisValues& program) const;
+  AxisValues to_program(const AxisValues& machine) const;
   /// Program coordinate in program units, as parameters 5420.. and messages give it.
   double program_position(int axis) const {
-    return to_program_units(axis, position[static_cast<std::size_t>(axis)] - offset(axis));
+    return to_program_units(axis, to_program(position)[static_cast<std::size_t>(axis)]);
   }
 };
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,13 @@
 
 namespace kadr::gcode {
 
-constexpr std::uint32_t letter_bit(char letter) { return 1U << (letter - 'A'); }
+/// Letters A to Z, and the signs of polar words and of a spindle's number.
+inline constexpr std::string_view kWordLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ@^$";
+constexpr std::size_t letter_index(char letter) {
+  if (letter >= 'A' && letter <= 'Z') return static_cast<std::size_t>(letter - 'A');
+  return letter == '@' ? 26 : letter == '^' ? 27 : 28;
+}
+constexpr std::uint32_t letter_bit(char letter) { return 1U << letter_index(letter); }
 constexpr std::uint32_t letter_bits(std::string_view letters) {
   std::uint32_t bits = 0;
   for (const char c : letters) bits |= letter_bit(c);
@@ -58,7 +65,7 @@ class Words {
   std::vector<std::pair<int, double>> settings;  ///< parameter and value, in order
 
  private:
-  static std::size_t index(char letter) { return static_cast<std::size_t>(letter - 'A'); }
+  static std::size_t index(char letter) { return letter_index(letter); }
   void clear();
   bool read_word(const Line& line, std::uint32_t at, const State& state, Report* report);
   bool read_g(const Line& line, std::uint32_t at, double value, Report* report);
@@ -67,8 +74,8 @@ class Words {
   bool read_comment(const Line& line, std::uint32_t at, Report* report);
   void widen_motion(Bytes bytes);
 
-  std::array<double, 26> values_{};
-  std::array<std::uint32_t, 26> items_{};
+  std::array<double, kWordLetters.size()> values_{};
+  std::array<std::uint32_t, kWordLetters.size()> items_{};
   std::array<std::int16_t, kGGroups> g_{};
   std::array<std::int16_t, kMGroups> m_{};
   std::array<std::uint32_t, kGGroups> g_items_{};

@@ -14,7 +14,12 @@ std::span<const CodeEntry> all_codes() {
   static const std::vector<CodeEntry> entries = [] {
     std::vector<CodeEntry> list = {
 #define KADR_CODE(number, name, title, explanation) {Code::name, #name, title, explanation},
+#include "machine/base/codes/compensation.inc"
+#include "machine/base/codes/curves.inc"
+#include "machine/base/codes/cycles.inc"
 #include "machine/base/codes/files.inc"
+#include "machine/base/codes/flow.inc"
+#include "machine/base/codes/functions.inc"
 #include "machine/base/codes/geometry.inc"
 #include "machine/base/codes/internal.inc"
 #include "machine/base/codes/motion.inc"

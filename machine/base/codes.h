@@ -12,7 +12,12 @@ namespace kadr {
 /// Each is listed once, in machine/base/codes/<range>.inc, as KADR_CODE(number, name, title, long text).
 enum class Code : std::uint16_t {
 #define KADR_CODE(number, name, title, explanation) name = number,
+#include "machine/base/codes/compensation.inc"
+#include "machine/base/codes/curves.inc"
+#include "machine/base/codes/cycles.inc"
 #include "machine/base/codes/files.inc"
+#include "machine/base/codes/flow.inc"
+#include "machine/base/codes/functions.inc"
 #include "machine/base/codes/geometry.inc"
 #include "machine/base/codes/internal.inc"
 #include "machine/base/codes/motion.inc"

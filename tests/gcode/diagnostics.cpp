@@ -38,7 +38,7 @@ std::vector<std::filesystem::path> bad_programs() {
 InterpretOptions small_machine() {
   InterpretOptions options;
   options.axis_letters = "XYZ";
-  options.max_blocks = 50;
+  options.bounds.blocks = 50;
   return options;
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("a mistake is told once, not again by what depends on it") {
   CHECK(run("F1 G1 X1.2.3\nG1 X0 Y0\nG2 X20 I5\n").codes() ==
         std::vector<Code>{Code::bad_number, Code::arc_end_off_circle});
   // the cycle that is not run leaves no motion behind, its hole positions are not errors
-  CHECK(only_code("F1\nG81 X1 Y1 Z-1 R1\nX2\nX3\nG80\n") == Code::word_not_run);
+  CHECK(only_code("F1\nG87 X1 Y1 Z-1 R1\nX2\nX3\nG80\n") == Code::word_not_run);
   // a failed setting is not blamed on its readers
   CHECK(only_code("#1=[1/0]\n#2=[1/#1]\nG0 X[SQRT[#1-5]]\n") == Code::division_by_zero);
   // the feed stood on the broken line
@@ -127,7 +127,7 @@ TEST_CASE("a million warnings are counted, a thousand shown") {
 
 TEST_CASE("the bound on blocks ends the program with an error") {
   InterpretOptions options;
-  options.max_blocks = 3;
+  options.bounds.blocks = 3;
   const Outcome outcome = run("G0 X1\nX2\nX3\nX4\nX5\n", options);
   CHECK(outcome.blocks.size() == 3);
   CHECK(outcome.codes() == std::vector<Code>{Code::too_many_blocks});

@@ -1,0 +1,33 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "machine/base/axes.h"
+#include "machine/base/diagnostic.h"
+
+namespace kadr::gcode {
+
+/// One tool of a table: LinuxCNC's `.tbl` line `T1 P1 X0 Z12.5 D6 I.. J.. Q.. ;remark`.
+struct Tool {
+  int number = 0;
+  int pocket = 0;
+  AxisValues offset{};  ///< mm, deg
+  double diameter_mm = 0;
+  double front_angle_deg = 0;
+  double back_angle_deg = 0;
+  int orientation = 0;  ///< 0 to 9
+};
+
+/// The tools of a machine, in the order of the table.
+struct ToolTable {
+  std::vector<Tool> tools;
+  /// The tool of a number, null if there is none.
+  const Tool* find(int number) const;
+  Tool* find(int number);
+};
+
+/// Reads a tool table; mistakes go to `diagnostics`, all of the file at once.
+ToolTable read_tool_table(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics);
+
+}  // namespace kadr::gcode
