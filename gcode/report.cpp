@@ -7,15 +7,39 @@
 namespace kadr::gcode {
 
 void Report::error(Diagnostic d) {
-  if (full()) return;
   ++errors_;
+  if (full() || !first_time(d)) return;
+  ++told_errors_;
   d.severity = Severity::error;
-  diagnostics_.add(std::move(d));
+  add(std::move(d));
 }
 
 void Report::warning(Diagnostic d) {
-  if (++warnings_ > kMaxWarnings) return;
+  if (warnings_ > kMaxWarnings) {
+    // only counted: remembering their places would take memory without bound
+    ++warnings_;
+    return;
+  }
+  if (!first_time(d) || ++warnings_ > kMaxWarnings) return;
   d.severity = Severity::warning;
+  add(std::move(d));
+}
+
+bool Report::first_time(const Diagnostic& d) {
+  return told_.emplace(d.code, d.span.file, d.span.line, d.span.column).second;
+}
+
+void Report::add(Diagnostic d) {
+  if (chain_ != nullptr && !chain_->empty()) {
+    const std::size_t depth = chain_->size();
+    const std::size_t half = depth > kMaxCalls ? kMaxCalls / 2 : depth;
+    const auto innermost = chain_->rbegin();
+    d.calls.assign(innermost, innermost + static_cast<std::ptrdiff_t>(half));
+    if (depth > kMaxCalls) {
+      d.calls.insert(d.calls.end(), chain_->rend() - static_cast<std::ptrdiff_t>(half), chain_->rend());
+      d.calls_left_out = depth - kMaxCalls;
+    }
+  }
   diagnostics_.add(std::move(d));
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "machine/base/hash.h"
-#include "machine/base/utf8.h"
 
 namespace kadr::emulator {
 namespace {
@@ -70,28 +69,30 @@ Json alarm_json(const EventRecord& e, const machine::MachineModel& model) {
   return j;
 }
 
+Json place_json(const Span& span, const SourceSet& sources) {
+  const bool placed = has_place(span, sources);
+  const Place place = placed ? place_of(span, sources) : Place{};
+  Json j;
+  j["file"] = placed ? Json(sources[span.file].name()) : Json(nullptr);
+  j["line"] = placed ? span.line : 0;
+  j["column"] = placed ? place.column : 0;
+  j["length"] = place.end_column - place.column;
+  return j;
+}
+
 }  // namespace
 
 Json json_of(const Diagnostic& d, const SourceSet& sources) {
-  Json j;
-  const bool placed = d.span.line > 0 && d.span.file < sources.size();
-  std::size_t column = 0, length = 0;
-  if (placed) {
-    const std::string_view line = sources[d.span.file].line(d.span.line);
-    const std::size_t begin = std::min<std::size_t>(d.span.column > 0 ? d.span.column - 1 : 0, line.size());
-    column = count_code_points(line.substr(0, begin)) + 1;
-    length = count_code_points(line.substr(begin, d.span.length));
-  }
-  j["file"] = placed ? Json(sources[d.span.file].name()) : Json(nullptr);
-  j["line"] = placed ? d.span.line : 0;
-  j["column"] = column;
-  j["length"] = length;
+  Json j = place_json(d.span, sources);
   j["code"] = code_name(d.code);
   j["severity"] = severity_name(d.severity);
   j["message"] = d.message.empty() ? std::string(code_entry(d.code).title) : d.message;
   j["label"] = d.label;
   j["notes"] = d.notes;
   j["help"] = d.help;
+  j["calls"] = Json::array();
+  for (const Span& call : d.calls) j["calls"].push_back(place_json(call, sources));
+  j["calls_left_out"] = d.calls_left_out;
   return j;
 }
 

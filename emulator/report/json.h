@@ -13,8 +13,9 @@ namespace kadr::emulator {
 
 using Json = nlohmann::ordered_json;
 
-/// {"file", "line", "column", "length", "code", "severity", "message", "label", "notes", "help"}; column and
-/// length in code points, column from 1; line 0: no place.
+/// {"file", "line", "column", "length", "code", "severity", "message", "label", "notes", "help", "calls",
+/// "calls_left_out"}; column and length in code points, column from 1; line 0: no place. "calls" holds the
+/// places of the calls that led here, innermost first; the ones left out stand between its two halves.
 Json json_of(const Diagnostic& d, const SourceSet& sources);
 Json json_of(const Diagnostics& diagnostics, const SourceSet& sources);
 Json json_of(const std::vector<LimitShare>& shares);

@@ -20,6 +20,9 @@ namespace {
 /// Widest excerpt of a source line that is printed, in code points; longer lines are cut around the caret.
 constexpr std::size_t kExcerpt = 160;
 
+/// Calls shown from either end of a long chain.
+constexpr std::size_t kCallsShown = 4;
+
 std::string_view severity_name(Severity severity) {
   return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
 }
@@ -109,18 +112,45 @@ void append_excerpt(std::string& out, const Diagnostic& d, std::string_view line
 
 /// "part.ngc:42:6", the column counted in code points from 1.
 std::string place_text(const Span& span, const SourceSet& sources) {
-  const SourceText& source = sources[span.file];
-  const std::string_view line = source.line(span.line);
-  const std::size_t begin = std::min<std::size_t>(span.column > 0 ? span.column - 1 : 0, line.size());
-  return fmt::format("{}:{}:{}", clean(source.name()), span.line,
-                     count_code_points(line.substr(0, begin)) + 1);
+  return fmt::format("{}:{}:{}", clean(sources[span.file].name()), span.line, place_of(span, sources).column);
 }
+
+/// What a call looks like: the marked part of its line.
+std::string call_text(const Span& span, const SourceSet& sources) {
+  const Excerpt e = excerpt(sources[span.file].line(span.line), span);
+  return clean(e.marked) + (e.cut_after && e.after.empty() ? "..." : "");
+}
+
+/// "called from part.ngc:42:1: O100 call [5]" for each call, the middle of many left out.
+std::vector<std::string> call_notes(const Diagnostic& d, const SourceSet& sources) {
+  std::vector<std::string> notes;
+  const std::size_t left_out_here = d.calls.size() > 2 * kCallsShown ? d.calls.size() - 2 * kCallsShown : 0;
+  const std::size_t left_out = left_out_here + d.calls_left_out;
+  for (std::size_t i = 0; i < d.calls.size(); ++i) {
+    const bool middle = left_out_here == 0 ? i == d.calls.size() / 2 : i == kCallsShown;
+    if (middle && left_out > 0) {
+      notes.push_back(fmt::format("... {} further call{} ...", left_out, left_out == 1 ? "" : "s"));
+      i += left_out_here;
+    }
+    if (!has_place(d.calls[i], sources)) continue;
+    notes.push_back(
+        fmt::format("called from {}: {}", place_text(d.calls[i], sources), call_text(d.calls[i], sources)));
+  }
+  return notes;
+}
+
+}  // namespace
 
 bool has_place(const Span& span, const SourceSet& sources) {
   return span.line > 0 && span.file < sources.size();
 }
 
-}  // namespace
+Place place_of(const Span& span, const SourceSet& sources) {
+  const std::string_view line = sources[span.file].line(span.line);
+  const std::size_t begin = std::min<std::size_t>(span.column > 0 ? span.column - 1 : 0, line.size());
+  const std::size_t column = count_code_points(line.substr(0, begin)) + 1;
+  return {column, column + count_code_points(line.substr(begin, span.length))};
+}
 
 std::string render_human(const Diagnostic& d, const SourceSet& sources, bool colour) {
   const Style style = style_of(d.severity, colour);
@@ -138,15 +168,23 @@ std::string render_human(const Diagnostic& d, const SourceSet& sources, bool col
   };
   if (!has_place(d.span, sources) && !d.label.empty()) fact("note", d.label);
   for (const std::string& note : d.notes) fact("note", note);
+  for (const std::string& call : call_notes(d, sources)) fact("note", call);
   if (!d.help.empty()) fact("help", d.help);
   fact("more", "kadr explain " + code_name(d.code));
   return out;
 }
 
 std::string render_gcc(const Diagnostic& d, const SourceSet& sources) {
-  return fmt::format("{}: {}: {}{}{} [{}]", has_place(d.span, sources) ? place_text(d.span, sources) : "kadr",
-                     severity_name(d.severity), message_of(d), d.label.empty() ? "" : ": ", clean(d.label),
-                     code_name(d.code));
+  std::string out =
+      fmt::format("{}: {}: {}{}{} [{}]", has_place(d.span, sources) ? place_text(d.span, sources) : "kadr",
+                  severity_name(d.severity), message_of(d), d.label.empty() ? "" : ": ", clean(d.label),
+                  code_name(d.code));
+  for (const Span& call : d.calls) {
+    if (!has_place(call, sources)) continue;
+    out +=
+        fmt::format("\n{}: note: called from here: {}", place_text(call, sources), call_text(call, sources));
+  }
+  return out;
 }
 
 std::string count_text(std::size_t errors, std::size_t warnings) {

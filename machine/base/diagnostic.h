@@ -69,6 +69,8 @@ struct Diagnostic {
   std::string label;               ///< at the caret: what was measured
   std::vector<std::string> notes;  ///< allowed value and the setting it comes from, further facts
   std::string help;                ///< what would be right
+  std::vector<Span> calls = {};    ///< calls of subroutines that led here, innermost first
+  std::size_t calls_left_out = 0;  ///< further calls, between the two halves of `calls`
 };
 
 /// Diagnostics in the order found. Reading goes on after an error; nothing moves while has_errors().
@@ -86,9 +88,20 @@ class Diagnostics {
   std::size_t warnings_ = 0;
 };
 
+/// A place for people and tools: code points, not bytes.
+struct Place {
+  std::size_t column = 1;      ///< of the first code point, from 1
+  std::size_t end_column = 1;  ///< behind the last one
+};
+/// False for a diagnostic that belongs to no line.
+bool has_place(const Span& span, const SourceSet& sources);
+/// @pre has_place(span, sources)
+Place place_of(const Span& span, const SourceSet& sources);
+
 /// The human form with source line and caret (docs/pipeline.md shows one). No colour codes unless `colour`.
 std::string render_human(const Diagnostic& d, const SourceSet& sources, bool colour = false);
-/// One line: part.ngc:42:6: error: message: label [K2107]
+/// One line: part.ngc:42:6: error: message: label [K2107]; for each call that led here another one:
+/// part.ngc:9:1: note: called from here: O100 call [5]
 std::string render_gcc(const Diagnostic& d, const SourceSet& sources);
 /// "2 errors, 1 warning"
 std::string count_text(std::size_t errors, std::size_t warnings);

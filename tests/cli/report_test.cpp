@@ -194,6 +194,8 @@ TEST_CASE("a diagnostic as JSON counts columns in code points") {
   CHECK(j["column"] == 6);
   CHECK(j["length"] == 2);
   CHECK(j["code"] == "K4101");
+  CHECK(j["calls"].empty());
+  CHECK(j["calls_left_out"] == 0);
   CHECK(j["notes"][0] == "note");
   d.span.line = 0;
   CHECK(json_of(d, sources)["file"].is_null());

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "gcode/report.h"
 #include "support.h"
 
 using namespace kadr;
@@ -131,4 +132,44 @@ TEST_CASE("the bound on blocks ends the program with an error") {
   const Outcome outcome = run("G0 X1\nX2\nX3\nX4\nX5\n", options);
   CHECK(outcome.blocks.size() == 3);
   CHECK(outcome.codes() == std::vector<Code>{Code::too_many_blocks});
+}
+
+TEST_CASE("a diagnostic carries the calls in force, and of very many both halves") {
+  Diagnostics diagnostics;
+  Report report(diagnostics);
+  std::vector<Span> chain = {{0, 10, 1, 5}, {0, 20, 1, 5}};
+  report.error(problem(Code::division_by_zero, {0, 1, 1, 1}, ""));
+  report.set_call_chain(&chain);
+  report.error(problem(Code::division_by_zero, {0, 2, 1, 1}, ""));
+  for (std::uint32_t line = 30; chain.size() < 100; ++line) chain.push_back({0, line, 1, 5});
+  report.warning(problem(Code::word_shared, {0, 3, 1, 1}, ""));
+  chain.clear();
+  report.error(problem(Code::division_by_zero, {0, 4, 1, 1}, ""));
+  const auto& list = diagnostics.list();
+  REQUIRE(list.size() == 4);
+  CHECK(list[0].calls.empty());
+  CHECK(list[1].calls == std::vector<Span>{{0, 20, 1, 5}, {0, 10, 1, 5}});
+  CHECK(list[1].calls_left_out == 0);
+  // 100 calls: lines 10, 20, 30 .. 127; the innermost 32 are 127 .. 96, the outermost end with 20, 10
+  REQUIRE(list[2].calls.size() == Report::kMaxCalls);
+  CHECK(list[2].calls_left_out == 36);
+  CHECK(list[2].calls[0].line == 127);
+  CHECK(list[2].calls[31].line == 96);
+  CHECK(list[2].calls[32].line == 59);
+  CHECK(list[2].calls[63].line == 10);
+  CHECK(list[3].calls.empty());
+}
+
+TEST_CASE("a mistake that a line makes on every pass is told once and found every time") {
+  Diagnostics diagnostics;
+  Report report(diagnostics);
+  for (int pass = 0; pass < 5000; ++pass) {
+    report.error(problem(Code::division_by_zero, {0, 7, 3, 1}, ""));
+    report.warning(problem(Code::word_shared, {0, 7, 3, 1}, ""));
+  }
+  report.error(problem(Code::division_by_zero, {0, 7, 9, 1}, "another place"));
+  CHECK(report.errors() == 5001);
+  CHECK_FALSE(report.full());
+  CHECK(diagnostics.errors() == 2);
+  CHECK(diagnostics.warnings() == 1);
 }

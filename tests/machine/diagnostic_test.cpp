@@ -125,6 +125,47 @@ TEST_CASE("of a line of 100,000 characters only the part round the caret is show
   CHECK(text.find("\n  | " + std::string(83, ' ') + "^^^ here\n") != std::string::npos);
 }
 
+TEST_CASE("a mistake inside a subroutine tells the calls that led there, innermost first") {
+  SourceSet sources;
+  const auto program = sources.add(SourceText("part.ngc", "(деталь) O<bore> call [5] (hole)\nM2\n"));
+  const auto sub = sources.add(SourceText("bore.ngc", "O<bore> sub\n O100 call [-1]\nO<bore> endsub\n"));
+  Diagnostic d = plain({sub, 3, 1, 2}, "here");
+  d.notes = {"allowed 5"};
+  d.help = "write 5";
+  // "(деталь) " is 9 code points and 15 bytes
+  d.calls = {{sub, 2, 2, 14}, {program, 1, 16, 16}};
+  const std::string text = render_human(d, sources);
+  CHECK(text.find("  = note: allowed 5\n"
+                  "  = note: called from bore.ngc:2:2: O100 call [-1]\n"
+                  "  = note: called from part.ngc:1:10: O<bore> call [5]\n"
+                  "  = help: write 5\n") != std::string::npos);
+  CHECK(render_gcc(d, sources) ==
+        "bore.ngc:3:1: error: headline: here [K9001]\n"
+        "bore.ngc:2:2: note: called from here: O100 call [-1]\n"
+        "part.ngc:1:10: note: called from here: O<bore> call [5]");
+}
+
+TEST_CASE("of a long chain of calls both ends are shown and the middle is counted") {
+  SourceSet sources;
+  const auto file = sources.add(SourceText("p", "O1\nO2\nO3\nO4\nO5\nO6\nO7\nO8\nO9\n"));
+  Diagnostic d = plain({file, 1, 1, 2}, "");
+  for (std::uint32_t line = 1; line <= 9; ++line) d.calls.push_back({file, line, 1, 2});
+  const auto notes = [&] {
+    std::string found;
+    const std::string text = render_human(d, sources);
+    for (std::size_t at = 0; (at = text.find("note: ", at)) != std::string::npos; ++at)
+      found += text.substr(at + 6, text.find('\n', at) - at - 6) + '|';
+    return found;
+  };
+  CHECK(notes() ==
+        "called from p:1:1: O1|called from p:2:1: O2|called from p:3:1: O3|called from p:4:1: O4|"
+        "... 1 further call ...|"
+        "called from p:6:1: O6|called from p:7:1: O7|called from p:8:1: O8|called from p:9:1: O9|");
+  d.calls.resize(2);
+  d.calls_left_out = 98;
+  CHECK(notes() == "called from p:1:1: O1|... 98 further calls ...|called from p:2:1: O2|");
+}
+
 TEST_CASE("colour changes nothing but escape sequences") {
   SourceSet sources;
   const auto file = sources.add(SourceText("p", "G1 X5"));
