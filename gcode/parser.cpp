@@ -99,6 +99,14 @@ bool Parser::parse_word(char letter) {
     return fail(Code::o_word_not_run, {begin, static_cast<std::uint32_t>(line_->text.size())},
                 "kadr does not run O words");
   }
+  double number = 0;
+  if (cursor_.read_plain_number(number)) {
+    Item& word = line_->items.emplace_back();
+    word.letter = letter;
+    word.number = number;
+    word.bytes = {begin, cursor_.at()};
+    return true;
+  }
   Item item;
   item.letter = letter;
   if (begins_number(cursor_)) {

@@ -43,6 +43,9 @@ class Cursor {
   void go_to(std::uint32_t at) { at_ = at; }
   std::string_view text() const { return text_; }
 
+  /// Reads a number written without blanks and of few digits, which nearly all are, to the value that
+  /// read_number() gives. False, with the cursor where it was, if there is more to it.
+  bool read_plain_number(double& value);
   /// Reads sign, digits, point, digits. Correctly rounded. The cursor is left behind what was read.
   /// @param bytes  where the number stands; on failure, the offending sign
   NumberResult read_number(double& value, Bytes& bytes);

@@ -48,10 +48,10 @@ void Console::data(std::string_view text) {
 }
 
 void Console::flush() {
-  const std::string out = std::move(buffer_);
-  buffer_.clear();
-  if (write_all(STDOUT_FILENO, out)) return;
+  const bool written = write_all(STDOUT_FILENO, buffer_);
   const int reason = errno;
+  buffer_.clear();
+  if (written) return;
   if (reason == EPIPE) {
     // the reader has enough: end as every filter does
     std::signal(SIGPIPE, SIG_DFL);
