@@ -13,6 +13,15 @@ namespace {
 constexpr double kScale = 1e6;        // six decimals
 constexpr double kLargestFast = 9e9;  // times 1e6 still an exact integer
 
+constexpr std::array<char, 200> kDigitPairs = [] {
+  std::array<char, 200> pairs{};
+  for (std::size_t i = 0; i < 100; ++i) {
+    pairs[2 * i] = static_cast<char>('0' + i / 10);
+    pairs[2 * i + 1] = static_cast<char>('0' + i % 10);
+  }
+  return pairs;
+}();
+
 /// Writes a line of the trace into a buffer on the stack: most of a program's time is spent here.
 class LineWriter {
  public:
@@ -24,26 +33,29 @@ class LineWriter {
   /// A blank and the value with six decimals, no negative zero.
   void fixed(double value) {
     *at_++ = ' ';
-    const double scaled = std::floor(std::fabs(value) * kScale + 0.5);
+    const double scaled = std::fabs(value) * kScale + 0.5;
     if (!(scaled < kLargestFast * kScale)) {
       at_ = fmt::format_to(at_, "{:.6f}", value);
       return;
     }
-    const auto micro = static_cast<std::uint64_t>(scaled);
+    // signed, since that conversion is one instruction
+    const auto micro = static_cast<std::int64_t>(scaled);
     if (micro == 0) return text("0.000000");
     if (value < 0) *at_++ = '-';
-    const std::uint64_t whole = micro / 1000000;
-    auto fraction = static_cast<std::uint32_t>(micro % 1000000);
+    const auto whole = static_cast<std::uint64_t>(micro) / 1000000;
+    const auto fraction = static_cast<std::uint32_t>(static_cast<std::uint64_t>(micro) % 1000000);
     if (whole < 10) {
       *at_++ = static_cast<char>('0' + whole);
+    } else if (whole < 100) {
+      pair(at_, static_cast<std::uint32_t>(whole));
+      at_ += 2;
     } else {
       at_ = std::to_chars(at_, end(), whole).ptr;
     }
     at_[0] = '.';
-    pair(5, fraction % 100);
-    fraction /= 100;
-    pair(3, fraction % 100);
-    pair(1, fraction / 100);
+    pair(at_ + 1, fraction / 10000);
+    pair(at_ + 3, fraction / 100 % 100);
+    pair(at_ + 5, fraction % 100);
     at_ += 7;
   }
   void place(std::uint32_t line) {
@@ -56,9 +68,8 @@ class LineWriter {
 
  private:
   char* end() { return buffer_.data() + buffer_.size(); }
-  void pair(int at, std::uint32_t two_digits) {
-    at_[at] = static_cast<char>('0' + two_digits / 10);
-    at_[at + 1] = static_cast<char>('0' + two_digits % 10);
+  static void pair(char* at, std::uint32_t two_digits) {
+    std::memcpy(at, kDigitPairs.data() + std::size_t{2} * two_digits, 2);
   }
 
   // name, at most 13 numbers of at most 317 characters (a double's largest integer part), place
@@ -66,8 +77,13 @@ class LineWriter {
   char* at_ = buffer_.data();
 };
 
-void position(LineWriter& line, const AxisValues& values) {
-  for (const double v : values) line.fixed(v);
+void position(LineWriter& line, const AxisValues& v) {
+  for (std::size_t axis = 0; axis < 3; ++axis) line.fixed(v[axis]);
+  // most machines have three axes
+  if (v[3] == 0 && v[4] == 0 && v[5] == 0 && v[6] == 0 && v[7] == 0 && v[8] == 0) {
+    return line.text(" 0.000000 0.000000 0.000000 0.000000 0.000000 0.000000");
+  }
+  for (std::size_t axis = 3; axis < v.size(); ++axis) line.fixed(v[axis]);
 }
 
 void spindle(LineWriter& line, std::string_view name) {

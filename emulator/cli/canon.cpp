@@ -11,6 +11,8 @@
 namespace kadr::cli {
 namespace {
 
+constexpr std::size_t kPiece_bytes = std::size_t{1} << 15;  // of the trace, handed to the console at once
+
 const Diagnostic& first_error(const Diagnostics& diagnostics) {
   for (const Diagnostic* d : by_place(diagnostics))
     if (d->severity == Severity::error) return *d;
@@ -63,7 +65,11 @@ int canon_program(const Arguments& arguments, Console& console) {
   if (json)
     console.data(
         fmt::format("{{\n  \"kadr\": \"{}\",\n  \"command\": \"canon\",\n  \"calls\": [", KADR_VERSION));
-  std::string line;
+  std::string text;
+  const auto hand_over = [&] {
+    console.data(text);
+    text.clear();
+  };
   bool first = true;
   gcode::interpret(
       job.sources, job.program, options,
@@ -71,18 +77,21 @@ int canon_program(const Arguments& arguments, Console& console) {
         // nothing moves after an error
         if (diagnostics.has_errors()) return;
         if (block.span.line < arguments.first_line || block.span.line > arguments.last_line) return;
-        line.clear();
-        gcode::append_canon(line, block);
-        if (line.empty()) return;
+        const std::size_t before = text.size();
+        gcode::append_canon(text, block);
+        if (text.size() == before) return;
         if (json) {
-          console.data((first ? "\n    " : ",\n    ") + call_json(line, block.span.line));
+          console.data((first ? "\n    " : ",\n    ") + call_json(text, block.span.line));
+          text.clear();
         } else {
-          line += '\n';
-          console.data(line);
+          text += '\n';
+          if (text.size() >= kPiece_bytes) hand_over();
         }
         first = false;
       },
       diagnostics);
+
+  hand_over();
 
   const int code = diagnostics.has_errors() ? kNo : kYes;
   if (json) {
