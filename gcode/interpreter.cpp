@@ -28,8 +28,18 @@ void Interpreter::run(const Line& line) {
   }
   started_ = started_ || words_.any;
   if (line.failed) return recover(true);
+  if (readable && plain_move()) return motion();
   if (!readable || !check()) return recover(false);
   execute();
+}
+
+/// True for a line of nothing but axis words under G0 or G1. Most lines of most programs are such; they pass
+/// by the checks and settings that can't concern them.
+bool Interpreter::plain_move() const {
+  if (!words_.only_moves() || (words_.present & ~axes_on_machine_) != 0 || state_.uncertain.motion)
+    return false;
+  const Motion motion = motion_of_line();
+  return motion == Motion::feed || motion == Motion::traverse;
 }
 
 void Interpreter::execute() {

@@ -113,6 +113,7 @@ class Interpreter {
   void diameter_mode();
 
   // interpreter.cpp
+  bool plain_move() const;
   void execute();
   void apply_modes();
   void recover(bool syntax);

@@ -127,19 +127,32 @@ void Interpreter::motion() {
 }
 
 AxisValues Interpreter::target() const {
-  AxisValues end = state_.position;
   const bool machine_coordinates = words_.g(GGroup::nonmodal) == 530;
-  AxisValues program = machine_coordinates ? end : state_.to_program(end);
-  bool named = false;
-  for (int axis = 0; axis < kProgramAxes; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    if (!words_.has(kAxisLetters[a])) continue;
-    const double value = state_.to_base_units(axis, words_.value(kAxisLetters[a]));
-    program[a] = state_.incremental ? program[a] + value : value;
-    named = true;
+  AxisValues wanted = state_.position;
+  if (machine_coordinates || state_.rotation_deg == 0) {
+    // each axis for itself
+    for (int axis = 0; axis < kProgramAxes; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      if (!words_.has(kAxisLetters[a])) continue;
+      const double value = state_.to_base_units(axis, words_.value(kAxisLetters[a]));
+      if (machine_coordinates) {
+        wanted[a] = state_.incremental ? wanted[a] + value : value;
+      } else {
+        wanted[a] = state_.axis_to_machine(
+            a, state_.incremental ? state_.axis_to_program(a, wanted[a]) + value : value);
+      }
+    }
+  } else if (words_.has_axis()) {
+    AxisValues program = state_.to_program(wanted);
+    for (int axis = 0; axis < kProgramAxes; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      if (!words_.has(kAxisLetters[a])) continue;
+      const double value = state_.to_base_units(axis, words_.value(kAxisLetters[a]));
+      program[a] = state_.incremental ? program[a] + value : value;
+    }
+    wanted = state_.to_machine(program);
   }
-  if (!named) return end;
-  const AxisValues wanted = machine_coordinates ? program : state_.to_machine(program);
+  AxisValues end = state_.position;
   for (std::size_t a = 0; a < kProgramAxes; ++a) {
     if (std::fabs(wanted[a] - end[a]) > kSamePoint_u) end[a] = wanted[a];
   }
@@ -174,18 +187,18 @@ void Interpreter::straight(Motion motion) {
 }
 
 bool Interpreter::feed_ready() {
-  const Span span = action_span();
   if (state_.feed_mode == FeedMode::inverse_time) {
     if (!words_.has('F')) {
-      return error(problem(Code::inverse_feed_missing, span, "no F on this line",
+      return error(problem(Code::inverse_feed_missing, action_span(), "no F on this line",
                            "under G93 each feed move needs its own F: 60 divided by its seconds"));
     }
     if (words_.value('F') > 0) return true;
     return error(
         problem(Code::feed_zero, words_.span(*line_, 'F'), "F0 under G93: the move would never end"));
   }
+  if (state_.feed_linear_mm_min > 0 && !state_.feed_cleared) return true;
+  const Span span = action_span();
   if (state_.feed_linear_mm_min > 0) {
-    if (!state_.feed_cleared) return true;
     state_.feed_cleared = false;
     Block block = make_block(BlockKind::set_feed_rate, span);
     block.value = state_.feed_linear_mm_min;

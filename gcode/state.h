@@ -109,6 +109,13 @@ struct State {
   ///   machine = work + R(rotation) · (program + g92) + tool,  R turns X and Y about Z
   AxisValues to_machine(const AxisValues& program) const;
   AxisValues to_program(const AxisValues& machine) const;
+  /// The same for one axis; X and Y only where rotation_deg is 0.
+  double axis_to_machine(std::size_t a, double program) const {
+    return (program + g92_offset[a]) + (work_offset[a] + tool_offset[a]);
+  }
+  double axis_to_program(std::size_t a, double machine) const {
+    return machine - work_offset[a] - tool_offset[a] - g92_offset[a];
+  }
   /// Program coordinate in program units, as parameters 5420.. and messages give it.
   double program_position(int axis) const {
     return to_program_units(axis, to_program(position)[static_cast<std::size_t>(axis)]);

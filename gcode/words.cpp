@@ -11,6 +11,8 @@ namespace kadr::gcode {
 namespace {
 
 constexpr double kCodeTolerance = 1e-3;  // in tenths of a G number
+constexpr double kTenths = 10;
+constexpr double kLargestCode = 1e5;
 constexpr double kLargestWord = 1e9;  // mm, deg, rpm ...: far beyond any machine, far below a step overflow
 constexpr std::uint32_t kMotionBits = kAxisBits | letter_bits("IJKRP");
 
@@ -49,7 +51,7 @@ ActiveComment active_comment(std::string_view comment) {
 
 void Words::clear() {
   present = doubtful = 0;
-  any = percent = refused_motion = false;
+  any = percent = refused_motion = other_codes_ = false;
   comment = -1;
   settings.clear();
   g_.fill(kNoCode);
@@ -96,38 +98,47 @@ bool Words::read_word(const Line& line, std::uint32_t at, const State& state, Re
   }
   if (item.letter == 'G') return read_g(line, at, value, report);
   if (item.letter == 'M') return read_m(line, at, value, report);
-  if (item.letter == 'N') {
-    const bool first = std::all_of(line.items.begin(), line.items.begin() + at, [](const Item& before) {
-      return before.kind != ItemKind::word && before.kind != ItemKind::setting;
-    });
-    if (first) return true;
-    return refuse(report, Code::line_number_place, line.span(item.bytes), "N is not the first word",
-                  "a line number stands at the head of its line");
-  }
-  const std::uint32_t bit = letter_bit(item.letter);
-  if ((present & bit) != 0) {
-    return refuse(report, Code::word_repeated, line.span(item.bytes),
-                  fmt::format("a second {} on this line", item.letter));
-  }
-  if (!(std::fabs(value) <= kLargestWord)) {
-    return refuse(report, Code::value_too_large, line.span(item.bytes),
-                  fmt::format("{} is {:.6g}, allowed up to {:.0e}", item.letter, value, kLargestWord));
+  if (item.letter == 'N') return read_line_number(line, at, report);
+  const std::size_t letter = index(item.letter);
+  const std::uint32_t bit = 1U << letter;
+  if ((present & bit) != 0 || !(std::fabs(value) <= kLargestWord)) {
+    return refuse_word(line, item, value, report);
   }
   present |= bit;
   if (doubt) doubtful |= bit;
-  values_[index(item.letter)] = value;
-  items_[index(item.letter)] = at;
+  values_[letter] = value;
+  items_[letter] = at;
   if ((bit & kMotionBits) != 0) widen_motion(item.bytes);
   return true;
 }
 
+bool Words::refuse_word(const Line& line, const Item& item, double value, Report* report) const {
+  if (has(item.letter)) {
+    return refuse(report, Code::word_repeated, line.span(item.bytes),
+                  fmt::format("a second {} on this line", item.letter));
+  }
+  return refuse(report, Code::value_too_large, line.span(item.bytes),
+                fmt::format("{} is {:.6g}, allowed up to {:.0e}", item.letter, value, kLargestWord));
+}
+
+bool Words::read_line_number(const Line& line, std::uint32_t at, Report* report) {
+  const bool first = std::all_of(line.items.begin(), line.items.begin() + at, [](const Item& before) {
+    return before.kind != ItemKind::word && before.kind != ItemKind::setting;
+  });
+  if (first) return true;
+  return refuse(report, Code::line_number_place, line.span(line.items[at].bytes), "N is not the first word",
+                "a line number stands at the head of its line");
+}
+
 bool Words::read_g(const Line& line, std::uint32_t at, double value, Report* report) {
   const Span span = line.span(line.items[at].bytes);
-  const double tenths_value = value * 10;
-  const double nearest = std::floor(tenths_value + 0.5);
-  const bool whole = std::fabs(tenths_value - nearest) <= kCodeTolerance && std::fabs(nearest) < 1e6;
-  const int tenths = whole ? static_cast<int>(nearest) : -1;
-  const GCode code = whole ? g_code(tenths) : GCode{};
+  int tenths = -1;
+  if (value >= 0 && value < kLargestCode) {
+    const double tenths_value = value * kTenths;
+    const auto nearest = static_cast<int>(tenths_value + 0.5);
+    if (std::fabs(tenths_value - nearest) <= kCodeTolerance) tenths = nearest;
+  }
+  const GCode code = g_code(tenths);
   if (code.standing != Standing::runs) {
     refused_motion = true;
     if (code.standing == Standing::not_run) {
@@ -136,7 +147,11 @@ bool Words::read_g(const Line& line, std::uint32_t at, double value, Report* rep
     return refuse(report, Code::unknown_code, span, fmt::format("there is no G code {:.6g}", value));
   }
   const auto group = static_cast<std::size_t>(code.group);
-  if (code.group == GGroup::motion) widen_motion(line.items[at].bytes);
+  if (code.group == GGroup::motion) {
+    widen_motion(line.items[at].bytes);
+  } else {
+    other_codes_ = true;
+  }
   if (g_[group] != kNoCode) {
     // G80 beside a motion code is the usual safety line of a postprocessor: the motion code holds
     const bool harmless = code.group == GGroup::motion && (tenths == 800) != (g_[group] == 800);
@@ -168,6 +183,7 @@ bool Words::read_m(const Line& line, std::uint32_t at, double value, Report* rep
     return refuse(report, Code::modal_conflict, span,
                   fmt::format("M{} and M{} exclude each other on one line", m_[group], number));
   }
+  other_codes_ = true;
   m_[group] = static_cast<std::int16_t>(number);
   m_items_[group] = at;
   return true;

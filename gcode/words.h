@@ -52,6 +52,10 @@ class Words {
   Span span(const Line& line, MGroup group) const {
     return line.span(line.items[m_items_[static_cast<std::size_t>(group)]].bytes);
   }
+  /// True for axis words, at most with a motion code, and nothing else that means something.
+  bool only_moves() const {
+    return (present & ~kAxisBits) == 0 && !other_codes_ && !percent && comment < 0 && settings.empty();
+  }
   bool has_axis() const { return (present & kAxisBits) != 0; }
   /// The text of the words that make the line's motion.
   Span motion_span(const Line& line) const { return line.span(motion_); }
@@ -70,6 +74,8 @@ class Words {
   bool read_word(const Line& line, std::uint32_t at, const State& state, Report* report);
   bool read_g(const Line& line, std::uint32_t at, double value, Report* report);
   bool read_m(const Line& line, std::uint32_t at, double value, Report* report);
+  bool read_line_number(const Line& line, std::uint32_t at, Report* report);
+  bool refuse_word(const Line& line, const Item& item, double value, Report* report) const;
   bool read_setting(const Line& line, const Item& item, const State& state, Report* report);
   bool read_comment(const Line& line, std::uint32_t at, Report* report);
   void widen_motion(Bytes bytes);
@@ -81,6 +87,7 @@ class Words {
   std::array<std::uint32_t, kGGroups> g_items_{};
   std::array<std::uint32_t, kMGroups> m_items_{};
   Bytes motion_;
+  bool other_codes_ = false;  ///< an M code, or a G code that is no motion
   Evaluator evaluator_;
 };
 
