@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct Job {
   SourceSet sources;
   std::uint32_t program = 0;  ///< index of the program in sources
   machine::MachineFile machine;
+  std::optional<gcode::ToolTable> tools;  ///< none: tools have no length and no radius
+  gcode::Dialect dialect = gcode::Dialect::linuxcnc;
   std::vector<ProgramEvent> events;  ///< ascending in after_segment
   planner::Path path{0};
   planner::FeedPlan plan;    ///< laws of the runs, in path order, pauses not included

@@ -6,15 +6,13 @@
 #include <vector>
 
 #include "gcode/block.h"
+#include "gcode/dialect.h"
 #include "gcode/tool_table.h"
 #include "machine/base/diagnostic.h"
 
 /// The G-code front end: text -> parse tree (what was written, with spans) -> Blocks (what it means).
 /// Dialect: RS-274/NGC. Every mistake of a program is told in one run; an unknown word is never skipped.
 namespace kadr::gcode {
-
-/// Which controller's reading of codes that differ.
-enum class Dialect : std::uint8_t { linuxcnc, grbl, marlin, fanuc };
 
 /// Bounds that a program may not exceed; each message names the setting. 0: no bound.
 struct Bounds {

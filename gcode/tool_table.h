@@ -27,7 +27,11 @@ struct ToolTable {
   Tool* find(int number);
 };
 
-/// Reads a tool table; mistakes go to `diagnostics`, all of the file at once.
+/// Reads a tool table: a tool a line, its words in any order, apart by blanks or tabs; `;` begins a remark.
+/// Mistakes go to `diagnostics`, all of the file at once; a line with a mistake gives no tool.
 ToolTable read_tool_table(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics);
+
+/// The table as text, without remarks and words that are 0. It reads back as the same table.
+std::string render_tool_table(const ToolTable& table);
 
 }  // namespace kadr::gcode

@@ -148,6 +148,22 @@ class Reader {
         ->take_all();
   }
 
+  void reading(CLI::App* sub) {
+    sub->add_option("--tools", arguments_.tools,
+                    "Tool table, LinuxCNC's .tbl text with lengths in mm; default: tools without length")
+        ->type_name("TABLE");
+    sub->add_option_function<std::string>(
+           "--dialect",
+           [this](const std::string& text) {
+             arguments_.dialect = gcode::dialect_of(text);
+             if (!arguments_.dialect)
+               throw CLI::ValidationError(
+                   fmt::format("--dialect knows linuxcnc, grbl, marlin, fanuc; got '{}'", text));
+           },
+           "How codes that controllers read differently are meant: linuxcnc|grbl|marlin|fanuc")
+        ->type_name("WORD");
+  }
+
   void strict(CLI::App* sub) {
     sub->add_flag("--strict", arguments_.strict, "Warnings count as errors (exit 1)");
   }
@@ -166,6 +182,7 @@ class Reader {
         command(app_, "run", Command::run, "Run a program: step pulses, motion of the machine, log, summary");
     programs(sub, "PROG", false)->required(false);
     machine(sub);
+    reading(sub);
     sub->add_option(
            "-s,--scenario", arguments_.scenario,
            "Scenario: gives PROG, machine and settings that the command line does not (`kadr scenario run`\n"
@@ -211,6 +228,7 @@ class Reader {
                 "Check programs: mistakes, time in s with acceleration, soft limits, what limits the feed");
     programs(sub, "PROG", true);
     machine(sub);
+    reading(sub);
     strict(sub);
     diagnostics(sub);
     output(sub);
@@ -224,6 +242,7 @@ class Reader {
                 "mm/s or deg/s, and what limited it");
     programs(sub, "PROG", false);
     machine(sub);
+    reading(sub);
     sub->add_flag("--csv", arguments_.csv, "Comma-separated values with full precision");
     strict(sub);
     diagnostics(sub);
@@ -237,6 +256,7 @@ class Reader {
                 "Print what a program means: one machining call a line, machine coordinates in mm and deg,\n"
                 "feeds in mm/min, dwells in s");
     programs(sub, "PROG", false);
+    reading(sub);
     sub->add_flag("--block-delete", arguments_.block_delete, "Leave out lines that begin with /");
     sub->add_option_function<std::string>(
            "--lines", [this](const std::string& text) { read_lines(text); },

@@ -1,10 +1,12 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "gcode/gcode.h"
 #include "machine/machine.h"
 
 namespace kadr::cli {
@@ -47,6 +49,8 @@ struct Arguments {
       files;            ///< programs, logs, machine files, scenarios, codes: what the command works on
   std::string machine;  ///< -m: file or shipped name; empty: the default machine
   std::vector<std::string> settings;  ///< --set key=value
+  std::string tools;                  ///< tool table; empty: none
+  std::optional<gcode::Dialect> dialect;
   std::string scenario;
   std::string log_path;
   std::string publish_url;

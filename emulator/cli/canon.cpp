@@ -61,6 +61,12 @@ int canon_program(const Arguments& arguments, Console& console) {
   Diagnostics diagnostics;
   gcode::InterpretOptions options;
   options.block_delete = arguments.block_delete;
+  if (!load_reading(arguments, job, diagnostics)) {
+    console.diagnostics(diagnostics, job.sources, arguments.tools, Console::Where::errors);
+    return kNotStarted;
+  }
+  options.tools = job.tools;
+  options.dialect = job.dialect;
 
   if (json)
     console.data(

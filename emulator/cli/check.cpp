@@ -42,6 +42,10 @@ int check_one(const Arguments& arguments, const std::string& path, Console& cons
     console.error(e.what());
     return kNotStarted;
   }
+  if (!load_reading(arguments, job, diagnostics)) {
+    console.diagnostics(diagnostics, job.sources, arguments.tools, Console::Where::errors);
+    return kNotStarted;
+  }
   const bool planned = emulator::prepare(job, diagnostics);
   const int code = refused(diagnostics, arguments.strict) || !planned ? kNo : kYes;
 
@@ -91,6 +95,10 @@ int plan_program(const Arguments& arguments, Console& console) {
     return kNotStarted;
   }
   load_program(path, job);
+  if (!load_reading(arguments, job, diagnostics)) {
+    console.diagnostics(diagnostics, job.sources, arguments.tools, Console::Where::errors);
+    return kNotStarted;
+  }
   // a plan shows what is asked for, also where the machine is too small: `kadr check` refuses that
   const bool planned = emulator::prepare(job, diagnostics, emulator::SoftLimitRule::warning);
   const int code = !planned || refused(diagnostics, arguments.strict) ? kNo : kYes;

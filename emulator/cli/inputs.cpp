@@ -55,6 +55,14 @@ std::string machine_text(const std::string& name, const machine::MachineModel& m
   return fmt::format("{} ({})", model.name, name);
 }
 
+bool load_reading(const Arguments& arguments, emulator::Job& job, Diagnostics& diagnostics) {
+  if (arguments.dialect) job.dialect = *arguments.dialect;
+  if (arguments.tools.empty()) return true;
+  const std::size_t errors = diagnostics.errors();
+  job.tools = gcode::read_tool_table(job.sources, job.sources.add(open_text(arguments.tools)), diagnostics);
+  return diagnostics.errors() == errors;
+}
+
 void load_program(const std::string& path, emulator::Job& job) {
   job.program = job.sources.add(open_text(path));
 }

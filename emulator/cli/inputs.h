@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "emulator/cli/arguments.h"
 #include "emulator/cli/console.h"
 #include "emulator/emulator.h"
 
@@ -14,6 +15,11 @@ bool load_machine(const std::string& name, const std::vector<std::string>& setti
                   Diagnostics& diagnostics);
 /// "mill3 (shipped, the default; -m names another)", "shop (shop.toml)"
 std::string machine_text(const std::string& name, const machine::MachineModel& model);
+
+/// Reads the tool table and takes over the dialect, if the command line gives them.
+/// @return false if the table has errors (in `diagnostics`)
+/// @throws WorldError for a table that can't be read
+bool load_reading(const Arguments& arguments, emulator::Job& job, Diagnostics& diagnostics);
 
 /// Opens a program into a job: `-` is standard input.
 /// @throws WorldError with path and reason

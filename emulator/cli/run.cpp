@@ -37,7 +37,7 @@ bool same_file(const std::string& a, const std::string& b) {
 void refuse_bad_log_path(const std::string& log, const Arguments& arguments, const std::string& program) {
   if (log == "-")
     throw WorldError("a log can't go to standard output: it is written beside and renamed at the end");
-  for (const std::string* input : {&program, &arguments.machine, &arguments.scenario})
+  for (const std::string* input : {&program, &arguments.machine, &arguments.tools, &arguments.scenario})
     if (!input->empty() && (same_file(log, *input) || same_file(log + ".part", *input)))
       throw WorldError(fmt::format("{}: -o would overwrite this input", *input));
   if (fs::is_directory(log)) throw WorldError(fmt::format("{}: is a folder; -o names the log itself", log));
@@ -77,6 +77,7 @@ struct RunInputs {
   std::string scenario_toml;
   std::string scenario_name;
   bool machine_good = false;
+  bool started = false;  ///< machine, tool table and scenario could be read
 };
 
 void take_scenario(RunInputs& in) {
@@ -91,6 +92,8 @@ void take_scenario(RunInputs& in) {
   settings.insert(settings.end(), in.arguments.settings.begin(), in.arguments.settings.end());
   in.arguments.settings = std::move(settings);
   if (in.arguments.machine.empty()) in.arguments.machine = scenario->machine;
+  if (in.arguments.tools.empty()) in.arguments.tools = scenario->tools_path;
+  if (!in.arguments.dialect) in.arguments.dialect = scenario->dialect;
   if (!in.arguments.files.empty()) return;
   if (!scenario->generated_program.empty()) {
     in.job.program = in.job.sources.add(SourceText(scenario->program_name, scenario->generated_program));
@@ -108,6 +111,7 @@ void read_inputs(RunInputs& in) {
     load_program(in.arguments.files.front(), in.job);
     in.program = program_text(in.arguments.files.front());
   }
+  in.started = load_reading(in.arguments, in.job, in.diagnostics) && in.machine_good;
 }
 
 Json head(const RunInputs& in, int exit_code) {
@@ -129,7 +133,9 @@ int refuse(const RunInputs& in, int exit_code, Console& console) {
     j["run"] = nullptr;
     console.document(j);
   } else {
-    const std::string subject = in.machine_good ? in.program : "the machine or scenario file";
+    const std::string subject = in.started        ? in.program
+                                : in.machine_good ? in.arguments.tools
+                                                  : "the machine or scenario file";
     console.diagnostics(in.diagnostics, in.job.sources, subject, Console::Where::errors);
   }
   return exit_code;
@@ -227,7 +233,7 @@ int run_program(const Arguments& arguments, Console& console) {
   RunInputs in;
   in.arguments = arguments;
   read_inputs(in);
-  if (!in.machine_good) return refuse(in, kNotStarted, console);
+  if (!in.started) return refuse(in, kNotStarted, console);
   const bool planned = emulator::prepare(in.job, in.diagnostics, emulator::SoftLimitRule::warning);
   if (!planned || refused(in.diagnostics, arguments.strict)) return refuse(in, kNo, console);
   if (!console.options().json)

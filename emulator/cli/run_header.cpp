@@ -50,6 +50,10 @@ emulator::RunHeader run_header(const emulator::Job& job, const emulator::RunOpti
   header.settings_toml += fmt::format("[run]\nplant = {}\n", options.plant);
   if (options.until_s != machine::kInfinity)
     header.settings_toml += fmt::format("until_s = {}\n", options.until_s);
+  if (job.dialect != gcode::Dialect::linuxcnc)
+    header.settings_toml += fmt::format("dialect = \"{}\"\n", gcode::dialect_name(job.dialect));
+  if (job.tools)
+    header.settings_toml += fmt::format("tools = \"\"\"\n{}\"\"\"\n", gcode::render_tool_table(*job.tools));
   header.machine = &job.machine.model;
 
   Hash64 hash;

@@ -43,8 +43,11 @@ bool is_event(BlockKind kind) {
          kind == BlockKind::message || kind == BlockKind::feed_override || kind == BlockKind::speed_override;
 }
 
-gcode::InterpretOptions interpret_options(const machine::MachineModel& machine) {
+gcode::InterpretOptions interpret_options(const Job& job) {
+  const machine::MachineModel& machine = job.machine.model;
   gcode::InterpretOptions options;
+  options.tools = job.tools;
+  options.dialect = job.dialect;
   options.axis_letters.clear();
   for (const machine::AxisModel& axis : machine.axis) {
     options.axis_letters += axis.letter;
@@ -114,7 +117,7 @@ double hold_time_s(const Block& block, const machine::MachineModel& machine) {
 
 bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
   const machine::MachineModel& machine = job.machine.model;
-  const gcode::InterpretOptions options = interpret_options(machine);
+  const gcode::InterpretOptions options = interpret_options(job);
   planner::PathBuilder builder(machine, options.home);
   job.events.clear();
   job.blocks = 0;

@@ -90,7 +90,7 @@ void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions
   const bool opened = open_job(scenario, job, diagnostics);
   if (!opened) {
     render_into(result, diagnostics, job.sources);
-    result.failure = "the machine file has errors";
+    result.failure = "the machine file or the tool table has errors";
     return;
   }
   // as `kadr run` does: a soft limit that is left is shown where it happens
@@ -137,12 +137,18 @@ bool open_job(const Scenario& scenario, Job& job, Diagnostics& diagnostics) {
                            : SourceText::open(scenario.program_path);
   auto file = machine::read_machine(std::move(machine_text), job.sources, scenario.settings);
   job.program = job.sources.add(std::move(program));
+  job.dialect = scenario.dialect;
+  const std::size_t errors = diagnostics.errors();
+  if (!scenario.tools_path.empty()) {
+    const std::uint32_t tools = job.sources.add(SourceText::open(scenario.tools_path));
+    job.tools = gcode::read_tool_table(job.sources, tools, diagnostics);
+  }
   if (!file) {
     for (const Diagnostic& d : file.error().list()) diagnostics.add(d);
     return false;
   }
   job.machine = std::move(*file);
-  return true;
+  return diagnostics.errors() == errors;
 }
 
 ScenarioResult run_scenario(const Scenario& scenario, const RunOptions& options) {

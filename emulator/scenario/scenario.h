@@ -20,14 +20,13 @@
 ///   summary = "a pocket with arcs and rounded corners"
 ///   program = "program.ngc"                 # beside this file; or { wind = "hoop", radius_mm = 50, ... }
 ///   machine = "mill3"                       # a machine that ships with kadr, or a .toml file beside this
-///   one settings = ["planner.whole_ticks=true"] # as --set on the command line [expect] time_s = 4.211
-///   within_s = 0.001
-///   steps_hash = "9f1c07ab5d2e4431"
-///   alarms = { K5001 = 2 }                  # code = count; no alarm may come that is not named here
-///   diagnostics = ["K1203", "K2107"]        # of a program that must be refused, in order
-///   [expect.axis.X]
-///   pulses = 24000
-///   residual_um = [0.0, 5.0]                # least and most
+///   one tools = "tools.tbl"                     # tool table beside this one; without: tools have no length
+///   dialect = "linuxcnc"                    # or grbl, marlin, fanuc: codes that controllers read
+///   differently [settings]                              # as --set on the command line planner.whole_ticks =
+///   true [expect] time_s = 4.211 within_s = 0.001 steps_hash = "9f1c07ab5d2e4431" alarms = { K5001 = 2 } #
+///   code = count; no alarm may come that is not named here diagnostics = ["K1203", "K2107"]        # of a
+///   program that must be refused, in order [expect.axis.X] pulses = 24000 residual_um = [0.0, 5.0] # least
+///   and most
 namespace kadr::emulator {
 
 /// Least and most of a measured value, axis units (mm or deg).
@@ -66,6 +65,8 @@ struct Scenario {
   std::string generated_program;  ///< text of a generated program
   std::string machine;            ///< name of a shipped machine, or a path to open
   bool machine_is_file = false;
+  std::string tools_path;  ///< of the tool table, empty: none
+  gcode::Dialect dialect = gcode::Dialect::linuxcnc;
   std::vector<std::string> settings;  ///< "key=value"
   Expectations expect;
 };
@@ -77,8 +78,8 @@ struct Scenario {
 /// @throws std::system_error if the file can't be opened
 tl::expected<Scenario, Diagnostics> read_scenario(const std::string& path, SourceSet& sources);
 
-/// Opens program and machine of a scenario into a job, ready for prepare(). Diagnostics of the machine file
-/// are added.
+/// Opens program, machine and tool table of a scenario into a job, ready for prepare(). Diagnostics of
+/// machine file and tool table are added.
 /// @return false if there were errors
 /// @throws std::system_error if a file can't be opened
 bool open_job(const Scenario& scenario, Job& job, Diagnostics& diagnostics);

@@ -38,6 +38,9 @@ class ScenarioReader {
     scenario_.summary = table.text("summary", "").value;
     read_program(table);
     read_machine_name(table);
+    read_tools(table);
+    const auto dialect = table.choice("dialect", {"linuxcnc", "grbl", "marlin", "fanuc"}, 0);
+    scenario_.dialect = static_cast<gcode::Dialect>(dialect.value);
     if (const Node* settings = table.table("settings")) flatten_settings(*settings, "");
     if (!table.tables("step").empty()) {
       Diagnostic d = file_diagnostic(Code::scenario_step, table.tables("step").front().span,
@@ -108,6 +111,20 @@ class ScenarioReader {
     tell(Code::scenario_file_missing, name.span,
          fmt::format("there is no machine '{}' and no such file", name.value),
          fmt::format("machines that ship with kadr: {}", known));
+  }
+
+  void read_tools(TableReader& table) {
+    if (!table.has("tools")) return;
+    const auto name = table.text("tools");
+    if (!name.valid) return;
+    const fs::path inside = fs::path(name.value).lexically_normal();
+    if (inside.is_absolute() || *inside.begin() == "..")
+      return tell(Code::scenario_file_missing, name.span, "lies outside the scenario's folder",
+                  "a tool table lies beside scenario.toml or below its folder");
+    const fs::path path = fs::path(scenario_.folder) / inside;
+    scenario_.tools_path = path.string();
+    if (!fs::is_regular_file(path))
+      tell(Code::scenario_file_missing, name.span, fmt::format("there is no file {}", path.string()));
   }
 
   /// planner.axis_limits = "report" becomes the setting planner.axis_limits="report".

@@ -335,6 +335,35 @@ TEST_CASE("the inputs hash of a log follows the inputs and not the place they li
   CHECK(hash({"run", "square.ngc", "--threads", "2"}) == plain);
   CHECK(hash({"run", "square.ngc", "--no-plant"}) != plain);
   CHECK(hash({"run", "square.ngc", "--set", "feed.max_mm_s=5"}) != plain);
+  CHECK(hash({"run", "square.ngc", "--dialect", "linuxcnc"}) == plain);
+  CHECK(hash({"run", "square.ngc", "--dialect", "grbl"}) != plain);
+  scratch.write("tools.tbl", "T1 P1 Z10\n");
+  scratch.write("remarks.tbl", ";the same tools\nt1 p1 z10.0 ;drill\n");
+  scratch.write("longer.tbl", "T1 P1 Z11\n");
+  const std::string with_tools = hash({"run", "square.ngc", "--tools", "tools.tbl"});
+  CHECK(with_tools != plain);
+  CHECK(hash({"run", "square.ngc", "--tools", "remarks.tbl"}) == with_tools);
+  CHECK(hash({"run", "square.ngc", "--tools", "longer.tbl"}) != with_tools);
+}
+
+TEST_CASE("a bad or missing tool table and an unknown dialect keep every command from starting: exit 2") {
+  const Scratch scratch;
+  scratch.write("square.ngc", test::kSquare);
+  scratch.write("bad.tbl", "T1 P1 Z1,5\n");
+  for (const std::string command : {"canon", "check", "plan", "run"}) {
+    CAPTURE(command);
+    const Finished bad = call({command, "square.ngc", "--tools", "bad.tbl"}, scratch.path());
+    CHECK(bad.code == 2);
+    CHECK(contains(bad.err, "--> bad.tbl:1:7"));
+    CHECK(contains(bad.err, "1 error in bad.tbl"));
+    CHECK(bad.out.empty());
+    const Finished missing = call({command, "square.ngc", "--tools", "none.tbl"}, scratch.path());
+    CHECK(missing.code == 2);
+    CHECK(contains(missing.err, "none.tbl"));
+    const Finished dialect = call({command, "square.ngc", "--dialect", "heidenhain"}, scratch.path());
+    CHECK(dialect.code == 2);
+    CHECK(contains(dialect.err, "linuxcnc, grbl, marlin, fanuc"));
+  }
 }
 
 TEST_CASE("kadr info refuses what is no log: exit 2") {

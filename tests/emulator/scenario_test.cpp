@@ -122,6 +122,34 @@ residual_mdeg = [0, 3]
   CHECK(s->expect.axis[1].residual->most_u == doctest::Approx(0.003));
 }
 
+TEST_CASE("a scenario names its tool table and its dialect") {
+  const Folder folder;
+  folder.write("p.ngc", "G0 X1\n");
+  folder.write("shop.tbl", "T1 P1 Z10\n");
+  const std::string head = "format = 1\nname = \"case\"\nprogram = \"p.ngc\"\nmachine = \"mill3\"\n";
+  folder.write("scenario.toml", head + "tools = \"shop.tbl\"\ndialect = \"grbl\"\n");
+  SourceSet sources;
+  const auto s = read_scenario(folder.path(), sources);
+  REQUIRE(s.has_value());
+  CHECK(s->dialect == gcode::Dialect::grbl);
+  Job job;
+  Diagnostics diagnostics;
+  REQUIRE(open_job(*s, job, diagnostics));
+  CHECK(job.dialect == gcode::Dialect::grbl);
+  REQUIRE(job.tools);
+  CHECK(job.tools->find(1)->offset[2] == 10);
+
+  folder.write("shop.tbl", "T1 P1 Z1,0\n");
+  Job refused;
+  CHECK_FALSE(open_job(*s, refused, diagnostics));
+  CHECK(diagnostics.list().back().code == Code::tool_table_number);
+  folder.write("scenario.toml", head);
+  const auto plain = read_scenario(folder.path(), sources);
+  REQUIRE(plain.has_value());
+  CHECK(plain->tools_path.empty());
+  CHECK(plain->dialect == gcode::Dialect::linuxcnc);
+}
+
 TEST_CASE("mistakes of a scenario file are told at their place, all in one run") {
   const std::string text = refusal(R"(format = 1
 nam = "case"
