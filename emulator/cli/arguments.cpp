@@ -104,9 +104,12 @@ class Reader {
     choice(sub, "--format", out.format,
            {{"human", DiagnosticFormat::human},
             {"gcc", DiagnosticFormat::gcc},
-            {"json", DiagnosticFormat::json}},
-           "Form of diagnostics: human|gcc|json (json: one object a line)");
-    sub->add_option("--max-errors", out.max_errors, "Show that many diagnostics, 0: all (default 20)")
+            {"json", DiagnosticFormat::json},
+            {"sarif", DiagnosticFormat::sarif}},
+           "Form of diagnostics: human|gcc|json|sarif (json: one object a line; sarif: one SARIF 2.1.0 "
+           "document)");
+    sub->add_option("--max-errors", out.max_errors,
+                    "Show that many diagnostics, 0: all (default 20; all with sarif)")
         ->type_name("N")
         ->group("Output");
   }
@@ -334,6 +337,12 @@ class Reader {
     run->add_flag("--update", arguments_.update,
                   "Write what was measured into the expectations of the scenario files");
     output(run);
+    CLI::App* check = command(*group, "check", Command::scenario_check,
+                              "Check scenario files and the machine files they name; nothing runs");
+    check->add_option("DIR", arguments_.files, "Scenario files or folders; default: scenarios")
+        ->type_name("");
+    diagnostics(check);
+    output(check);
     CLI::App* list = command(*group, "list", Command::scenario_list, "List scenarios");
     list->add_option("DIR", arguments_.files, "Scenario files or folders; default: scenarios")->type_name("");
     output(list);

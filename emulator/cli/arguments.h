@@ -23,12 +23,13 @@ enum class Command : std::uint8_t {
   machine_new,
   explain,
   scenario_run,
+  scenario_check,
   scenario_list,
   version,
 };
 
 enum class When : std::uint8_t { automatic, always, never };
-enum class DiagnosticFormat : std::uint8_t { human, gcc, json };
+enum class DiagnosticFormat : std::uint8_t { human, gcc, json, sarif };
 enum class ProgressMode : std::uint8_t { automatic, never, plain };
 
 /// How a command talks.
@@ -38,7 +39,7 @@ struct OutputOptions {
   When color = When::automatic;
   ProgressMode progress = ProgressMode::automatic;
   DiagnosticFormat format = DiagnosticFormat::human;
-  std::size_t max_errors = 20;  ///< diagnostics shown; 0: all
+  std::optional<std::size_t> max_errors;  ///< diagnostics shown; 0: all. Not given: 20, in SARIF all
 };
 
 /// The command line as read. Fields that a command does not have keep their defaults.

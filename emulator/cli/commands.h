@@ -17,6 +17,7 @@ int machine_check(const Arguments& arguments, Console& console);
 int machine_new(const Arguments& arguments, Console& console);
 int explain_codes(const Arguments& arguments, Console& console);
 int scenario_run(const Arguments& arguments, Console& console);
+int scenario_check(const Arguments& arguments, Console& console);
 int scenario_list(const Arguments& arguments, Console& console);
 int print_version(const Arguments& arguments, Console& console);
 

@@ -8,6 +8,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <tuple>
 
 #include "emulator/report/text.h"
@@ -15,6 +17,7 @@
 namespace kadr::cli {
 namespace {
 
+constexpr std::size_t kMaxErrors = 20;
 constexpr std::size_t kBuffer_bytes = std::size_t{1} << 18;
 
 /// Writes all of a text to a file descriptor; false with errno if that fails.
@@ -33,9 +36,17 @@ bool set(const char* variable) {
   return value && *value && std::string_view(value) != "0";
 }
 
+/// The current folder; empty if it is gone.
+std::string current_folder() {
+  std::error_code gone;
+  return std::filesystem::current_path(gone).string();
+}
+
 }  // namespace
 
-Console::Console(const OutputOptions& options) : options_(options) { buffer_.reserve(kBuffer_bytes + 4096); }
+Console::Console(const OutputOptions& options) : options_(options), sarif_(current_folder()) {
+  buffer_.reserve(kBuffer_bytes + 4096);
+}
 
 Console::~Console() {
   // a command that ends by an exception: what it printed until then still goes out
@@ -60,13 +71,24 @@ void Console::flush() {
   throw WorldError(fmt::format("standard output: {}", std::strerror(reason)));
 }
 
+void Console::finish(int exit_code) {
+  if (sarif()) {
+    const std::string text = emulator::json_text(sarif_.document(exit_code)) + '\n';
+    if (sarif_where_ == Where::output)
+      data(text);
+    else
+      message(text);
+  }
+  flush();
+}
+
 void Console::message(std::string_view text) {
   flush();
   write_all(STDERR_FILENO, text);
 }
 
 void Console::note(std::string_view text) {
-  if (!options_.quiet) message(fmt::format("kadr: {}\n", text));
+  if (!options_.quiet && !sarif()) message(fmt::format("kadr: {}\n", text));
 }
 
 void Console::error(std::string_view text) { message(fmt::format("kadr: {}\n", text)); }
@@ -94,9 +116,11 @@ std::vector<const Diagnostic*> by_place(const Diagnostics& list) {
 
 void Console::diagnostics(const Diagnostics& list, const SourceSet& sources, const std::string& subject,
                           Where where) {
+  sarif_where_ = where;
   if (list.list().empty()) return;
   // errors have the first right to the room there is
-  const std::size_t most = options_.max_errors == 0 ? list.list().size() : options_.max_errors;
+  std::size_t most = options_.max_errors.value_or(sarif() ? 0 : kMaxErrors);
+  if (most == 0) most = list.list().size();
   std::size_t errors = std::min(most, list.errors());
   std::size_t others = std::min(most - errors, list.list().size() - list.errors());
   const std::size_t shown = errors + others;
@@ -115,6 +139,9 @@ void Console::diagnostics(const Diagnostics& list, const SourceSet& sources, con
         break;
       case DiagnosticFormat::json:
         out += emulator::json_line(emulator::json_of(*d, sources)) + '\n';
+        break;
+      case DiagnosticFormat::sarif:
+        sarif_.add(*d, sources);
         break;
     }
   }

@@ -5,6 +5,7 @@
 
 #include "emulator/cli/arguments.h"
 #include "emulator/report/json.h"
+#include "emulator/report/sarif.h"
 #include "machine/base/diagnostic.h"
 
 namespace kadr::cli {
@@ -28,23 +29,29 @@ class Console {
   void data(std::string_view text);
   /// A document in `--json`, as text with a line end.
   void document(const emulator::Json& json) { data(emulator::json_text(json) + '\n'); }
-  /// A message with "kadr: " before it, to standard error; -q leaves notes out.
+  /// A message with "kadr: " before it, to standard error; -q leaves notes out, and so does a document there.
   void note(std::string_view text);
   void error(std::string_view text);
-  /// Diagnostics in the form asked for, at most --max-errors of them, and a line that counts them.
+  /// Diagnostics in the form asked for, at most --max-errors of them, and a line that counts them; in SARIF
+  /// they are gathered until finish().
   /// `where`: standard output for `kadr check`, whose data they are, else standard error.
   enum class Where { output, errors };
   void diagnostics(const Diagnostics& list, const SourceSet& sources, const std::string& subject,
                    Where where);
   /// Everything is out; throws WorldError if not.
   void flush();
+  /// The end of a command that answers with that exit code: what was gathered for one document goes out.
+  void finish(int exit_code);
 
  private:
   void message(std::string_view text);
   bool colour(Where where) const;
+  bool sarif() const { return options_.format == DiagnosticFormat::sarif && !options_.json; }
 
   OutputOptions options_;
   std::string buffer_;
+  emulator::SarifLog sarif_;
+  Where sarif_where_ = Where::errors;
 };
 
 /// The diagnostics in order of file, line and column; those without a place come first.

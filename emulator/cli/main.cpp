@@ -34,6 +34,8 @@ int dispatch(const Arguments& arguments, Console& console) {
       return explain_codes(arguments, console);
     case Command::scenario_run:
       return scenario_run(arguments, console);
+    case Command::scenario_check:
+      return scenario_check(arguments, console);
     case Command::scenario_list:
       return scenario_list(arguments, console);
     case Command::version:
@@ -48,7 +50,7 @@ int work(int argc, const char* const* argv) {
   const Arguments& arguments = std::get<Arguments>(read);
   Console console(arguments.output);
   const int code = dispatch(arguments, console);
-  console.flush();
+  console.finish(code);
   return code;
 }
 

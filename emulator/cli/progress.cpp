@@ -47,9 +47,11 @@ std::string progress_line(double done, std::uint32_t line, std::uint32_t lines, 
 }
 
 Progress::Progress(const OutputOptions& options, std::uint32_t lines) : lines_(lines) {
-  kind_ = options.quiet || options.progress == ProgressMode::never    ? Kind::none
-          : options.progress == ProgressMode::automatic && terminal() ? Kind::bar
-                                                                      : Kind::plain;
+  kind_ =
+      options.quiet || options.format == DiagnosticFormat::sarif || options.progress == ProgressMode::never
+          ? Kind::none
+      : options.progress == ProgressMode::automatic && terminal() ? Kind::bar
+                                                                  : Kind::plain;
   next_s_ = kind_ == Kind::bar ? kSilence_s : kPlainEvery_s;
 }
 

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <system_error>
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
@@ -63,6 +65,40 @@ int scenario_run(const Arguments& arguments, Console& console) {
       write_file(arguments.junit_path, emulator::render_junit(results));
   }
   return all_passed || arguments.update ? kYes : kNo;
+}
+
+int scenario_check(const Arguments& arguments, Console& console) {
+  const bool tells = !console.options().json && !console.options().quiet &&
+                     console.options().format == DiagnosticFormat::human;
+  Json documents = Json::array();
+  int worst = kYes;
+  for (const std::string& path : emulator::find_scenarios(arguments.files)) {
+    emulator::Job job;
+    Diagnostics diagnostics;
+    const auto scenario = emulator::read_scenario(path, job.sources);
+    if (!scenario)
+      for (const Diagnostic& d : scenario.error().list()) diagnostics.add(d);
+    int code = scenario ? kYes : kNo;
+    try {
+      if (scenario && !emulator::open_job(*scenario, job, diagnostics)) code = kNo;
+    } catch (const std::system_error& e) {
+      console.error(fmt::format("{}: {}", path, e.what()));
+      code = kNotStarted;
+    }
+    worst = std::max(worst, code);
+    if (console.options().json) {
+      documents.push_back({{"file", path},
+                           {"exit_code", code},
+                           {"diagnostics", emulator::json_of(diagnostics, job.sources)}});
+      continue;
+    }
+    console.diagnostics(diagnostics, job.sources, path, Console::Where::output);
+    if (code == kYes && tells)
+      console.data(fmt::format("{}: scenario {}, program {}, machine {}: no errors\n", path, scenario->name,
+                               scenario->program_name, job.machine.model.name));
+  }
+  if (console.options().json) console.document(documents);
+  return worst;
 }
 
 int scenario_list(const Arguments& arguments, Console& console) {
