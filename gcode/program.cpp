@@ -11,10 +11,11 @@ std::size_t byte_order_mark(std::string_view text) { return text.substr(0, 3) ==
 }  // namespace
 
 Program::Program(const SourceSet& sources, std::uint32_t file, Report& report)
-    : text_(sources[file].text()), file_(file), parser_(report) {}
+    : source_(sources[file]), text_(source_.text()), file_(file), parser_(report) {}
 
 bool Program::next(Line& line) {
   if (at_.offset >= text_.size()) return false;
+  let_go_what_was_read();
   const char* begin = text_.data() + at_.offset;
   const std::size_t left = text_.size() - at_.offset;
   const auto* newline = static_cast<const char*>(std::memchr(begin, '\n', left));
@@ -29,6 +30,13 @@ bool Program::next(Line& line) {
   ++at_.line;
   parser_.parse(line, line.number == 1 ? byte_order_mark(line.text) : 0);
   return true;
+}
+
+void Program::let_go_what_was_read() {
+  if (at_.offset < held_from_) held_from_ = at_.offset;
+  if (at_.offset - held_from_ < SourceText::kWindow_bytes) return;
+  source_.let_go(held_from_, at_.offset);
+  held_from_ = at_.offset;
 }
 
 }  // namespace kadr::gcode

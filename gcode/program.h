@@ -25,9 +25,13 @@ class Program {
   void go_to(Position position) { at_ = position; }
 
  private:
+  void let_go_what_was_read();
+
+  const SourceText& source_;
   std::string_view text_;
   std::uint32_t file_;
   Position at_;
+  std::size_t held_from_ = 0;  ///< what stands before it has been let go
   Parser parser_;
 };
 

@@ -25,8 +25,8 @@ class SourceText {
  public:
   /// A text already in memory.
   SourceText(std::string name, std::string text);
-  /// Maps a file read-only; throws std::system_error with the path if it can't be opened ("-" reads standard
-  /// input).
+  /// Maps a file read-only; throws std::system_error with the path if it can't be opened. "-" is standard
+  /// input, read into memory unless it is a file itself.
   static SourceText open(const std::string& path);
 
   SourceText(SourceText&&) noexcept;
@@ -38,13 +38,17 @@ class SourceText {
   /// Line by 1-based number, without its line end; empty beyond the end. The line index is built at the first
   /// call.
   std::string_view line(std::uint32_t number) const;
+  /// Gives the memory of bytes [begin, end) of a mapped file back to the system; the text stays as it is, and
+  /// reading there reads the file again. Who goes through a text once calls it every kWindow_bytes.
+  void let_go(std::size_t begin, std::size_t end) const;
+  static constexpr std::size_t kWindow_bytes = std::size_t{1} << 20;
 
  private:
   struct Storage;
   std::string name_;
   std::unique_ptr<Storage> storage_;
   std::string_view text_;
-  mutable std::vector<std::size_t> line_starts_;
+  mutable std::vector<std::size_t> line_starts_;  ///< of every 256th line
 };
 
 /// The texts that spans point into.

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -15,6 +16,7 @@ namespace kadr {
 
 // smaller files are copied: an editor that truncates a mapped file would kill us with SIGBUS
 constexpr std::size_t kMapFrom_bytes = std::size_t{4} << 20;
+constexpr std::size_t kIndexStride = 256;  // lines; an index of all lines would grow with the file
 
 struct SourceText::Storage {
   std::string owned;
@@ -67,14 +69,14 @@ SourceText::SourceText(std::string name, std::string text)
 }
 
 SourceText SourceText::open(const std::string& path) {
-  if (path == "-") return {"-", read_all(STDIN_FILENO, path, 0)};
-  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  const bool input = path == "-";
+  const Descriptor file{input ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
   if (file.fd < 0) fail(path);
   struct stat status {};
   if (::fstat(file.fd, &status) != 0) fail(path);
   const auto size = static_cast<std::size_t>(status.st_size);
-  if (!S_ISREG(status.st_mode) || size < kMapFrom_bytes)
-    return {path, read_all(file.fd, path, S_ISREG(status.st_mode) ? size : 0)};
+  const bool whole_file = S_ISREG(status.st_mode) && (!input || ::lseek(file.fd, 0, SEEK_CUR) == 0);
+  if (!whole_file || size < kMapFrom_bytes) return {path, read_all(file.fd, path, whole_file ? size : 0)};
 
   SourceText source(path, {});
   void* mapped = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.fd, 0);
@@ -90,15 +92,45 @@ SourceText::SourceText(SourceText&&) noexcept = default;
 SourceText& SourceText::operator=(SourceText&&) noexcept = default;
 SourceText::~SourceText() = default;
 
+namespace {
+
+/// Index behind the line feed that ends the line at `at`; npos if none does.
+std::size_t next_line(std::string_view text, std::size_t at) {
+  const std::size_t newline = text.find('\n', at);
+  return newline == std::string_view::npos ? newline : newline + 1;
+}
+
+}  // namespace
+
+void SourceText::let_go(std::size_t begin, std::size_t end) const {
+  if (storage_->mapped == nullptr) return;
+  static const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  begin -= begin % page;
+  end = std::min(end, text_.size());
+  end -= end % page;
+  // only a hint: a system that ignores it is slower, not wrong
+  if (begin < end) ::madvise(static_cast<char*>(storage_->mapped) + begin, end - begin, MADV_DONTNEED);
+}
+
 std::string_view SourceText::line(std::uint32_t number) const {
   if (line_starts_.empty()) {
-    line_starts_.push_back(0);
-    for (std::size_t at = 0; (at = text_.find('\n', at)) != std::string_view::npos;)
-      line_starts_.push_back(++at);
+    std::size_t line_index = 0;
+    std::size_t held = 0;
+    for (std::size_t at = 0; at != std::string_view::npos; at = next_line(text_, at)) {
+      if (line_index++ % kIndexStride == 0) line_starts_.push_back(at);
+      if (at - held >= kWindow_bytes) {
+        let_go(held, at);
+        held = at;
+      }
+    }
   }
-  if (number == 0 || number > line_starts_.size()) return {};
-  const std::size_t begin = line_starts_[number - 1];
-  const std::size_t end = number < line_starts_.size() ? line_starts_[number] - 1 : text_.size();
+  if (number == 0 || (number - 1) / kIndexStride >= line_starts_.size()) return {};
+  std::size_t begin = line_starts_[(number - 1) / kIndexStride];
+  for (std::size_t left = (number - 1) % kIndexStride; left > 0; --left) {
+    begin = next_line(text_, begin);
+    if (begin == std::string_view::npos) return {};
+  }
+  const std::size_t end = std::min(text_.find('\n', begin), text_.size());
   std::string_view line = text_.substr(begin, end - begin);
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   return line;

@@ -188,6 +188,15 @@ TEST_CASE("lines are found with either line end, the last one without, and none 
   CHECK(SourceText("p", "").line(1) == "");
 }
 
+TEST_CASE("every line of a text of 1000 lines is found, in any order") {
+  std::string text;
+  for (int i = 1; i <= 1000; ++i) text += "line " + std::to_string(i) + "\n";
+  const SourceText t("p", text);
+  for (std::uint32_t i = 1000; i > 0; --i) CHECK(t.line(i) == "line " + std::to_string(i));
+  CHECK(t.line(1001) == "");
+  CHECK(t.line(4'000'000'000) == "");
+}
+
 TEST_CASE("a text stays where it is when it is moved, short or long") {
   SourceText a("p", "x");
   const char* at = a.text().data();
@@ -211,6 +220,9 @@ TEST_CASE("files of 0 bytes, 1 kB and 5 MB read back as written") {
     std::remove(path.c_str());
     CHECK(read.text() == text);
     CHECK(read.name() == path);
+    // what was let go is read again from the file, although nothing names it any more
+    read.let_go(0, size);
+    CHECK(read.text() == text);
     if (size > 160) CHECK(read.line(2) == std::string(79, 'a'));
   }
 }
