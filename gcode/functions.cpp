@@ -55,7 +55,7 @@ void Interpreter::coolant() {
 
 void Interpreter::overrides() {
   const int code = words_.m(MGroup::overrides);
-  if (code == kNoCode) return;
+  if (code == kNoCode || code == 53) return;  // M53, the feed hold switch, is the operator's
   const bool enable = code == 48 || (code != 49 && !(words_.has('P') && words_.value('P') == 0));
   if (code != 51) override_block(BlockKind::feed_override, enable);
   if (code != 50) override_block(BlockKind::speed_override, enable);
