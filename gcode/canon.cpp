@@ -103,8 +103,12 @@ void append_quoted(std::string& out, std::string_view text) {
   }
 }
 
-void append_place(std::string& out, const Block& block) {
+void append_place(std::string& out, const Block& block, std::string_view called_file) {
   out += " @";
+  if (!called_file.empty()) {
+    out += called_file;
+    out += ':';
+  }
   std::array<char, 16> digits{};
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), block.span.line).ptr;
   out.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
@@ -251,25 +255,27 @@ bool write(LineWriter& line, const Block& block) {
     case BlockKind::spindle_mode:
       return false;
   }
-  line.place(block.span.line);
   return true;
 }
 
 }  // namespace
 
-void append_canon(std::string& out, const Block& block) {
+void append_canon(std::string& out, const Block& block, std::string_view called_file) {
   if (block.kind == BlockKind::message) {
     out += "MESSAGE \"";
     append_quoted(out, block.text);
     out += '"';
-    append_place(out, block);
+    append_place(out, block, called_file);
   } else if (block.kind == BlockKind::comment) {
     out += "# ";
     append_quoted(out, block.text);
-    append_place(out, block);
+    append_place(out, block, called_file);
   } else {
     LineWriter line;
-    if (write(line, block)) line.finish(out);
+    if (!write(line, block)) return;
+    if (called_file.empty()) line.place(block.span.line);
+    line.finish(out);
+    if (!called_file.empty()) append_place(out, block, called_file);
   }
 }
 

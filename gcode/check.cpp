@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kLargestTool = 99999;
 constexpr double kLargestTurns = 1e6;
+constexpr double kLargestCall = 1e9;
 constexpr int kLargestSystem = kWorkSystems;
 
 /// Codes that read a letter, for the message about a letter that nobody reads.
@@ -227,6 +228,14 @@ void Interpreter::check_values() {
   if (moves() && is_arc(motion_of_line())) check_whole('P', 1, kLargestTurns);
   if (words_.g(GGroup::path) == 640 && words_.has('P') && words_.value('P') < 0) {
     error(problem(Code::word_out_of_range, words_.span(*line_, 'P'), "a tolerance below 0"));
+  }
+  if (words_.m(MGroup::call) == 98) {
+    if (!words_.has('P')) {
+      error(problem(Code::word_missing, words_.span(*line_, MGroup::call),
+                    "M98 needs P: the number of the subroutine"));
+    }
+    check_whole('P', 0, kLargestCall);
+    check_whole('L', 0, kLargestCall);
   }
   if (words_.g(GGroup::tool_length) == 430) check_whole('H', 0, kLargestTool);
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gcode/arithmetic.h"
+#include "gcode/predefined.h"
 
 namespace kadr::gcode {
 namespace {
@@ -48,6 +49,19 @@ bool Evaluator::node_value(const Line& line, const Node& node, const State& stat
     case NodeKind::number:
       value = node.value;
       return true;
+    case NodeKind::named:
+      return read_named(line, node, state, value);
+    case NodeKind::exists: {
+      int number = 0;
+      value = near_integer(operand(node.left), number) && number >= parameter::kFirst &&
+                      number <= parameter::kLast
+                  ? 1
+                  : 0;
+      return true;
+    }
+    case NodeKind::exists_named:
+      value = is_predefined(node.left) || find_named(state, node.left) != nullptr ? 1 : 0;
+      return true;
     case NodeKind::parameter:
       return read(line, node, state, operand(node.left), value);
     case NodeKind::negate:
@@ -83,6 +97,20 @@ bool Evaluator::read(const Line& line, const Node& node, const State& state, dou
   }
   value = read_parameter(state, number);
   return true;
+}
+
+bool Evaluator::read_named(const Line& line, const Node& node, const State& state, double& value) {
+  if (is_predefined(node.left)) {
+    value = read_predefined(state, node.left, line.number);
+    return true;
+  }
+  if (state.uncertain.parameters) doubtful_ = true;
+  if (const double* found = find_named(state, node.left)) {
+    value = *found;
+    return true;
+  }
+  return fail(Code::name_not_set, line.span(node.own),
+              fmt::format("#<{}> has no value here", state.names[node.left]));
 }
 
 bool Evaluator::fail(Code code, Span span, std::string label) {

@@ -24,6 +24,7 @@ class Evaluator {
  private:
   bool node_value(const Line& line, const Node& node, const State& state, double& value);
   bool read(const Line& line, const Node& node, const State& state, double index, double& value);
+  bool read_named(const Line& line, const Node& node, const State& state, double& value);
   bool fail(Code code, Span span, std::string label);
 
   std::vector<double> values_;  ///< [nodes of the line]

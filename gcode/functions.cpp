@@ -76,6 +76,19 @@ void Interpreter::dwell() {
   emit(block);
 }
 
+void Interpreter::call() {
+  const int code = words_.m(MGroup::call);
+  if (code == kNoCode) return;
+  CallRequest request;
+  request.returns = code == 99;
+  request.place = words_.span(*line_, MGroup::call);
+  int whole = 0;
+  if (words_.has('P') && near_integer(words_.value('P'), whole)) request.number = whole;
+  if (words_.has('L') && near_integer(words_.value('L'), whole))
+    request.repeats = static_cast<std::uint64_t>(whole);
+  call_ = request;
+}
+
 void Interpreter::stop() {
   const int code = words_.m(MGroup::stop);
   if (code == kNoCode) return;

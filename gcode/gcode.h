@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gcode/block.h"
@@ -61,6 +62,7 @@ void interpret(SourceSet& sources, std::uint32_t file, const InterpretOptions& o
 
 /// One line of the canonical trace for a block (without line end), e.g.
 /// "STRAIGHT_FEED 10.000000 0.000000 ... @12"; empty if the block is not part of the trace.
-void append_canon(std::string& out, const Block& block);
+/// @param called_file  name of the file that the block stands in, where that is not the program: "... @name:12"
+void append_canon(std::string& out, const Block& block, std::string_view called_file = {});
 
 }  // namespace kadr::gcode

@@ -69,6 +69,7 @@ void Interpreter::execute() {
   retract_mode();
   nonmodal();
   motion();
+  call();
   stop();
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 #include <functional>
+#include <optional>
+#include <utility>
 
 #include "gcode/arc.h"
 #include "gcode/gcode.h"
@@ -8,6 +10,14 @@
 #include "gcode/words.h"
 
 namespace kadr::gcode {
+
+/// M98 or M99 on a line that was run.
+struct CallRequest {
+  bool returns = false;       ///< M99
+  std::int64_t number = 0;    ///< M98 P
+  std::uint64_t repeats = 1;  ///< M98 L
+  Span place;
+};
 
 using Sink = std::function<void(const Block&)>;
 
@@ -20,6 +30,11 @@ class Interpreter {
   void run(const Line& line);
   /// The program's end if no M2 or M30 gave it.
   void finish(Span end);
+  /// What the line just run asks of the flow; asked once.
+  std::optional<CallRequest> take_call() { return std::exchange(call_, std::nullopt); }
+  /// A line that only steers has been read: the program has begun.
+  void start() { started_ = true; }
+  State& state() { return state_; }
   /// True after M2, M30, the closing % or the bound on blocks.
   bool ended() const { return ended_; }
 
@@ -57,6 +72,7 @@ class Interpreter {
   void dwell();
   void stop();
   void end_program();
+  void call();
   void override_block(BlockKind kind, bool enabled);
 
   // references.cpp: G10 G28 G30 G92
@@ -131,6 +147,7 @@ class Interpreter {
   State state_;
   Words words_;
   Block motion_block_;
+  std::optional<CallRequest> call_;
   const Line* line_ = nullptr;
   std::uint32_t axes_on_machine_ = 0;
   std::uint64_t blocks_ = 0;

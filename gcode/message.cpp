@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "gcode/predefined.h"
 #include "gcode/scanner.h"
 #include "machine/base/utf8.h"
 
@@ -24,11 +25,28 @@ std::string valid_text(std::string_view text) {
   return out;
 }
 
-std::string expanded_text(std::string_view text, const State& state) {
+namespace {
+
+/// What a named parameter reads, ###### if it was never set.
+std::string named_value(const State& state, std::int32_t name, std::uint32_t line) {
+  if (is_predefined(name)) return fmt::format("{:.6f}", read_predefined(state, name, line));
+  const double* value = find_named(state, name);
+  return value ? fmt::format("{:.6f}", *value) : "######";
+}
+
+}  // namespace
+
+std::string expanded_text(std::string_view text, State& state, std::uint32_t line) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
     if (text[at] != '#') {
       out += text[at++];
+      continue;
+    }
+    const std::size_t close = text.find('>', at);
+    if (at + 1 < text.size() && text[at + 1] == '<' && close != std::string_view::npos) {
+      out += named_value(state, state.names.number(text.substr(at + 2, close - at - 2)), line);
+      at = close + 1;
       continue;
     }
     std::size_t end = at + 1;

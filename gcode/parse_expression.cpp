@@ -45,7 +45,8 @@ constexpr std::array<NamedOperation, 12> kFunctions = {{{"ABS", Operation::abs, 
                                                         {"SQRT", Operation::sqrt, 0},
                                                         {"TAN", Operation::tan, 0}}};
 
-/// Reads `name` (upper case) if it stands here, blanks between its letters allowed.
+}  // namespace
+
 bool match(Cursor& cursor, std::string_view name, Bytes& bytes) {
   Cursor ahead = cursor;
   for (std::size_t i = 0; i < name.size(); ++i) {
@@ -57,8 +58,6 @@ bool match(Cursor& cursor, std::string_view name, Bytes& bytes) {
   cursor = ahead;
   return true;
 }
-
-}  // namespace
 
 std::int32_t ExpressionParser::value() {
   const char c = cursor_.peek();
@@ -94,7 +93,7 @@ std::int32_t ExpressionParser::number() {
   Node node;
   const NumberResult result = cursor_.read_number(node.value, node.own);
   if (result == NumberResult::good) return add(node);
-  report_.error(number_problem(line_, result, node.own, 0));
+  if (report_ != nullptr) report_->error(number_problem(line_, result, node.own, 0));
   return -1;
 }
 
@@ -113,11 +112,60 @@ std::int32_t ExpressionParser::parameter() {
   node.own = {cursor_.at(), cursor_.at() + 1};
   cursor_.advance();
   if (cursor_.peek() == '<') {
-    return fail(Code::named_parameter_not_run, {node.own.begin, cursor_.at() + 1},
-                "kadr does not run named parameters");
+    node.kind = NodeKind::named;
+    node.left = name(node.own.begin);
+    node.own.end = cursor_.at();
+  } else {
+    node.left = value();
   }
-  node.left = value();
   return node.left < 0 ? -1 : add(node);
+}
+
+std::int32_t ExpressionParser::name(std::uint32_t sign) {
+  const std::uint32_t open = cursor_.at();
+  const std::size_t close = line_.text.find('>', open);
+  if (close == std::string_view::npos) {
+    return fail(Code::name_not_closed, {sign, open + 1}, "no > closes this name");
+  }
+  const std::string_view written = line_.text.substr(open + 1, close - open - 1);
+  const auto end = static_cast<std::uint32_t>(close) + 1;
+  for (const char c : written) {
+    const bool good = is_letter(c) || is_digit(c) || c == '_' || c == '-' || c == '.' || is_blank(c) ||
+                      static_cast<unsigned char>(c) >= 0x80;
+    if (!good) {
+      return fail(Code::name_bad, {sign, end}, fmt::format("{} can't stand in a name", c),
+                  "names are made of letters, digits, _ - and .");
+    }
+  }
+  cursor_.go_to(end);
+  const std::int32_t number = names_.number(written);
+  if (!names_[number].empty()) return number;
+  return fail(Code::name_bad, {sign, end}, "a name without letters");
+}
+
+std::int32_t ExpressionParser::exists(Node node) {
+  const auto refuse = [&] {
+    return fail(Code::argument_missing, node.own, "EXISTS takes one parameter",
+                "write EXISTS[#<name>] or EXISTS[#5]");
+  };
+  if (cursor_.peek() != '[') return refuse();
+  cursor_.advance();
+  if (cursor_.peek() != '#') return refuse();
+  const std::uint32_t sign = cursor_.at();
+  cursor_.advance();
+  node.kind = NodeKind::exists;
+  if (cursor_.peek() == '<') {
+    node.kind = NodeKind::exists_named;
+    node.left = name(sign);
+  } else {
+    node.left = value();
+  }
+  if (node.left < 0) return -1;
+  node.own.end = node.kind == NodeKind::exists ? sign + 1 : cursor_.at();
+  if (cursor_.peek() != ']') return fail(Code::bracket_not_closed, node.own, "no ] closes this bracket");
+  node.closing = {cursor_.at(), cursor_.at() + 1};
+  cursor_.advance();
+  return add(node);
 }
 
 std::int32_t ExpressionParser::group() {
@@ -137,6 +185,7 @@ std::int32_t ExpressionParser::function() {
   Node node;
   node.kind = NodeKind::function;
   const Cursor before = cursor_;
+  if (match(cursor_, "EXISTS", node.own)) return exists(node);
   if (match(cursor_, "ATAN", node.own)) {
     node.kind = NodeKind::atan;
   } else {
@@ -225,7 +274,7 @@ std::int32_t ExpressionParser::add(const Node& node) {
 }
 
 std::int32_t ExpressionParser::fail(Code code, Bytes bytes, std::string label, std::string help) {
-  report_.error(problem(code, line_.span(bytes), std::move(label), std::move(help)));
+  if (report_ != nullptr) report_->error(problem(code, line_.span(bytes), std::move(label), std::move(help)));
   return -1;
 }
 

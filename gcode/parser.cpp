@@ -39,6 +39,7 @@ void Parser::parse(Line& line, std::size_t begin_at) {
   line.items.clear();
   line.nodes.clear();
   line.failed = false;
+  line.has_flow = false;
   cursor_ = Cursor(line.text, static_cast<std::uint32_t>(begin_at));
   if (begin_at > 0) {
     line.items.emplace_back();
@@ -64,7 +65,21 @@ void Parser::parse(Line& line, std::size_t begin_at) {
   }
 }
 
+void Parser::leave_unread(Line& line) {
+  line.items.clear();
+  line.nodes.clear();
+  line.has_flow = false;
+  line.failed = true;
+  line.items.emplace_back();
+  line.items.back().kind = ItemKind::unread;
+  line.items.back().bytes = {0, static_cast<std::uint32_t>(line.text.size())};
+}
+
 bool Parser::parse_item(char c) {
+  if (line_->has_flow && c != '(' && c != ';') {
+    return fail(Code::text_after_o_word, {cursor_.at(), static_cast<std::uint32_t>(line_->text.size())},
+                "only a comment may follow an O word and its values");
+  }
   if (is_letter(c)) return parse_word(upper(c));
   switch (c) {
     case '(':
@@ -95,10 +110,7 @@ bool Parser::parse_item(char c) {
 bool Parser::parse_word(char letter) {
   const std::uint32_t begin = cursor_.at();
   cursor_.advance();
-  if (letter == 'O') {
-    return fail(Code::o_word_not_run, {begin, static_cast<std::uint32_t>(line_->text.size())},
-                "kadr does not run O words");
-  }
+  if (letter == 'O') return parse_o_word();
   double number = 0;
   if (cursor_.read_plain_number(number)) {
     Item& word = line_->items.emplace_back();
@@ -112,7 +124,7 @@ bool Parser::parse_word(char letter) {
   if (begins_number(cursor_)) {
     const NumberResult result = cursor_.read_number(item.number, item.bytes);
     if (result != NumberResult::good) {
-      report_.error(number_problem(*line_, result, item.bytes, letter));
+      if (!muted_) report_.error(number_problem(*line_, result, item.bytes, letter));
       return false;
     }
   } else {
@@ -120,7 +132,7 @@ bool Parser::parse_word(char letter) {
       return fail(Code::number_missing, {begin, begin + 1}, fmt::format("{} has no value", letter));
     }
     item.first = static_cast<std::int32_t>(line_->nodes.size());
-    item.value = ExpressionParser(*line_, cursor_, report_).value();
+    item.value = ExpressionParser(*line_, cursor_, names_, muted_ ? nullptr : &report_).value();
     if (item.value < 0) return false;
   }
   item.bytes = {begin, cursor_.at()};
@@ -133,20 +145,20 @@ bool Parser::parse_setting() {
   item.kind = ItemKind::setting;
   const std::uint32_t begin = cursor_.at();
   cursor_.advance();
-  if (cursor_.peek() == '<') {
-    return fail(Code::named_parameter_not_run, {begin, cursor_.at() + 1},
-                "kadr does not run named parameters");
-  }
   item.first = static_cast<std::int32_t>(line_->nodes.size());
-  item.target = ExpressionParser(*line_, cursor_, report_).value();
-  if (item.target < 0) return false;
+  if (cursor_.peek() == '<') {
+    item.name = ExpressionParser(*line_, cursor_, names_, muted_ ? nullptr : &report_).name(begin);
+  } else {
+    item.target = ExpressionParser(*line_, cursor_, names_, muted_ ? nullptr : &report_).value();
+  }
+  if (item.target < 0 && item.name < 0) return false;
   if (cursor_.peek() != '=') {
     return fail(Code::equals_missing, {begin, cursor_.at()}, "no = follows this parameter",
                 "a parameter alone does nothing; write #5=1.25, or put a word letter before it");
   }
   item.equals = cursor_.at();
   cursor_.advance();
-  item.value = ExpressionParser(*line_, cursor_, report_).value();
+  item.value = ExpressionParser(*line_, cursor_, names_, muted_ ? nullptr : &report_).value();
   if (item.value < 0) return false;
   item.bytes = {begin, cursor_.at()};
   line_->items.push_back(item);
@@ -199,7 +211,7 @@ bool Parser::parse_percent() {
 }
 
 void Parser::check_encoding(Bytes bytes) {
-  if (encoding_told_) return;
+  if (encoding_told_ || muted_) return;
   const std::string_view text = line_->slice(bytes);
   for (std::size_t at = 0; at < text.size();) {
     if (static_cast<unsigned char>(text[at]) < 0x80) {
@@ -244,7 +256,7 @@ bool Parser::bad_character() {
 }
 
 bool Parser::fail(Code code, Bytes bytes, std::string label, std::string help) {
-  report_.error(problem(code, line_->span(bytes), std::move(label), std::move(help)));
+  if (!muted_) report_.error(problem(code, line_->span(bytes), std::move(label), std::move(help)));
   return false;
 }
 

@@ -1,19 +1,87 @@
 #include "gcode/program.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstring>
 
 namespace kadr::gcode {
 namespace {
 
+// texts up to here stay parsed once they were read as a whole
+constexpr std::size_t kKeptBytes = 1U << 20;
+
 /// Length of a UTF-8 byte order mark at the head of a text: editors put it there, it means nothing.
 std::size_t byte_order_mark(std::string_view text) { return text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0; }
 
+/// What stands first on a line behind blanks, / and a line number.
+enum class LineHead : std::uint8_t { nothing, o_word, other };
+
+LineHead head_of(std::string_view line) {
+  std::size_t at = 0;
+  const auto skip = [&](auto accept) {
+    while (at < line.size() && (is_blank(line[at]) || accept(line[at]))) ++at;
+  };
+  skip([](char c) { return c == '/' || c == '%'; });
+  if (at < line.size() && upper(line[at]) == 'N') {
+    ++at;
+    skip([](char c) { return is_digit(c) || c == '.'; });
+  }
+  if (at == line.size() || line[at] == '(' || line[at] == ';') return LineHead::nothing;
+  return upper(line[at]) == 'O' ? LineHead::o_word : LineHead::other;
+}
+
 }  // namespace
 
-Program::Program(const SourceSet& sources, std::uint32_t file, Report& report)
-    : source_(sources[file]), text_(source_.text()), file_(file), parser_(report) {}
+Program::Program(const SourceSet& sources, std::uint32_t file, const Bounds& bounds, Names& names,
+                 Report& report)
+    : source_(sources[file]),
+      text_(source_.text()),
+      file_(file),
+      line_bytes_(bounds.line_bytes),
+      parser_(names, report),
+      report_(report) {}
 
-bool Program::next(Line& line) {
+const Line* Program::next() {
+  if (kept_.empty()) return read(line_) ? &line_ : nullptr;
+  if (at_.line > kept_.size()) return nullptr;
+  return &kept_[at_.line++ - 1];
+}
+
+void Program::rewind() {
+  at_ = {};
+  parser_.mute();
+  if (text_.size() > kKeptBytes) return;
+  while (read(line_)) kept_.push_back(line_);
+  at_ = {};
+}
+
+bool Program::has_o_words() const {
+  bool at_head = true;
+  std::size_t held_from = 0;
+  for (std::size_t at = 0; at < text_.size();) {
+    const auto* newline = static_cast<const char*>(std::memchr(text_.data() + at, '\n', text_.size() - at));
+    const std::size_t end = newline ? static_cast<std::size_t>(newline - text_.data()) : text_.size();
+    const LineHead head = head_of(text_.substr(at, end - at));
+    if (head == LineHead::o_word && !at_head) return true;
+    if (head == LineHead::o_word) {
+      // a number alone at the head names the program, as on a Fanuc control
+      std::string_view rest = text_.substr(at, end - at);
+      rest.remove_prefix(rest.find_first_of("Oo") + 1);
+      const auto letter =
+          std::find_if(rest.begin(), rest.end(), [](char c) { return !is_digit(c) && !is_blank(c); });
+      if (letter != rest.end() && *letter != '(' && *letter != ';') return true;
+    }
+    if (head != LineHead::nothing) at_head = false;
+    at = end + 1;
+    if (at < held_from + SourceText::kWindow_bytes) continue;
+    source_.let_go(held_from, std::min(at, text_.size()));
+    held_from = at;
+  }
+  return false;
+}
+
+bool Program::read(Line& line) {
   if (at_.offset >= text_.size()) return false;
   let_go_what_was_read();
   const char* begin = text_.data() + at_.offset;
@@ -28,6 +96,12 @@ bool Program::next(Line& line) {
   line.ending = text_.substr(at_.offset + length, whole - length);
   at_.offset += whole;
   ++at_.line;
+  if (line_bytes_ != 0 && length > line_bytes_) {
+    parser_.leave_unread(line);
+    report_.error(problem(Code::line_too_long, line.span({0, 1}), fmt::format("{} bytes", length),
+                          fmt::format("allowed are {} (--limit line_bytes={})", line_bytes_, length)));
+    return true;
+  }
   parser_.parse(line, line.number == 1 ? byte_order_mark(line.text) : 0);
   return true;
 }

@@ -6,8 +6,12 @@
 namespace kadr::gcode {
 
 void Interpreter::parameters() {
-  for (const auto& [number, value] : words_.settings) {
-    state_.parameters[static_cast<std::size_t>(number)] = value;
+  for (const Words::Setting& setting : words_.settings) {
+    if (setting.name >= 0) {
+      set_named(state_, setting.name, setting.value);
+    } else {
+      state_.parameters[static_cast<std::size_t>(setting.number)] = setting.value;
+    }
   }
 }
 
@@ -19,7 +23,7 @@ void Interpreter::comment() {
   if (!message && !debug && !same_letters(active.command, "PRINT")) return;
   Block block =
       make_block(message || debug ? BlockKind::message : BlockKind::comment, line_->span(item.bytes));
-  block.text = message ? valid_text(active.text) : expanded_text(active.text, state_);
+  block.text = message ? valid_text(active.text) : expanded_text(active.text, state_, line_->number);
   emit(block);
 }
 

@@ -40,6 +40,36 @@ double read_parameter(const State& state, int index) {
   return state.parameters[static_cast<std::size_t>(index)];
 }
 
+const double* find_named(const State& state, std::int32_t name) {
+  const auto at = static_cast<std::size_t>(name);
+  if (is_global(state.names[name])) {
+    return at < state.global_named.size() && state.global_named_set[at] ? &state.global_named[at] : nullptr;
+  }
+  for (const auto& [number, value] : state.levels.back().named) {
+    if (number == name) return &value;
+  }
+  return nullptr;
+}
+
+void set_named(State& state, std::int32_t name, double value) {
+  const auto at = static_cast<std::size_t>(name);
+  if (is_global(state.names[name])) {
+    if (state.global_named.size() <= at) {
+      state.global_named.resize(at + 1, 0.0);
+      state.global_named_set.resize(at + 1, false);
+    }
+    state.global_named[at] = value;
+    state.global_named_set[at] = true;
+    return;
+  }
+  for (auto& [number, old] : state.levels.back().named) {
+    if (number != name) continue;
+    old = value;
+    return;
+  }
+  state.levels.back().named.emplace_back(name, value);
+}
+
 AxisValues read_axis_parameters(const State& state, int first) {
   AxisValues values;
   std::copy_n(state.parameters.begin() + first, kProgramAxes, values.begin());

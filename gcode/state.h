@@ -1,9 +1,11 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "gcode/block.h"
+#include "gcode/names.h"
 #include "gcode/tool_table.h"
 #include "machine/base/axes.h"
 
@@ -61,6 +63,13 @@ struct Uncertain {
   bool parameters = false;
 };
 
+/// What belongs to one call of a subroutine; the main program is the first.
+struct CallLevel {
+  std::array<double, 30> numbered{};                   ///< #1 to #30 of the caller, given back at the return
+  bool own_numbered = true;                            ///< false: M98, which shares the caller's
+  std::vector<std::pair<std::int32_t, double>> named;  ///< local named parameters by number of the name
+};
+
 /// All that a line of a program depends on besides its own words.
 struct State {
   AxisValues position{};     ///< controlled point, machine coordinates, mm and deg
@@ -86,17 +95,37 @@ struct State {
   bool feed_override = true;
   bool speed_override = true;
 
+  bool retract_to_start = true;         ///< G98: cycles go back to where they began, not to R
+  bool diameter_mode = false;           ///< G7
+  int compensation_code = 400;          ///< ten times the G number
+  bool constant_surface_speed = false;  ///< G96
+
   double spindle_rpm = 0;
+  int spindle_turns = 0;  ///< 1 clockwise, -1 counter-clockwise, 0 stands
+  bool feed_hold = true;  ///< M53: the hold input is obeyed
   bool mist = false, flood = false;
   int tool_selected = 0;
   ToolTable tools;     ///< as G10 L1 L10 L11 have changed it
   int cycle_code = 0;  ///< ten times the G number
   int probe_code = 0;
   int tool_in_spindle = 0;
+  int pocket_of(int tool) const {
+    const Tool* entry = tools.find(tool);
+    return entry ? entry->pocket : 0;
+  }
+  /// F in the units of the program and of the feed mode in force.
+  double feed_in_program_units() const { return feed_linear_mm_min / length_factor(); }
 
   std::vector<double> parameters = std::vector<double>(parameter::kLast + 1, 0.0);
+  Names names;                         ///< of parameters and of labels of O words
+  std::vector<double> global_named;    ///< [names], by number of the name
+  std::vector<bool> global_named_set;  ///< [names]
+  std::vector<CallLevel> levels = std::vector<CallLevel>(1);
+  double returned_value = 0;  ///< of the last subroutine
+  bool value_returned = false;
   Uncertain uncertain;
 
+  int call_level() const { return static_cast<int>(levels.size()) - 1; }
   double length_factor() const { return inches ? kMillimetresPerInch : 1.0; }
   /// A value of an axis word in mm or deg.
   double to_base_units(int axis, double value) const {
@@ -125,6 +154,10 @@ struct State {
 /// Value of a numbered parameter; positions and tool data are those of now.
 /// @pre parameter::kFirst <= index <= parameter::kLast
 double read_parameter(const State& state, int index);
+
+/// Value of a named parameter that is not predefined, null if it was never set where it holds.
+const double* find_named(const State& state, std::int32_t name);
+void set_named(State& state, std::int32_t name, double value);
 
 /// Nine consecutive parameters from `first` on.
 AxisValues read_axis_parameters(const State& state, int first);

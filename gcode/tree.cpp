@@ -14,7 +14,7 @@ void collect(const Line& line, const Item& item, std::int32_t end_node, std::vec
   for (std::int32_t i = item.first; i < end_node; ++i) {
     const Node& node = line.nodes[static_cast<std::size_t>(i)];
     lexemes.push_back(node.own);
-    if (node.kind == NodeKind::group || node.kind == NodeKind::atan) lexemes.push_back(node.closing);
+    if (node.closing.end > node.closing.begin) lexemes.push_back(node.closing);
   }
 }
 
@@ -36,8 +36,13 @@ std::vector<Bytes> lexemes_of(const Line& line) {
         if (item.value < 0) lexemes.push_back({begin + 1, item.bytes.end});
         collect(line, item, end_node, lexemes);
         break;
+      case ItemKind::o_word:
+        lexemes.push_back(line.flow.label_root < 0 ? line.flow.label : Bytes{begin, begin + 1});
+        if (line.flow.keyword.end > 0) lexemes.push_back(line.flow.keyword);
+        collect(line, item, end_node, lexemes);
+        break;
       case ItemKind::setting:
-        lexemes.push_back({begin, begin + 1});
+        lexemes.push_back({begin, item.name < 0 ? begin + 1 : item.equals});
         lexemes.push_back({item.equals, item.equals + 1});
         collect(line, item, end_node, lexemes);
         break;

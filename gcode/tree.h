@@ -17,14 +17,17 @@ struct Bytes {
 };
 
 enum class NodeKind : std::uint8_t {
-  number,     ///< 1.5
-  parameter,  ///< #left
-  negate,     ///< -left, where left is not a plain number
-  plus,       ///< +left
-  group,      ///< [left]
-  binary,     ///< left operation right
-  function,   ///< name[left]
-  atan,       ///< ATAN[left]/[right]
+  number,        ///< 1.5
+  parameter,     ///< #left
+  negate,        ///< -left, where left is not a plain number
+  plus,          ///< +left
+  group,         ///< [left]
+  binary,        ///< left operation right
+  function,      ///< name[left]
+  atan,          ///< ATAN[left]/[right]
+  named,         ///< #<name>; left: number of the name
+  exists,        ///< EXISTS[#left] of a numbered parameter
+  exists_named,  ///< EXISTS[#<name>]; left: number of the name
 };
 
 enum class Operation : std::uint8_t {
@@ -62,15 +65,16 @@ enum class Operation : std::uint8_t {
 struct Node {
   NodeKind kind = NodeKind::number;
   Operation operation = Operation::none;
-  std::int32_t left = -1;  ///< index in Line::nodes
+  std::int32_t left = -1;  ///< index in Line::nodes, or the number of a name in Names
   std::int32_t right = -1;
   double value = 0;  ///< number
-  Bytes own;         ///< the number, `#`, `-`, operator, `[` or function name itself
-  Bytes closing;     ///< `]` of a group, `/` of ATAN
+  Bytes own;         ///< the number, `#`, `#<name>`, `-`, operator, `[` or function name itself
+  Bytes closing;     ///< `]` of a group or of EXISTS, `/` of ATAN
 };
 
 enum class ItemKind : std::uint8_t {
   word,             ///< letter and value
+  o_word,           ///< O with its label, keyword and arguments: Line::flow
   setting,          ///< #index = value
   comment,          ///< ( ... )
   line_comment,     ///< ; ...
@@ -88,8 +92,41 @@ struct Item {
   double number = 0;         ///< word with a plain number
   std::int32_t value = -1;   ///< root node of the value; -1: a plain number
   std::int32_t first = -1;   ///< first node of this item
-  std::int32_t target = -1;  ///< setting: root node of the parameter's index
+  std::int32_t target = -1;  ///< setting: root node of the parameter's index; -1: a named parameter
+  std::int32_t name = -1;    ///< setting of a named parameter: number of the name
   std::uint32_t equals = 0;  ///< setting: where `=` stands
+};
+
+/// What an O word says.
+enum class FlowWord : std::uint8_t {
+  label,  ///< O and a number alone: a program's number, or the head of a subroutine that M98 calls
+  sub,
+  end_sub,
+  call,
+  return_from,
+  if_true,
+  else_if,
+  otherwise,
+  end_if,
+  while_true,  ///< head of a while loop, or foot of a do loop
+  end_while,
+  do_once,
+  repeat,
+  end_repeat,
+  break_loop,
+  continue_loop,
+};
+
+/// The O word of a line.
+struct FlowStatement {
+  FlowWord word = FlowWord::label;
+  std::int32_t name = -1;         ///< number of the label in Names; -1: computed
+  std::int32_t label_first = -1;  ///< computed label: its nodes
+  std::int32_t label_root = -1;
+  Bytes label;                          ///< O and what names it
+  Bytes keyword;                        ///< empty for a label alone
+  std::vector<std::int32_t> arguments;  ///< root nodes; the nodes of one end where those of the next begin
+  std::int32_t first = -1;              ///< first node of the first argument
 };
 
 /// A line as written. Storage is kept from line to line.
@@ -100,7 +137,9 @@ struct Line {
   std::string_view ending;   ///< "\n", "\r\n" or "" at the end of the file
   std::vector<Item> items;
   std::vector<Node> nodes;
-  bool failed = false;  ///< a syntax error was told; items before it are valid
+  FlowStatement flow;     ///< if has_flow
+  bool has_flow = false;  ///< an O word stands on the line
+  bool failed = false;    ///< a syntax error was told; items before it are valid
 
   Span span(Bytes bytes) const {
     return {file, number, bytes.begin + 1, bytes.end > bytes.begin ? bytes.end - bytes.begin : 1};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gcode/predefined.h"
 #include "gcode/scanner.h"
 
 namespace kadr::gcode {
@@ -191,8 +192,17 @@ bool Words::read_m(const Line& line, std::uint32_t at, double value, Report* rep
 
 bool Words::read_setting(const Line& line, const Item& item, const State& state, Report* report) {
   any = true;
-  double number = 0;
   double value = 0;
+  if (item.name >= 0) {
+    if (!evaluator_.evaluate(line, item.first, item.value, state, report, value)) return false;
+    if (is_predefined(item.name)) {
+      return refuse(report, Code::parameter_read_only, line.span({item.bytes.begin, item.equals}),
+                    fmt::format("#<{}> tells the state of the controller", state.names[item.name]));
+    }
+    settings.push_back({0, item.name, value});
+    return true;
+  }
+  double number = 0;
   if (!evaluator_.evaluate(line, item.first, item.target, state, report, number)) return false;
   if (!evaluator_.evaluate(line, item.target + 1, item.value, state, report, value)) return false;
   const Span span = line.span({item.bytes.begin, item.equals});
@@ -211,7 +221,7 @@ bool Words::read_setting(const Line& line, const Item& item, const State& state,
                   fmt::format("parameters {} and {} to {} tell work system, tool and position",
                               parameter::kWorkSystem, parameter::kToolNumber, parameter::kReadOnlyLast));
   }
-  settings.emplace_back(parameter_number, value);
+  settings.push_back({parameter_number, -1, value});
   return true;
 }
 

@@ -66,7 +66,13 @@ class Words {
   bool percent = false;
   bool refused_motion = false;  ///< a G code was refused: what moves next is not known
   int comment = -1;             ///< item of the last comment in ( ), the only one that may be a message
-  std::vector<std::pair<int, double>> settings;  ///< parameter and value, in order
+  /// A setting of this line: #number = value, or #<name> = value.
+  struct Setting {
+    int number = 0;
+    std::int32_t name = -1;
+    double value = 0;
+  };
+  std::vector<Setting> settings;  ///< in order
 
  private:
   static std::size_t index(char letter) { return letter_index(letter); }

@@ -14,10 +14,10 @@ std::string printed_back(const std::string& text) {
   const std::uint32_t file = sources.add(SourceText("part.ngc", text));
   Diagnostics diagnostics;
   Report report(diagnostics);
-  Program program(sources, file, report);
-  Line line;
+  Names names;
+  Program program(sources, file, Bounds(), names, report);
   std::string out;
-  while (program.next(line)) append_source(out, line);
+  while (const Line* line = program.next()) append_source(out, *line);
   return out;
 }
 
@@ -48,6 +48,14 @@ std::string random_line(Random& random) {
                                         "N10",
                                         "M3",
                                         "O100 sub",
+                                        "O<a b> call [1] [#2]",
+                                        "o 5 w h i l e [#<c> lt 2]",
+                                        "O[#1+2] call",
+                                        "O7 endif",
+                                        "X#<name>",
+                                        "Y[EXISTS[#<n>]]",
+                                        "Z[exists [ #5 ] ]",
+                                        "@5 ^30",
                                         "#<name>=1",
                                         "1.2.3",
                                         "F1,5",

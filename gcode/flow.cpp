@@ -1,0 +1,198 @@
+#include "gcode/flow.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace kadr::gcode {
+
+Flow::Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& options, Report& report,
+           Interpreter& interpreter)
+    : sources_(sources),
+      file_(file),
+      options_(options),
+      report_(report),
+      interpreter_(interpreter),
+      state_(interpreter.state()),
+      end_{file, 1, 1, 1} {
+  report_.set_call_chain(&places_);
+  const std::filesystem::path program = sources[file].name();
+  if (program != "-") folders_.push_back(program.has_parent_path() ? program.parent_path().string() : ".");
+  folders_.insert(folders_.end(), options.sub_folders.begin(), options.sub_folders.end());
+}
+
+void Flow::run() {
+  if (!size_allowed(file_) || !add_unit(file_, {})) return;
+  unit_ = units_.front().get();
+  while (!interpreter_.ended() && !report_.full() && !stopped_) {
+    const Line* line = unit_->program.next();
+    if (line != nullptr) {
+      end_ = {line->file, line->number, 1, 1};
+      step(*line);
+      continue;
+    }
+    if (calls_.empty()) return;
+    const Statement& head = calls_.back().target.unit->structure[calls_.back().target.statement];
+    return error(problem(Code::sub_without_end, head.span, "no M99 follows",
+                         "end the subroutine with M99, or the program with M2 or M30"));
+  }
+}
+
+void Flow::step(const Line& line) {
+  const bool deleted =
+      options_.block_delete && !line.items.empty() && line.items.front().kind == ItemKind::block_delete;
+  if (line.has_flow && !line.failed) {
+    if (!deleted) statement(line);
+    return;
+  }
+  interpreter_.run(line);
+  if (const std::optional<CallRequest> request = interpreter_.take_call()) call_code(*request);
+}
+
+bool Flow::size_allowed(std::uint32_t file) {
+  const std::uint64_t bytes = sources_[file].text().size();
+  const std::uint64_t most = options_.bounds.file_bytes;
+  if (most == 0 || bytes <= most) return true;
+  error(problem(Code::file_too_large, {file, 1, 1, 1}, fmt::format("{} bytes", bytes),
+                fmt::format("allowed are {} (--limit file_bytes={})", most, bytes)));
+  return false;
+}
+
+bool Flow::add_unit(std::uint32_t file, std::string name) {
+  units_.push_back(std::make_unique<Unit>(
+      Unit{Program(sources_, file, options_.bounds, state_.names, report_), {}, std::move(name)}));
+  Unit& unit = *units_.back();
+  // a file that is called holds a subroutine, even if its O word looks like a program number
+  const bool is_main = unit.name.empty();
+  if (is_main && !unit.program.has_o_words()) return true;
+  return unit.structure.read(unit.program, options_.block_delete, state_.names, report_);
+}
+
+void Flow::statement(const Line& line) {
+  interpreter_.start();
+  if (line.flow.word == FlowWord::call) return call_statement(line);
+  // a program number at the head of a file without other O words
+  if (line.flow.word == FlowWord::label) return;
+  const int index = unit_->structure.at_line(line.number);
+  const Statement& s = at(index);
+  switch (line.flow.word) {
+    case FlowWord::sub:
+      return unit_->program.go_to(at(s.end).after);
+    case FlowWord::end_sub:
+    case FlowWord::return_from:
+      return give_back(line);
+    case FlowWord::if_true:
+      return branch(line, index);
+    case FlowWord::else_if:
+    case FlowWord::otherwise:
+      // reached from the branch before, which has been run
+      return unit_->program.go_to(at(at(s.begin).end).after);
+    case FlowWord::while_true:
+      return s.begin < 0 ? while_head(line, index) : do_foot(line, index);
+    case FlowWord::end_while:
+      return next_pass(s.begin);
+    case FlowWord::do_once:
+      count_pass(index);
+      return;
+    case FlowWord::repeat:
+      return repeat(line, index);
+    case FlowWord::end_repeat:
+      return repeat_end(index);
+    case FlowWord::break_loop:
+      return leave_loop(s.begin);
+    case FlowWord::continue_loop:
+      drop_repeats(s.begin, at(s.begin).end);
+      return next_pass(s.begin);
+    default:
+      return;
+  }
+}
+
+bool Flow::value(const Line& line, std::int32_t first, std::int32_t root, double& result) {
+  return evaluator_.evaluate(line, first, root, state_, &report_, result) && !evaluator_.doubtful();
+}
+
+void Flow::branch(const Line& line, int index) {
+  double condition = 0;
+  // without a value no branch is right: all are left out
+  bool known = argument(line, condition);
+  int at_branch = index;
+  while (known && condition == 0) {
+    at_branch = at(at_branch).next;
+    const FlowWord word = at(at_branch).word;
+    if (word != FlowWord::else_if) return unit_->program.go_to(at(at_branch).after);
+    unit_->program.go_to(at(at_branch).at);
+    known = argument(*unit_->program.next(), condition);
+  }
+  unit_->program.go_to(known ? at(at_branch).after : at(at(index).end).after);
+}
+
+bool Flow::count_pass(int beginning) {
+  const std::uint64_t most = options_.bounds.loop_passes;
+  if (++passes_ <= most || most == 0) return true;
+  Diagnostic d =
+      problem(Code::loop_too_long, at(beginning).span, fmt::format("pass {} of the program's loops", passes_),
+              "look at the condition and at what changes it");
+  d.notes.push_back(fmt::format("allowed are {} in all (--limit loop_passes=N)", most));
+  error(std::move(d));
+  stopped_ = true;
+  return false;
+}
+
+void Flow::while_head(const Line& line, int index) {
+  double condition = 0;
+  const bool known = argument(line, condition);
+  if (known && condition != 0) {
+    count_pass(index);
+  } else {
+    unit_->program.go_to(at(at(index).end).after);
+  }
+}
+
+void Flow::do_foot(const Line& line, int index) {
+  double condition = 0;
+  const bool again = argument(line, condition) && condition != 0 && report_.errors() == 0;
+  if (again) unit_->program.go_to(at(at(index).begin).at);
+}
+
+void Flow::next_pass(int index) {
+  // after an error nothing moves any more: one pass tells what there is to tell
+  if (report_.errors() > 0) return leave_loop(index);
+  const Statement& s = at(index);
+  unit_->program.go_to(s.word == FlowWord::do_once ? at(s.end).at : s.at);
+}
+
+void Flow::leave_loop(int index) {
+  drop_repeats(index, at(index).end);
+  unit_->program.go_to(at(at(index).end).after);
+}
+
+void Flow::repeat(const Line& line, int index) {
+  double wanted = 0;
+  const bool known = argument(line, wanted);
+  const double rounded = std::floor(wanted + 0.5);
+  if (!known || !(rounded >= 1)) return unit_->program.go_to(at(at(index).end).after);
+  const double most = 9e18;
+  repeats_.push_back({index, static_cast<std::uint64_t>(std::min(rounded, most)), calls_.size()});
+  count_pass(index);
+}
+
+void Flow::repeat_end(int index) {
+  Repeat& repeat = repeats_.back();
+  if (--repeat.passes_left == 0 || report_.errors() > 0) {
+    repeats_.pop_back();
+    return;
+  }
+  const int first = at(index).begin;
+  if (count_pass(first)) unit_->program.go_to(at(first).after);
+}
+
+void Flow::drop_repeats(int first, int last) {
+  while (!repeats_.empty() && repeats_.back().level == calls_.size() && repeats_.back().statement > first &&
+         repeats_.back().statement < last)
+    repeats_.pop_back();
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,96 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "gcode/interpreter.h"
+#include "gcode/program.h"
+#include "gcode/structure.h"
+
+namespace kadr::gcode {
+
+/// Runs a program line by line in the order that its O words, M98 and M99 say: subroutines of its own and of
+/// files beside it, conditions, loops. The lines themselves are the Interpreter's.
+class Flow {
+ public:
+  Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& options, Report& report,
+       Interpreter& interpreter);
+  void run();
+  /// Where the run ended.
+  Span end() const { return end_; }
+
+ private:
+  struct Unit {
+    Program program;
+    Structure structure;
+    std::string name;  ///< file name without folder and ending; empty for the main program
+  };
+  /// A subroutine in a unit.
+  struct Target {
+    Unit* unit = nullptr;
+    int statement = -1;
+  };
+  /// A call that has not returned.
+  struct Call {
+    Unit* caller = nullptr;
+    Program::Position back;
+    Target target;
+    bool by_code = false;            ///< M98
+    std::uint64_t repeats_left = 0;  ///< M98 L
+  };
+  struct Repeat {
+    int statement = -1;
+    std::uint64_t passes_left = 0;
+    std::size_t level = 0;  ///< number of calls when it began
+  };
+
+  bool add_unit(std::uint32_t file, std::string name);
+  bool size_allowed(std::uint32_t file);
+  void step(const Line& line);
+  void statement(const Line& line);
+  void branch(const Line& line, int index);
+  void while_head(const Line& line, int index);
+  void do_foot(const Line& line, int index);
+  void repeat(const Line& line, int index);
+  void repeat_end(int index);
+  void leave_loop(int index);
+  void next_pass(int index);
+  bool count_pass(int beginning);
+  void drop_repeats(int first, int last);
+
+  void call_statement(const Line& line);
+  void call_code(const CallRequest& request);
+  Target find(std::int32_t name, bool by_code, Span place);
+  Target find_known(std::int32_t name, bool by_code) const;
+  bool load(std::int32_t name, Span place);
+  bool enter(Target target, bool by_code, Span place, const std::vector<double>& arguments);
+  void give_back(const Line& line);
+  void leave_call();
+  void return_code(Span place);
+
+  bool value(const Line& line, std::int32_t first, std::int32_t root, double& result);
+  bool argument(const Line& line, double& result) {
+    return value(line, line.flow.first, line.flow.arguments.front(), result);
+  }
+  std::string label_text(std::int32_t name) const;
+  void error(Diagnostic d) { report_.error(std::move(d)); }
+  const Statement& at(int index) const { return unit_->structure[index]; }
+
+  SourceSet& sources_;
+  std::uint32_t file_;
+  const InterpretOptions& options_;
+  Report& report_;
+  Interpreter& interpreter_;
+  State& state_;
+  Evaluator evaluator_;
+  std::vector<std::unique_ptr<Unit>> units_;
+  std::vector<std::string> folders_;
+  Unit* unit_ = nullptr;
+  std::vector<Call> calls_;
+  std::vector<Span> places_;  ///< [calls], where each was made
+  std::vector<Repeat> repeats_;
+  std::uint64_t passes_ = 0;
+  Span end_;
+  bool stopped_ = false;
+};
+
+}  // namespace kadr::gcode
