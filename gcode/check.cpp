@@ -91,6 +91,10 @@ void Interpreter::check_axes() {
 }
 
 void Interpreter::check_codes() {
+  if (words_.m(MGroup::call) == 98 && !words_.has('P')) {
+    error(problem(Code::word_missing, words_.span(*line_, MGroup::call),
+                  "M98 needs P: the number of the subroutine"));
+  }
   const int nonmodal_code = words_.g(GGroup::nonmodal);
   const int motion_code = words_.g(GGroup::motion);
   const bool takes_axes = axis_words_taken();
@@ -230,10 +234,6 @@ void Interpreter::check_values() {
     error(problem(Code::word_out_of_range, words_.span(*line_, 'P'), "a tolerance below 0"));
   }
   if (words_.m(MGroup::call) == 98) {
-    if (!words_.has('P')) {
-      error(problem(Code::word_missing, words_.span(*line_, MGroup::call),
-                    "M98 needs P: the number of the subroutine"));
-    }
     check_whole('P', 0, kLargestCall);
     check_whole('L', 0, kLargestCall);
   }

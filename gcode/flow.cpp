@@ -55,8 +55,9 @@ bool Flow::size_allowed(std::uint32_t file) {
   const std::uint64_t bytes = sources_[file].text().size();
   const std::uint64_t most = options_.bounds.file_bytes;
   if (most == 0 || bytes <= most) return true;
-  error(problem(Code::file_too_large, {file, 1, 1, 1}, fmt::format("{} bytes", bytes),
-                fmt::format("allowed are {} (--limit file_bytes={})", most, bytes)));
+  Diagnostic d = problem(Code::file_too_large, {file, 1, 1, 1}, fmt::format("{} bytes", bytes));
+  d.notes.push_back(fmt::format("allowed are {} (--limit file_bytes=N)", most));
+  error(std::move(d));
   return false;
 }
 

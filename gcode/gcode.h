@@ -21,7 +21,7 @@ struct Bounds {
   std::uint32_t call_depth = 100;          ///< subroutines within each other
   std::uint64_t loop_passes = 10'000'000;  ///< passes of all loops together
   std::uint64_t file_bytes = 4ULL << 30;   ///< of the program and of each file that it calls
-  std::uint32_t line_bytes = 65'536;
+  std::uint32_t line_bytes = 1U << 20;
 };
 
 /// Material that a probe meets: the half space below (or above) a plane across one axis, machine coordinates.
@@ -62,7 +62,8 @@ void interpret(SourceSet& sources, std::uint32_t file, const InterpretOptions& o
 
 /// One line of the canonical trace for a block (without line end), e.g.
 /// "STRAIGHT_FEED 10.000000 0.000000 ... @12"; empty if the block is not part of the trace.
-/// @param called_file  name of the file that the block stands in, where that is not the program: "... @name:12"
+/// @param called_file  name of the file that the block stands in, where that is not the program: "...
+/// @name:12"
 void append_canon(std::string& out, const Block& block, std::string_view called_file = {});
 
 }  // namespace kadr::gcode

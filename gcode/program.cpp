@@ -98,8 +98,9 @@ bool Program::read(Line& line) {
   ++at_.line;
   if (line_bytes_ != 0 && length > line_bytes_) {
     parser_.leave_unread(line);
-    report_.error(problem(Code::line_too_long, line.span({0, 1}), fmt::format("{} bytes", length),
-                          fmt::format("allowed are {} (--limit line_bytes={})", line_bytes_, length)));
+    Diagnostic d = problem(Code::line_too_long, line.span({0, 1}), fmt::format("{} bytes", length));
+    d.notes.push_back(fmt::format("allowed are {} (--limit line_bytes=N)", line_bytes_));
+    report_.error(std::move(d));
     return true;
   }
   parser_.parse(line, line.number == 1 ? byte_order_mark(line.text) : 0);

@@ -85,8 +85,7 @@ int canon_program(const Arguments& arguments, Console& console) {
         if (block.span.line < arguments.first_line || block.span.line > arguments.last_line) return;
         const std::size_t before = text.size();
         const bool called = block.span.file != job.program;
-        gcode::append_canon(text, block,
-                            called ? job.sources[block.span.file].name() : std::string_view());
+        gcode::append_canon(text, block, called ? job.sources[block.span.file].name() : std::string_view());
         if (text.size() == before) return;
         if (json) {
           console.data((first ? "\n    " : ",\n    ") + call_json(text, block.span.line));
