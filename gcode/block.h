@@ -116,6 +116,7 @@ struct Block {
   double pitch_u_rev =
       0;  ///< feed that follows the spindle: mm or deg per turn along length_u; 0: it does not
   ProbeRule probe;
+  AxisValues contact{};  ///< probe: machine coordinates where the move ends
   InputWait wait;
   bool on = false;           ///< digital_output
   bool with_motion = false;  ///< output changes as the next motion begins, not at once

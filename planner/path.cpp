@@ -47,6 +47,37 @@ double polish_extreme(const ArcShape& arc, double u, bool first) {
 
 }  // namespace
 
+Path Path::tail(std::size_t i) const {
+  Path rest(axes_);
+  const auto at = static_cast<std::ptrdiff_t>(i);
+  rest.segments.assign(segments.begin() + at, segments.end());
+  rest.nodes_u.assign(nodes_u.begin() + at * axes_, nodes_u.end());
+  rest.start_s_u.assign(start_s_u.begin() + at, start_s_u.end());
+  for (PathSegment& segment : rest.segments) {
+    if (segment.arc < 0) continue;
+    rest.arcs.push_back(arcs[static_cast<std::size_t>(segment.arc)]);
+    segment.arc = static_cast<std::int32_t>(rest.arcs.size()) - 1;
+  }
+  return rest;
+}
+
+std::string_view motion_name(const PathSegment& segment) {
+  switch (segment.made_by) {
+    case gcode::BlockKind::traverse:
+      return "rapid";
+    case gcode::BlockKind::arc:
+      return "arc";
+    case gcode::BlockKind::spline:
+      return "spline";
+    case gcode::BlockKind::probe:
+      return "probe";
+    case gcode::BlockKind::rigid_tap:
+      return "tap";
+    default:
+      return "line";
+  }
+}
+
 void eval_position(const Path& path, std::size_t segment, double s_u, std::span<double> position_u) {
   const PathSegment& seg = path.segments[segment];
   const auto from = path.node(segment);

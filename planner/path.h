@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -41,9 +42,10 @@ struct PathSegment {
   bool rapid = false;
   bool stop_at_end = false;  ///< exact stop (G61.1) or a stop asked for by the program
   bool feed_override_enabled = true;
-  bool path_limits = false;  ///< feed_length_u is of X Y Z: PathLimits apply to it
-  std::int32_t arc = -1;     ///< index into Path::arcs
-  std::uint32_t block = 0;   ///< running number of the motion block
+  bool path_limits = false;                           ///< feed_length_u is of X Y Z: PathLimits apply to it
+  gcode::BlockKind made_by = gcode::BlockKind::feed;  ///< what the program asked for
+  std::int32_t arc = -1;                              ///< index into Path::arcs
+  std::uint32_t block = 0;  ///< running number of the motion block; a spline has many segments, a tap two
   Span span;
   double length_u = 0;       ///< > 0
   double feed_length_u = 0;  ///< the length that the programmed feed measures (gcode::FeedLength), mm or deg
@@ -61,6 +63,15 @@ class Path {
     return {nodes_u.data() + i * static_cast<std::size_t>(axes_), static_cast<std::size_t>(axes_)};
   }
   double length_u() const { return start_s_u.empty() ? 0.0 : start_s_u.back(); }
+  /// One past the last segment of the block that segment i belongs to.
+  std::size_t block_end(std::size_t i) const {
+    const std::uint32_t block = segments[i].block;
+    while (i < segments.size() && segments[i].block == block) ++i;
+    return i;
+  }
+
+  /// The segments from i on; s still counts from the whole path's beginning.
+  Path tail(std::size_t i) const;
 
   std::vector<PathSegment> segments;
   std::vector<ArcShape> arcs;
@@ -72,6 +83,8 @@ class Path {
   int axes_;
 };
 
+/// What a segment's block is called in logs and tables: "rapid", "line", "arc", "spline", "probe", "tap".
+std::string_view motion_name(const PathSegment& segment);
 /// Position on a segment at local length s in [0, length]; exact at both ends (returns the node itself).
 void eval_position(const Path& path, std::size_t segment, double s_u, std::span<double> position_u);
 /// dx/ds there, one value per axis.
@@ -81,12 +94,21 @@ void eval_curvature(const Path& path, std::size_t segment, double s_u, std::span
 /// Smallest and largest position of one axis on a segment, extremes of arcs included.
 std::pair<double, double> axis_extent(const Path& path, std::size_t segment, int axis);
 
+/// Whether a block moves the machine.
+constexpr bool is_motion(gcode::BlockKind kind) {
+  return kind == gcode::BlockKind::traverse || kind == gcode::BlockKind::feed ||
+         kind == gcode::BlockKind::arc || kind == gcode::BlockKind::spline ||
+         kind == gcode::BlockKind::probe || kind == gcode::BlockKind::rigid_tap;
+}
+
 /// Turns motion Blocks into a Path, one by one.
 class PathBuilder {
  public:
   /// @param start_u position of every program axis before the first block, machine coordinates
   PathBuilder(const machine::MachineModel& machine, const AxisValues& start_u);
-  /// Appends the block's motion; a move of zero length adds nothing. Only traverse, feed and arc blocks.
+  /// Appends the block's motion; a move of zero length adds nothing. A spline becomes arcs (arcs_along), a
+  /// probing move ends at rest where the probe changes, a tap goes to its end and back, at rest between.
+  /// @pre is_motion(block.kind)
   void add(const gcode::Block& block);
   /// The last segment ends at rest (dwell, stop, spindle word follows).
   void stop();
@@ -94,9 +116,20 @@ class PathBuilder {
   Path take() { return std::move(path_); }
 
  private:
-  bool arc_shape(const gcode::Block& block, ArcShape& arc);  ///< all but the sweep; false: a fault was noted
-  double end_of(const gcode::Block& block, int axis) const;  ///< by machine axis
-  void move_last_node(const gcode::Block& block);
+  using Point = AxisValues;  ///< by machine axis
+
+  PathSegment segment_of(const gcode::Block& block);
+  void add_line(PathSegment segment, const gcode::Block& block, const Point& end);
+  void add_arc(PathSegment segment, const gcode::Block& block);
+  void add_spline(PathSegment segment, const gcode::Block& block);
+  void append(const PathSegment& segment, const gcode::Block& block, const Point& end, const ArcShape& arc);
+  void set_feed(PathSegment& segment, const gcode::Block& block, double xyz_u);
+  bool plane_axes(const gcode::Block& block, ArcShape& arc);  ///< false: a fault was noted
+  ArcShape circle(ArcShape arc, double center_first_u, double center_second_u, const Point& end) const;
+  Point machine_point(const AxisValues& program) const;
+  std::span<const double> last_node() const { return path_.node(path_.size()); }
+  Point last_point() const;
+  void fault(Code code, const gcode::Block& block, std::string label, std::string help);
 
   const machine::MachineModel& machine_;
   Path path_;

@@ -1,10 +1,14 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "machine/base/numbers.h"
 #include "machine/base/require.h"
 #include "planner/path.h"
+#include "planner/spline_arcs.h"
 
 namespace kadr::planner {
 namespace {
@@ -50,90 +54,164 @@ void PathBuilder::stop() {
 }
 
 void PathBuilder::add(const gcode::Block& block) {
-  require(block.kind == gcode::BlockKind::traverse || block.kind == gcode::BlockKind::feed ||
-              block.kind == gcode::BlockKind::arc,
-          "only moves make path");
-  const auto axes = program_axis_.size();
-  PathSegment seg;
-  seg.rapid = block.kind == gcode::BlockKind::traverse;
-  seg.stop_at_end = block.path_mode == gcode::PathMode::exact_stop;
-  seg.feed_override_enabled = block.feed_override_enabled;
-  seg.block = blocks_++;
-  seg.span = block.span;
+  require(is_motion(block.kind), "only moves make path");
+  PathSegment segment = segment_of(block);
+  switch (block.kind) {
+    case gcode::BlockKind::arc:
+      return add_arc(segment, block);
+    case gcode::BlockKind::spline:
+      return add_spline(segment, block);
+    case gcode::BlockKind::probe:
+      // the controller stops where the probe changes
+      segment.stop_at_end = true;
+      return add_line(segment, block, machine_point(block.contact));
+    case gcode::BlockKind::rigid_tap: {
+      const Point start = last_point();
+      segment.stop_at_end = true;
+      add_line(segment, block, machine_point(block.end));
+      return add_line(segment, block, start);
+    }
+    default:
+      return add_line(segment, block, machine_point(block.end));
+  }
+}
 
-  const std::size_t last = path_.nodes_u.size() - axes;
-  double squares = 0.0;      // over the axes that move linearly
-  double xyz_squares = 0.0;  // those of them that are X Y Z
-  ArcShape arc;
-  const bool is_arc = block.kind == gcode::BlockKind::arc;
-  if (is_arc && !arc_shape(block, arc)) return;
-  for (std::size_t j = 0; j < axes; ++j) {
-    const double step = block.end[static_cast<std::size_t>(program_axis_[j])] - path_.nodes_u[last + j];
-    const int axis = static_cast<int>(j);
-    if (is_arc && (axis == arc.first_axis || axis == arc.second_axis)) continue;
+PathSegment PathBuilder::segment_of(const gcode::Block& block) {
+  PathSegment segment;
+  segment.rapid = block.kind == gcode::BlockKind::traverse;
+  segment.stop_at_end = block.path_mode == gcode::PathMode::exact_stop;
+  segment.feed_override_enabled = block.feed_override_enabled;
+  segment.made_by = block.kind;
+  segment.block = blocks_++;
+  segment.span = block.span;
+  return segment;
+}
+
+void PathBuilder::add_line(PathSegment segment, const gcode::Block& block, const Point& end) {
+  const auto from = last_node();
+  double squares = 0.0, xyz_squares = 0.0;
+  for (std::size_t j = 0; j < program_axis_.size(); ++j) {
+    const double step = end[j] - from[j];
     squares += step * step;
     if (program_axis_[j] < 3) xyz_squares += step * step;
   }
-  if (is_arc) {
-    const double mean_radius = 0.5 * (arc.radius_begin_u + arc.radius_end_u);
-    const double told = std::sqrt(std::max(block.length_u * block.length_u - xyz_squares, 0.0));
-    arc.sweep_rad =
-        signed_sweep(path_.nodes_u[last + static_cast<std::size_t>(arc.first_axis)] - arc.center_first_u,
-                     path_.nodes_u[last + static_cast<std::size_t>(arc.second_axis)] - arc.center_second_u,
-                     end_of(block, arc.first_axis) - arc.center_first_u,
-                     end_of(block, arc.second_axis) - arc.center_second_u, block.turns,
-                     block.feed_length == gcode::FeedLength::xyz ? told : 0.0, mean_radius);
-    const double planar = mean_radius * std::fabs(arc.sweep_rad);
-    squares += planar * planar;
-    xyz_squares += planar * planar;
-    // a circle of radius zero is a point: what is left is the straight motion of the other axes
-    if (planar > 0.0) seg.kind = SegmentKind::arc;
-  }
-  seg.length_u = std::sqrt(squares);
+  segment.length_u = std::sqrt(squares);
+  set_feed(segment, block, std::sqrt(xyz_squares));
+  append(segment, block, end, {});
+}
 
+void PathBuilder::add_arc(PathSegment segment, const gcode::Block& block) {
+  ArcShape arc;
+  if (!plane_axes(block, arc)) return;
+  const Point end = machine_point(block.end);
+  const auto from = last_node();
+  arc = circle(arc, block.center_first_mm, block.center_second_mm, end);
+  double squares = 0.0;      // over the axes that move linearly
+  double xyz_squares = 0.0;  // those of them that are X Y Z
+  for (std::size_t j = 0; j < program_axis_.size(); ++j) {
+    const int axis = static_cast<int>(j);
+    if (axis == arc.first_axis || axis == arc.second_axis) continue;
+    const double step = end[j] - from[j];
+    squares += step * step;
+    if (program_axis_[j] < 3) xyz_squares += step * step;
+  }
+  const double mean_radius = 0.5 * (arc.radius_begin_u + arc.radius_end_u);
+  const double told = std::sqrt(std::max(block.length_u * block.length_u - xyz_squares, 0.0));
+  const auto first = static_cast<std::size_t>(arc.first_axis);
+  const auto second = static_cast<std::size_t>(arc.second_axis);
+  arc.sweep_rad =
+      signed_sweep(from[first] - arc.center_first_u, from[second] - arc.center_second_u,
+                   end[first] - arc.center_first_u, end[second] - arc.center_second_u, block.turns,
+                   block.feed_length == gcode::FeedLength::xyz ? told : 0.0, mean_radius);
+  const double planar = mean_radius * std::fabs(arc.sweep_rad);
+  // a circle of radius zero is a point: what is left is the straight motion of the other axes
+  if (planar > 0.0) segment.kind = SegmentKind::arc;
+  segment.length_u = std::sqrt(squares + planar * planar);
+  set_feed(segment, block, std::sqrt(xyz_squares + planar * planar));
+  append(segment, block, end, arc);
+}
+
+void PathBuilder::add_spline(PathSegment segment, const gcode::Block& block) {
+  ArcShape plane;
+  if (!plane_axes(block, plane)) return;
+  std::vector<SplineControl> points;
+  for (const gcode::SplinePoint& p : block.control_points) points.push_back({p.x_mm, p.y_mm, p.weight});
+  const double deviation_mm = std::max(kSplineDeviation_mm, block.path_tolerance_mm);
+  const std::vector<CurvePiece> pieces =
+      arcs_along(PlaneSpline(std::move(points), block.order), deviation_mm);
+  const bool stops = segment.stop_at_end;
+  double length_mm = 0.0;
+  for (const CurvePiece& piece : pieces) length_mm += piece.length_mm;
+  for (const CurvePiece& piece : pieces) {
+    Point end = last_point();
+    end[static_cast<std::size_t>(plane.first_axis)] = piece.end_first_mm;
+    end[static_cast<std::size_t>(plane.second_axis)] = piece.end_second_mm;
+    ArcShape arc;
+    segment.kind = piece.arc ? SegmentKind::arc : SegmentKind::line;
+    if (piece.arc) {
+      arc = circle(plane, piece.center_first_mm, piece.center_second_mm, end);
+      arc.sweep_rad = piece.sweep_rad;
+    }
+    segment.stop_at_end = stops && &piece == &pieces.back();
+    segment.path_limits = true;
+    segment.length_u = segment.feed_length_u = piece.length_mm;
+    segment.feed_u_s = block.duration_s > 0.0 ? length_mm / block.duration_s : block.feed_u_s;
+    append(segment, block, end, arc);
+  }
+}
+
+void PathBuilder::set_feed(PathSegment& segment, const gcode::Block& block, double xyz_u) {
+  // what F measures; a reader that gave no length leaves it to the geometry
+  segment.path_limits = xyz_u > 0.0;
+  segment.feed_length_u = block.length_u > 0.0 ? block.length_u : xyz_u > 0.0 ? xyz_u : segment.length_u;
+  if (segment.path_limits && block.feed_length != gcode::FeedLength::xyz) segment.feed_length_u = xyz_u;
+  if (segment.rapid)
+    segment.feed_u_s = machine::kInfinity;
+  else if (block.duration_s > 0.0)
+    segment.feed_u_s = segment.length_u / block.duration_s;
+  else
+    segment.feed_u_s = block.feed_u_s * segment.length_u / segment.feed_length_u;
+}
+
+void PathBuilder::append(const PathSegment& segment, const gcode::Block& block, const Point& end,
+                         const ArcShape& arc) {
+  const std::size_t axes = program_axis_.size();
   const double s = path_.start_s_u.back();
-  if (!(s + seg.length_u > s)) {
+  if (!(s + segment.length_u > s)) {
     // too short to count in s: the path ends where the program says, to the last bit, without a new segment
-    if (seg.length_u > 0.0) move_last_node(block);
-    if (seg.stop_at_end) stop();
+    if (segment.length_u > 0.0) std::copy_n(end.begin(), axes, path_.nodes_u.end() - static_cast<int>(axes));
+    if (segment.stop_at_end) stop();
     return;
   }
-
-  // what F measures; a reader that gave no length leaves it to the geometry
-  seg.path_limits = xyz_squares > 0.0;
-  seg.feed_length_u = block.length_u > 0.0 ? block.length_u
-                      : xyz_squares > 0.0  ? std::sqrt(xyz_squares)
-                                           : seg.length_u;
-  if (seg.path_limits && block.feed_length != gcode::FeedLength::xyz)
-    seg.feed_length_u = std::sqrt(xyz_squares);
-  if (seg.rapid)
-    seg.feed_u_s = machine::kInfinity;
-  else if (block.duration_s > 0.0)
-    seg.feed_u_s = seg.length_u / block.duration_s;
-  else
-    seg.feed_u_s = block.feed_u_s * seg.length_u / seg.feed_length_u;
-
-  for (std::size_t j = 0; j < axes; ++j)
-    path_.nodes_u.push_back(block.end[static_cast<std::size_t>(program_axis_[j])]);
-  path_.start_s_u.push_back(s + seg.length_u);
-  if (seg.kind == SegmentKind::arc) {
-    seg.arc = static_cast<std::int32_t>(path_.arcs.size());
-    path_.arcs.push_back(arc);
+  if (block.pitch_u_rev > 0.0 && !(segment.feed_u_s > 0.0)) {
+    fault(Code::spindle_stands_still, block,
+          fmt::format("{} mm per turn, and the spindle turns at 0 rpm", block.pitch_u_rev),
+          "start the spindle before this move: S and M3 or M4");
+    return;
   }
-  path_.segments.push_back(seg);
+  path_.nodes_u.insert(path_.nodes_u.end(), end.begin(), end.begin() + static_cast<int>(axes));
+  path_.start_s_u.push_back(s + segment.length_u);
+  path_.segments.push_back(segment);
+  if (segment.kind != SegmentKind::arc) return;
+  path_.segments.back().arc = static_cast<std::int32_t>(path_.arcs.size());
+  path_.arcs.push_back(arc);
 }
 
-double PathBuilder::end_of(const gcode::Block& block, int axis) const {
-  return block.end[static_cast<std::size_t>(program_axis_[static_cast<std::size_t>(axis)])];
-}
-
-void PathBuilder::move_last_node(const gcode::Block& block) {
-  const std::size_t last = path_.nodes_u.size() - program_axis_.size();
+PathBuilder::Point PathBuilder::machine_point(const AxisValues& program) const {
+  Point point{};
   for (std::size_t j = 0; j < program_axis_.size(); ++j)
-    path_.nodes_u[last + j] = end_of(block, static_cast<int>(j));
+    point[j] = program[static_cast<std::size_t>(program_axis_[j])];
+  return point;
 }
 
-bool PathBuilder::arc_shape(const gcode::Block& block, ArcShape& arc) {
+PathBuilder::Point PathBuilder::last_point() const {
+  Point point{};
+  const auto node = last_node();
+  std::copy(node.begin(), node.end(), point.begin());
+  return point;
+}
+
+bool PathBuilder::plane_axes(const gcode::Block& block, ArcShape& arc) {
   const gcode::PlaneAxes plane = gcode::plane_axes(block.plane);
   const auto machine_axis = [&](int program_axis) {
     const auto it = std::find(program_axis_.begin(), program_axis_.end(), program_axis);
@@ -141,31 +219,40 @@ bool PathBuilder::arc_shape(const gcode::Block& block, ArcShape& arc) {
   };
   arc.first_axis = machine_axis(plane.first);
   arc.second_axis = machine_axis(plane.second);
-  if (arc.first_axis < 0 || arc.second_axis < 0) {
-    const char missing =
-        kAxisLetters[static_cast<std::size_t>(arc.first_axis < 0 ? plane.first : plane.second)];
-    Diagnostic d{};
-    d.code = Code::arc_axis_missing;
-    d.span = block.span;
-    d.message = std::string(code_entry(d.code).title);
-    d.label = std::string("the arc needs axis ") + missing;
-    std::string letters;
-    for (const machine::AxisModel& axis : machine_.axis) letters += axis.letter;
-    d.notes.push_back("machine '" + machine_.name + "' has the axes " + letters);
-    d.help = "choose the plane with G17, G18 or G19, or a machine that has both axes of it";
-    path_.faults.push_back(std::move(d));
-    return false;
-  }
-  arc.center_first_u = block.center_first_mm;
-  arc.center_second_u = block.center_second_mm;
-  const std::size_t last = path_.nodes_u.size() - program_axis_.size();
-  const double first = path_.nodes_u[last + static_cast<std::size_t>(arc.first_axis)] - arc.center_first_u;
-  const double second = path_.nodes_u[last + static_cast<std::size_t>(arc.second_axis)] - arc.center_second_u;
-  arc.radius_begin_u = norm(first, second);
-  arc.radius_end_u = norm(end_of(block, arc.first_axis) - arc.center_first_u,
-                          end_of(block, arc.second_axis) - arc.center_second_u);
-  arc.angle_begin_rad = exact_atan2(second, first);
-  return true;
+  if (arc.first_axis >= 0 && arc.second_axis >= 0) return true;
+  const char missing =
+      kAxisLetters[static_cast<std::size_t>(arc.first_axis < 0 ? plane.first : plane.second)];
+  fault(
+      Code::arc_axis_missing, block,
+      std::string(block.kind == gcode::BlockKind::arc ? "the arc" : "the spline") + " needs axis " + missing,
+      "choose the plane with G17, G18 or G19, or a machine that has both axes of it");
+  std::string letters;
+  for (const machine::AxisModel& axis : machine_.axis) letters += axis.letter;
+  path_.faults.back().notes.push_back("machine '" + machine_.name + "' has the axes " + letters);
+  return false;
+}
+
+ArcShape PathBuilder::circle(ArcShape arc, double center_first_u, double center_second_u,
+                             const Point& end) const {
+  const auto first = static_cast<std::size_t>(arc.first_axis);
+  const auto second = static_cast<std::size_t>(arc.second_axis);
+  const auto from = last_node();
+  arc.center_first_u = center_first_u;
+  arc.center_second_u = center_second_u;
+  arc.radius_begin_u = norm(from[first] - center_first_u, from[second] - center_second_u);
+  arc.radius_end_u = norm(end[first] - center_first_u, end[second] - center_second_u);
+  arc.angle_begin_rad = exact_atan2(from[second] - center_second_u, from[first] - center_first_u);
+  return arc;
+}
+
+void PathBuilder::fault(Code code, const gcode::Block& block, std::string label, std::string help) {
+  Diagnostic d{};
+  d.code = code;
+  d.span = block.span;
+  d.message = std::string(code_entry(code).title);
+  d.label = std::move(label);
+  d.help = std::move(help);
+  path_.faults.push_back(std::move(d));
 }
 
 }  // namespace kadr::planner

@@ -27,4 +27,9 @@ struct PlanError {
 /// number of control ticks (paper 003, eq. 2). Deterministic: fixed iteration counts, + - * / sqrt only.
 tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineModel& machine);
 
+/// Time that plan() gives to the segments from `first` to the path's end, where the machine stops. Segment
+/// `first` begins at rest. Runs are planned one by one, so the times of parts add up to that of the whole.
+tl::expected<double, PlanError> motion_time_s(const Path& path, const machine::MachineModel& machine,
+                                              std::size_t first);
+
 }  // namespace kadr::planner

@@ -41,6 +41,48 @@ double sum_of_times_s(const std::vector<Element>& run) {
   return sum;
 }
 
+/// Plans the runs of a path, from rest to rest, one after the other.
+class RunMaker {
+ public:
+  RunMaker(const Path& path, const machine::MachineModel& machine, const PathLimitTable& table)
+      : path_(path), machine_(machine), table_(table), valley_(path, table) {}
+
+  /// Plans the next run; false after the last one.
+  bool next() {
+    if (behind_ >= path_.size()) return false;
+    run_.first = run_.last = behind_;
+    while (table_.cap_u_s[2 * run_.last + 2] > 0.0) ++run_.last;
+    behind_ = run_.last + 1;
+    elements_.clear();
+    if (all_trapezoids(table_, run_))
+      plan_trapezoids(path_, table_, run_, elements_);
+    else
+      valley_.plan(run_, elements_);
+    time_s_ = sum_of_times_s(elements_);
+    whole_ = {};
+    if (machine_.planner.whole_ticks && time_s_ < kLongest_s)
+      whole_ = fill_whole_ticks(elements_, machine_.clock.tau_s());
+    return true;
+  }
+
+  const Run& run() const { return run_; }
+  const std::vector<Element>& elements() const { return elements_; }
+  /// What the elements last before they fill whole control ticks.
+  double time_s() const { return time_s_; }
+  const WholeTicks& whole() const { return whole_; }
+
+ private:
+  const Path& path_;
+  const machine::MachineModel& machine_;
+  const PathLimitTable& table_;
+  ValleyPlanner valley_;
+  Run run_;
+  std::size_t behind_ = 0;
+  std::vector<Element> elements_;
+  double time_s_ = 0;
+  WholeTicks whole_;
+};
+
 }  // namespace
 
 std::string_view limited_by_name(LimitedBy reason) {
@@ -73,37 +115,39 @@ tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineM
   if (path.size() == 0) return result;
   auto limits = limit_table(path, machine);
   if (!limits) return tl::unexpected(std::move(limits.error()));
-  const PathLimitTable& table = *limits;
-
-  ValleyPlanner valley(path, table);
   PieceWriter writer(result.law);
-  std::vector<Element> elements;
   std::int64_t ticks = 0;
   const double tau = machine.clock.tau_s();
-  for (Run run; run.first < path.size(); run.first = run.last + 1) {
-    run.last = run.first;
-    while (table.cap_u_s[2 * run.last + 2] > 0.0) ++run.last;
-    elements.clear();
-    if (all_trapezoids(table, run))
-      plan_trapezoids(path, table, run, elements);
-    else
-      valley.plan(run, elements);
-
-    const double time = sum_of_times_s(elements);
-    if (!(writer.time_s() + time < kLongest_s))
-      return tl::unexpected(too_long(path, run, writer.time_s() + time));
-    if (machine.planner.whole_ticks) {
-      const WholeTicks whole = fill_whole_ticks(elements, tau);
-      ticks += whole.ticks;
-      writer.add(elements, whole.stretch, static_cast<double>(ticks) * tau);
-    } else {
-      writer.add(elements, 1.0, -1.0);
-    }
+  RunMaker runs(path, machine, *limits);
+  while (runs.next()) {
+    if (!(writer.time_s() + runs.time_s() < kLongest_s))
+      return tl::unexpected(too_long(path, runs.run(), writer.time_s() + runs.time_s()));
+    ticks += runs.whole().ticks;
+    const bool whole = machine.planner.whole_ticks;
+    writer.add(runs.elements(), runs.whole().stretch, whole ? static_cast<double>(ticks) * tau : -1.0);
   }
   result.law.duration_s = writer.time_s();
   require(!result.law.pieces.empty(), "a path that moves has a law");
-  fill_segment_table(path, table, result);
+  fill_segment_table(path, *limits, result);
   return result;
+}
+
+tl::expected<double, PlanError> motion_time_s(const Path& path, const machine::MachineModel& machine,
+                                              std::size_t first) {
+  if (!path.faults.empty()) return tl::unexpected(PlanError{path.faults.front()});
+  if (first >= path.size()) return 0.0;
+  const Path rest = path.tail(first);
+  auto limits = limit_table(rest, machine);
+  if (!limits) return tl::unexpected(std::move(limits.error()));
+  std::int64_t ticks = 0;
+  double time = 0.0;
+  RunMaker runs(rest, machine, *limits);
+  while (runs.next()) {
+    time += runs.time_s() * runs.whole().stretch;
+    if (!(time < kLongest_s)) return tl::unexpected(too_long(rest, runs.run(), time));
+    ticks += runs.whole().ticks;
+  }
+  return machine.planner.whole_ticks ? static_cast<double>(ticks) * machine.clock.tau_s() : time;
 }
 
 }  // namespace kadr::planner
