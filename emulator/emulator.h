@@ -18,8 +18,18 @@ namespace kadr::emulator {
 
 /// What happens between motions, in program order.
 struct ProgramEvent {
-  gcode::Block block;             ///< dwell, spindle, coolant, tool, message, stop, end
+  gcode::Block block;             ///< dwell, spindle, coolant, tool, output, message, stop, end ...; a wait
+                                  ///< carries what came of it: value, on = reached, dwell_s = time waited
   std::size_t after_segment = 0;  ///< number of path segments before it
+};
+
+/// A step of the scenario's timeline: what an input reads from a control tick on, until its next step.
+struct InputStep {
+  ControlTicks tick;
+  bool analog = false;
+  int number = 0;
+  double value = 0;  ///< digital: 0 or 1
+  Span span;         ///< in the scenario file
 };
 
 /// A program read, planned and verified-ready; everything the cycle needs.
@@ -29,6 +39,7 @@ struct Job {
   machine::MachineFile machine;
   std::optional<gcode::ToolTable> tools;  ///< none: tools have no length and no radius
   gcode::Dialect dialect = gcode::Dialect::linuxcnc;
+  std::vector<InputStep> inputs;     ///< what M66 meets; ascending by tick
   std::vector<ProgramEvent> events;  ///< ascending in after_segment
   planner::Path path{0};
   planner::FeedPlan plan;    ///< laws of the runs, in path order, pauses not included
@@ -45,9 +56,24 @@ enum class SoftLimitRule : std::uint8_t { error, warning };
 /// @return false if there were errors before planning; job.plan is not valid then
 bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = SoftLimitRule::error);
 
-/// Time that a dwell or tool change holds the machine, seconds; a whole number of control ticks where motions
-/// end on them too. 0 for everything else.
+/// Time that a dwell, a wait or a tool change holds the machine, seconds; a whole number of control ticks
+/// where motions end on them too. 0 for everything else.
 double hold_time_s(const gcode::Block& block, const machine::MachineModel& machine);
+
+/// What one motion block comes to, over all of its segments.
+struct BlockSummary {
+  std::size_t end_segment = 0;  ///< one past its last segment
+  double length_u = 0;          ///< that its feed measures
+  double programmed_u_s = 0;    ///< 0 for a rapid
+  double peak_u_s = 0;
+  double end_u_s = 0;
+  double begin_s = 0;
+  double time_s = 0;
+  planner::LimitedBy limited_by = planner::LimitedBy::program;  ///< what held its fastest segment
+  std::int8_t limiting_axis = -1;
+};
+/// @param segment  the first one of a block
+BlockSummary block_summary(const Job& job, std::size_t segment);
 
 /// Planned time by what held the feed, longest first; dwells count as "dwell".
 std::vector<LimitShare> limit_shares(const Job& job);

@@ -143,16 +143,20 @@ void PathBuilder::add_spline(PathSegment segment, const gcode::Block& block) {
   double length_mm = 0.0;
   for (const CurvePiece& piece : pieces) length_mm += piece.length_mm;
   for (const CurvePiece& piece : pieces) {
-    Point end = last_point();
-    end[static_cast<std::size_t>(plane.first_axis)] = piece.end_first_mm;
-    end[static_cast<std::size_t>(plane.second_axis)] = piece.end_second_mm;
+    const bool last = &piece == &pieces.back();
+    // the last piece ends where the program says, to the last bit
+    Point end = last ? machine_point(block.end) : last_point();
+    if (!last) {
+      end[static_cast<std::size_t>(plane.first_axis)] = piece.end_first_mm;
+      end[static_cast<std::size_t>(plane.second_axis)] = piece.end_second_mm;
+    }
     ArcShape arc;
     segment.kind = piece.arc ? SegmentKind::arc : SegmentKind::line;
     if (piece.arc) {
       arc = circle(plane, piece.center_first_mm, piece.center_second_mm, end);
       arc.sweep_rad = piece.sweep_rad;
     }
-    segment.stop_at_end = stops && &piece == &pieces.back();
+    segment.stop_at_end = stops && last;
     segment.path_limits = true;
     segment.length_u = segment.feed_length_u = piece.length_mm;
     segment.feed_u_s = block.duration_s > 0.0 ? length_mm / block.duration_s : block.feed_u_s;

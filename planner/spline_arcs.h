@@ -27,7 +27,7 @@ struct CurvePiece {
 /// knot.
 ///
 /// @param deviation_mm  > 0
-/// @return pieces in order; the last one ends at the spline's last point to the bit
+/// @return pieces in order, without gaps
 std::vector<CurvePiece> arcs_along(const PlaneSpline& spline, double deviation_mm);
 
 }  // namespace kadr::planner

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "emulator/cycle/program_reader.h"
 #include "emulator/cycle/soft_limits.h"
 #include "emulator/emulator.h"
 #include "machine/base/require.h"
@@ -11,37 +12,6 @@ namespace {
 
 using gcode::Block;
 using gcode::BlockKind;
-
-bool is_motion(BlockKind kind) {
-  return kind == BlockKind::traverse || kind == BlockKind::feed || kind == BlockKind::arc;
-}
-
-/// Events at which the machine stands still: it waits for spindle, coolant or operator.
-bool needs_rest(BlockKind kind) {
-  switch (kind) {
-    case BlockKind::dwell:
-    case BlockKind::spindle_clockwise:
-    case BlockKind::spindle_counterclockwise:
-    case BlockKind::spindle_stop:
-    case BlockKind::mist_on:
-    case BlockKind::mist_off:
-    case BlockKind::flood_on:
-    case BlockKind::flood_off:
-    case BlockKind::change_tool:
-    case BlockKind::program_stop:
-    case BlockKind::optional_stop:
-    case BlockKind::program_end:
-      return true;
-    default:
-      return false;
-  }
-}
-
-/// Modal settings are in force in each motion block already; they are no events.
-bool is_event(BlockKind kind) {
-  return needs_rest(kind) || kind == BlockKind::spindle_speed || kind == BlockKind::select_tool ||
-         kind == BlockKind::message || kind == BlockKind::feed_override || kind == BlockKind::speed_override;
-}
 
 gcode::InterpretOptions interpret_options(const Job& job) {
   const machine::MachineModel& machine = job.machine.model;
@@ -60,7 +30,7 @@ gcode::InterpretOptions interpret_options(const Job& job) {
   return options;
 }
 
-/// Puts the standstills of dwells and tool changes into the law, and shifts all that comes after.
+/// Puts the standstills of dwells, waits and tool changes into the law, and shifts all that comes after.
 void insert_pauses(Job& job) {
   planner::FeedPlan& plan = job.plan;
   std::vector<planner::JerkPiece> pieces;
@@ -106,7 +76,8 @@ void insert_pauses(Job& job) {
 }  // namespace
 
 double hold_time_s(const Block& block, const machine::MachineModel& machine) {
-  const double wish_s = block.kind == BlockKind::dwell         ? block.dwell_s
+  const bool waits = block.kind == BlockKind::dwell || block.kind == BlockKind::wait_input;
+  const double wish_s = waits                                  ? block.dwell_s
                         : block.kind == BlockKind::change_tool ? machine.planner.tool_change_s
                                                                : 0.0;
   if (!(wish_s > 0) || !machine.planner.whole_ticks) return std::max(wish_s, 0.0);
@@ -117,25 +88,17 @@ double hold_time_s(const Block& block, const machine::MachineModel& machine) {
 
 bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
   const machine::MachineModel& machine = job.machine.model;
-  const gcode::InterpretOptions options = interpret_options(job);
-  planner::PathBuilder builder(machine, options.home);
-  job.events.clear();
-  job.blocks = 0;
+  gcode::InterpretOptions options = interpret_options(job);
+  ProgramReader reader(job, diagnostics, options.home);
+  options.read_input = [&](const gcode::InputWait& wait) { return reader.read_input(wait); };
   gcode::interpret(
       job.sources, job.program, options,
       [&](const Block& block) {
-        if (diagnostics.has_errors()) return;
-        if (is_motion(block.kind)) {
-          builder.add(block);
-          ++job.blocks;
-        } else if (is_event(block.kind)) {
-          if (needs_rest(block.kind)) builder.stop();
-          job.events.push_back({block, builder.path().size()});
-        }
+        if (!diagnostics.has_errors()) reader.take(block);
       },
       diagnostics);
+  reader.finish();
   if (diagnostics.has_errors()) return false;
-  job.path = builder.take();
   check_soft_limits(job.path, machine, soft_limits, diagnostics);
 
   auto plan = planner::plan(job.path, machine);
@@ -148,6 +111,26 @@ bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
   job.dwell_s = 0;
   insert_pauses(job);
   return true;
+}
+
+BlockSummary block_summary(const Job& job, std::size_t segment) {
+  BlockSummary summary;
+  summary.end_segment = job.path.block_end(segment);
+  summary.begin_s = job.plan.segments[segment].begin_time_s;
+  for (std::size_t i = segment; i < summary.end_segment; ++i) {
+    const planner::PathSegment& s = job.path.segments[i];
+    const planner::SegmentPlan& p = job.plan.segments[i];
+    const double feed_per_s = s.feed_length_u / s.length_u;
+    summary.length_u += s.feed_length_u;
+    if (!s.rapid) summary.programmed_u_s = s.feed_u_s * feed_per_s;
+    summary.end_u_s = p.end_u_s * feed_per_s;
+    summary.time_s = p.end_time_s - summary.begin_s;
+    if (i > segment && p.peak_u_s * feed_per_s <= summary.peak_u_s) continue;
+    summary.peak_u_s = p.peak_u_s * feed_per_s;
+    summary.limited_by = p.limited_by;
+    summary.limiting_axis = p.limiting_axis;
+  }
+  return summary;
 }
 
 std::string limited_by_text(planner::LimitedBy reason, int axis, const machine::MachineModel& machine) {

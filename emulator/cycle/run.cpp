@@ -6,14 +6,13 @@
 
 #include "emulator/cycle/log_thread.h"
 #include "emulator/cycle/monitor.h"
+#include "emulator/cycle/program_event.h"
 #include "emulator/emulator.h"
 #include "emulator/interpolator/interpolator.h"
 #include "plant/plant.h"
 
 namespace kadr::emulator {
 namespace {
-
-using gcode::BlockKind;
 
 /// Base tick at which the path reaches s inside this control tick: the inverse of TickMotion's linear feed.
 Ticks tick_at(const planner::TickMotion& m, double s_u, const machine::ClockModel& clock) {
@@ -28,89 +27,6 @@ Ticks tick_at(const planner::TickMotion& m, double s_u, const machine::ClockMode
   const double ticks = m.move_begin_ticks + std::min(t_s, span_s) * static_cast<double>(clock.base_hz);
   return {begin + std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(ticks)), 0,
                                            clock.control_tick.value)};
-}
-
-const char* event_kind(BlockKind kind) {
-  switch (kind) {
-    case BlockKind::dwell:
-      return "dwell";
-    case BlockKind::spindle_speed:
-    case BlockKind::spindle_clockwise:
-    case BlockKind::spindle_counterclockwise:
-    case BlockKind::spindle_stop:
-      return "spindle";
-    case BlockKind::mist_on:
-    case BlockKind::mist_off:
-    case BlockKind::flood_on:
-    case BlockKind::flood_off:
-      return "coolant";
-    case BlockKind::select_tool:
-    case BlockKind::change_tool:
-      return "tool";
-    case BlockKind::message:
-      return "message";
-    case BlockKind::feed_override:
-    case BlockKind::speed_override:
-      return "lock";
-    default:
-      return "stop";
-  }
-}
-
-std::string event_text(const gcode::Block& b) {
-  switch (b.kind) {
-    case BlockKind::dwell:
-      return fmt::format("dwell {:.6g} s", b.dwell_s);
-    case BlockKind::spindle_speed:
-      return fmt::format("spindle speed {:.6g} rpm", b.value);
-    case BlockKind::spindle_clockwise:
-      return fmt::format("spindle clockwise {:.6g} rpm", b.value);
-    case BlockKind::spindle_counterclockwise:
-      return fmt::format("spindle counter-clockwise {:.6g} rpm", b.value);
-    case BlockKind::spindle_stop:
-      return "spindle stop";
-    case BlockKind::mist_on:
-      return "mist on";
-    case BlockKind::mist_off:
-      return "mist off";
-    case BlockKind::flood_on:
-      return "flood on";
-    case BlockKind::flood_off:
-      return "flood off";
-    case BlockKind::select_tool:
-      return fmt::format("select tool {}", b.number);
-    case BlockKind::change_tool:
-      return fmt::format("change to tool {}", b.number);
-    case BlockKind::feed_override:
-      return b.number ? "feed override enabled" : "feed override locked";
-    case BlockKind::speed_override:
-      return b.number ? "spindle override enabled" : "spindle override locked";
-    case BlockKind::program_stop:
-      return "program stop";
-    case BlockKind::optional_stop:
-      return "optional stop";
-    case BlockKind::program_end:
-      return "program end";
-    default:
-      return b.text.substr(std::min(b.text.find_first_not_of(' '), b.text.size()));
-  }
-}
-
-double event_value(const gcode::Block& b) {
-  switch (b.kind) {
-    case BlockKind::dwell:
-      return b.dwell_s;
-    case BlockKind::spindle_speed:
-    case BlockKind::spindle_clockwise:
-    case BlockKind::spindle_counterclockwise:
-      return b.value;
-    default:
-      return b.number;
-  }
-}
-
-const char* motion_name(const planner::PathSegment& s) {
-  return s.rapid ? "rapid" : s.kind == planner::SegmentKind::arc ? "arc" : "line";
 }
 
 /// The run loop: one control tick after the other, from the motion source through interpolator and plant to
@@ -165,6 +81,12 @@ class Cycle {
   }
 
  private:
+  /// A block whose motion begins in this tick, by its first segment.
+  struct BlockStart {
+    std::size_t segment = 0;
+    Ticks tick;
+  };
+
   bool done() const { return source_.finished() && next_event_ == job_.events.size() && !job_pending(); }
   bool job_pending() const { return ready_at_ > now_; }
 
@@ -175,6 +97,7 @@ class Cycle {
     interpolator_.advance(motion_, batch_);
     hash_.add(batch_);
     now_ = Ticks{(k + 1) * machine_.clock.control_tick.value};
+    collect_inputs();
     collect_starts();
 
     std::optional<plant::PlantError> plant_error;
@@ -193,12 +116,31 @@ class Cycle {
     return job_.path.size() == 0 ? 0 : std::min(interpolator_.segment(), job_.path.size() - 1);
   }
 
+  /// Steps of the timeline: each stands at the beginning of its control tick.
+  void collect_inputs() {
+    for (; next_input_ < job_.inputs.size() && job_.inputs[next_input_].tick <= motion_.tick; ++next_input_) {
+      const InputStep& step = job_.inputs[next_input_];
+      EventRecord e;
+      e.tick = Ticks{step.tick.value * machine_.clock.control_tick.value};
+      e.block = job_.path.size() == 0 ? 0 : job_.path.segments[segment()].block;
+      e.kind = "input";
+      e.value = step.value;
+      e.text =
+          fmt::format("{} input {} = {:.6g}", step.analog ? "analog" : "digital", step.number, step.value);
+      events_.push_back(std::move(e));
+    }
+  }
+
   /// Blocks that begin and program events that happen in this tick, in tick order (blocks first).
   void collect_starts() {
-    while (next_block_ < job_.path.size() && (motion_.s_end_u > job_.path.start_s_u[next_block_] ||
-                                              (motion_.s_end_u > motion_.s_begin_u && next_block_ == 0))) {
-      block_starts_.push_back(tick_at(motion_, job_.path.start_s_u[next_block_], machine_.clock));
-      ++next_block_;
+    while (next_segment_ < job_.path.size() &&
+           (motion_.s_end_u > job_.path.start_s_u[next_segment_] ||
+            (motion_.s_end_u > motion_.s_begin_u && next_segment_ == 0))) {
+      const bool begins = next_segment_ == 0 || job_.path.segments[next_segment_].block !=
+                                                    job_.path.segments[next_segment_ - 1].block;
+      const double at_u = job_.path.start_s_u[next_segment_];
+      if (begins) block_starts_.push_back({next_segment_, tick_at(motion_, at_u, machine_.clock)});
+      ++next_segment_;
     }
     for (; next_event_ < job_.events.size(); ++next_event_) {
       const ProgramEvent& event = job_.events[next_event_];
@@ -214,13 +156,10 @@ class Cycle {
   }
 
   void add_program_event(const ProgramEvent& event) {
-    EventRecord e;
+    EventRecord e = event_record(event.block);
     e.tick = ready_at_;
     e.block = event.after_segment == 0 ? 0 : job_.path.segments[event.after_segment - 1].block;
     e.span = event.block.span;
-    e.kind = event_kind(event.block.kind);
-    e.value = event_value(event.block);
-    e.text = event_text(event.block);
     events_.push_back(std::move(e));
     const double hold_s = hold_time_s(event.block, machine_);
     ready_at_ += Ticks{
@@ -254,12 +193,11 @@ class Cycle {
   std::optional<RunFailure> log_small_records() {
     std::optional<RunFailure> failure;
     if (log_) {
-      const std::size_t first = next_block_ - block_starts_.size();
       std::size_t e = 0;
       for (std::size_t b = 0; b < block_starts_.size() && !failure; ++b) {
-        for (; e < events_.size() && events_[e].tick < block_starts_[b] && !failure; ++e)
+        for (; e < events_.size() && events_[e].tick < block_starts_[b].tick && !failure; ++e)
           failure = keep(log_->event(events_[e]));
-        if (!failure) failure = keep(log_->block(block_record(first + b, block_starts_[b])));
+        if (!failure) failure = keep(log_->block(block_record(block_starts_[b])));
       }
       for (; e < events_.size() && !failure; ++e) failure = keep(log_->event(events_[e]));
       for (std::size_t i = 0; i < block_ends_.size() && !failure; ++i)
@@ -283,22 +221,21 @@ class Cycle {
     return keep(log_->tick(record, batch_));
   }
 
-  BlockRecord block_record(std::size_t i, Ticks tick) const {
-    const planner::PathSegment& s = job_.path.segments[i];
-    const planner::SegmentPlan& p = job_.plan.segments[i];
+  BlockRecord block_record(const BlockStart& start) const {
+    const planner::PathSegment& s = job_.path.segments[start.segment];
+    const BlockSummary summary = block_summary(job_, start.segment);
     BlockRecord r;
-    r.tick = tick;
+    r.tick = start.tick;
     r.block = s.block;
     r.span = s.span;
-    r.text = std::string(job_.sources[job_.program].line(s.span.line));
-    r.motion = motion_name(s);
-    const double feed_per_s = s.feed_length_u / s.length_u;
-    r.length_u = s.feed_length_u;
-    r.programmed_u_s = s.rapid ? 0.0 : s.feed_u_s * feed_per_s;
-    r.planned_peak_u_s = p.peak_u_s * feed_per_s;
-    r.planned_end_u_s = p.end_u_s * feed_per_s;
-    r.planned_s = p.end_time_s - p.begin_time_s;
-    r.limited_by = limited_by_text(p.limited_by, p.limiting_axis, machine_);
+    r.text = std::string(job_.sources[s.span.file].line(s.span.line));
+    r.motion = planner::motion_name(s);
+    r.length_u = summary.length_u;
+    r.programmed_u_s = summary.programmed_u_s;
+    r.planned_peak_u_s = summary.peak_u_s;
+    r.planned_end_u_s = summary.end_u_s;
+    r.planned_s = summary.time_s;
+    r.limited_by = limited_by_text(summary.limited_by, summary.limiting_axis, machine_);
     return r;
   }
 
@@ -323,7 +260,7 @@ class Cycle {
       const double node_u = job_.path.size() == 0 ? machine_.axis[a].home_u : job_.path.node(0)[a];
       summary.axis[a].end_steps = lattice_node(node_u, machine_.axis[a].step_u) + summary.axis[a].net_steps;
     }
-    for (std::size_t i = 0; i < job_.path.size() && i < next_block_; ++i) {
+    for (std::size_t i = 0; i < job_.path.size() && i < next_segment_; ++i) {
       const planner::PathSegment& segment = job_.path.segments[i];
       const double done = std::clamp((motion_.s_end_u - job_.path.start_s_u[i]) / segment.length_u, 0.0, 1.0);
       summary.path_u += done * segment.feed_length_u;
@@ -352,9 +289,9 @@ class Cycle {
   StepBatch batch_;
   planner::TickMotion motion_{};
   Ticks now_, ready_at_;
-  std::size_t next_block_ = 0, next_event_ = 0;
+  std::size_t next_segment_ = 0, next_event_ = 0, next_input_ = 0;
   std::size_t reached_joint_ = static_cast<std::size_t>(-1);
-  std::vector<Ticks> block_starts_;
+  std::vector<BlockStart> block_starts_;
   std::vector<EventRecord> events_;
   std::vector<BlockEndRecord> block_ends_;
   std::int64_t motion_ticks_ = 0;

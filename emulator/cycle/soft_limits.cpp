@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace kadr::emulator {
 namespace {
@@ -30,6 +31,17 @@ void report(const planner::PathSegment& segment, const machine::AxisModel& axis,
   diagnostics.add(std::move(d));
 }
 
+/// Smallest and largest position of one axis on the segments of a block.
+std::pair<double, double> block_extent(const planner::Path& path, std::size_t begin, std::size_t end,
+                                       int axis) {
+  auto extent = planner::axis_extent(path, begin, axis);
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    const auto [low_u, high_u] = planner::axis_extent(path, i, axis);
+    extent = {std::min(extent.first, low_u), std::max(extent.second, high_u)};
+  }
+  return extent;
+}
+
 }  // namespace
 
 void check_soft_limits(const planner::Path& path, const machine::MachineModel& machine, SoftLimitRule rule,
@@ -37,8 +49,9 @@ void check_soft_limits(const planner::Path& path, const machine::MachineModel& m
   for (std::size_t a = 0; a < machine.axis.size(); ++a) {
     const machine::AxisModel& axis = machine.axis[a];
     if (axis.soft_min_u == -machine::kInfinity && axis.soft_max_u == machine::kInfinity) continue;
-    for (std::size_t i = 0; i < path.size(); ++i) {
-      const auto [low_u, high_u] = planner::axis_extent(path, i, static_cast<int>(a));
+    for (std::size_t i = 0; i < path.size();) {
+      const std::size_t end = path.block_end(i);
+      const auto [low_u, high_u] = block_extent(path, i, end, static_cast<int>(a));
       // a move that only comes back from outside is not told again
       const double start_u = path.node(i)[a];
       if (high_u > std::max(axis.soft_max_u, start_u) + kSlack_u ||
@@ -47,6 +60,7 @@ void check_soft_limits(const planner::Path& path, const machine::MachineModel& m
       if (low_u < std::min(axis.soft_min_u, start_u) - kSlack_u ||
           (i == 0 && start_u < axis.soft_min_u - kSlack_u))
         report(path.segments[i], axis, low_u, axis.soft_min_u, rule, diagnostics);
+      i = end;
     }
   }
 }

@@ -12,12 +12,10 @@ namespace {
 
 constexpr std::size_t kTextWidth = 34;
 
-std::string motion_name(const planner::PathSegment& segment) {
-  return segment.rapid ? "rapid" : segment.kind == planner::SegmentKind::arc ? "arc" : "line";
-}
-
 std::string pause_name(const gcode::Block& block) {
-  return block.kind == gcode::BlockKind::dwell ? "dwell" : "tool change";
+  return block.kind == gcode::BlockKind::dwell        ? "dwell"
+         : block.kind == gcode::BlockKind::wait_input ? "wait"
+                                                      : "tool change";
 }
 
 std::size_t width_of(double largest, int decimals, std::size_t least) {
@@ -28,7 +26,6 @@ std::size_t width_of(double largest, int decimals, std::size_t least) {
 
 void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>& sink) {
   const machine::MachineModel& machine = job.machine.model;
-  const SourceText& source = job.sources[job.program];
   std::size_t next_event = 0;
   double time_s = 0;
   const auto pauses_before = [&](std::size_t segment) {
@@ -38,32 +35,32 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
       row.time_s = hold_time_s(block, machine);
       if (!(row.time_s > 0)) continue;
       row.line = block.span.line;
-      row.text = source.line(row.line);
+      row.text = job.sources[block.span.file].line(row.line);
       row.motion = pause_name(block);
       row.begin_s = time_s;
       time_s += row.time_s;
       sink(row);
     }
   };
-  for (std::size_t i = 0; i < job.path.size(); ++i) {
+  for (std::size_t i = 0; i < job.path.size();) {
     pauses_before(i);
     const planner::PathSegment& segment = job.path.segments[i];
-    const planner::SegmentPlan& plan = job.plan.segments[i];
-    const double feed_per_s = segment.feed_length_u / segment.length_u;
+    const BlockSummary block = block_summary(job, i);
     PlanRow row;
     row.line = segment.span.line;
-    row.text = source.line(row.line);
-    row.motion = motion_name(segment);
+    row.text = job.sources[segment.span.file].line(row.line);
+    row.motion = planner::motion_name(segment);
     row.unit = segment_unit(job.path, i, machine);
-    row.length_u = segment.feed_length_u;
-    row.begin_s = plan.begin_time_s;
-    row.time_s = plan.end_time_s - plan.begin_time_s;
-    row.programmed_u_s = segment.rapid ? 0.0 : segment.feed_u_s * feed_per_s;
-    row.peak_u_s = plan.peak_u_s * feed_per_s;
-    row.end_u_s = plan.end_u_s * feed_per_s;
-    row.limited_by = limited_by_text(plan.limited_by, plan.limiting_axis, machine);
-    time_s = plan.end_time_s;
+    row.length_u = block.length_u;
+    row.begin_s = block.begin_s;
+    row.time_s = block.time_s;
+    row.programmed_u_s = block.programmed_u_s;
+    row.peak_u_s = block.peak_u_s;
+    row.end_u_s = block.end_u_s;
+    row.limited_by = limited_by_text(block.limited_by, block.limiting_axis, machine);
+    time_s = block.begin_s + block.time_s;
     sink(row);
+    i = block.end_segment;
   }
   pauses_before(job.path.size());
 }

@@ -80,4 +80,20 @@ TEST_CASE("an arc in a plane the machine does not have is K4004") {
   check_text(plan.error().diagnostic);
 }
 
+TEST_CASE("a move that follows a standing spindle is K4005") {
+  const auto machine = plain_machine();
+  planner::PathBuilder builder(machine, {});
+  gcode::Block b;
+  b.kind = gcode::BlockKind::feed;
+  b.end = xyz(0, 0, -10);
+  b.length_u = 10;
+  b.pitch_u_rev = 1.5;
+  b.span = {0, 3, 5, 9};
+  builder.add(b);
+  const auto plan = planner::plan(builder.path(), machine);
+  REQUIRE_FALSE(plan);
+  CHECK(plan.error().diagnostic.code == Code::spindle_stands_still);
+  check_text(plan.error().diagnostic);
+}
+
 }  // namespace kadr::test
