@@ -7,7 +7,7 @@
 namespace kadr::gcode {
 
 Interpreter::Interpreter(const InterpretOptions& options, Report& report, const Sink& sink)
-    : options_(options), report_(report), sink_(sink) {
+    : options_(options), report_(report), sink_(sink), advice_(state_, options, report) {
   state_.position = options.home;
   write_axis_parameters(state_, parameter::kG28, options.g28);
   write_axis_parameters(state_, parameter::kG30, options.g30);
@@ -144,6 +144,7 @@ void Interpreter::emit(Block& block) {
     return;
   }
   ++blocks_;
+  advice_.watch(block);
   sink_(block);
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "gcode/advice.h"
 #include "gcode/arc.h"
 #include "gcode/gcode.h"
 #include "gcode/report.h"
@@ -145,6 +146,7 @@ class Interpreter {
   Report& report_;
   const Sink& sink_;
   State state_;
+  Advice advice_;
   Words words_;
   Block motion_block_;
   std::optional<CallRequest> call_;

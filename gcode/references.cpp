@@ -52,7 +52,9 @@ void Interpreter::go_to_reference(int parameters) {
   // first the point that the axis words name, then those axes (all, if none is named) on to the reference
   Block block = make_block(BlockKind::traverse, action_span());
   const bool named = words_.has_axis();
-  move_to(target());
+  const AxisValues by = target();
+  if (named && !silent_) advice_.way_to_reference(state_.position, by, action_span());
+  move_to(by);
   block.end = state_.position;
   emit(block);
   const AxisValues reference = read_axis_parameters(state_, parameters);

@@ -89,6 +89,7 @@ void Interpreter::units() {
 
 void Interpreter::tool_length() {
   const int code = words_.g(GGroup::tool_length);
+  if (code != kNoCode) advice_.length_named();
   if (code == 431) {
     for (int axis = 0; axis < kProgramAxes; ++axis) {
       const char letter = kAxisLetters[static_cast<std::size_t>(axis)];

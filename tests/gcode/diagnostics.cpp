@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -53,10 +54,23 @@ InterpretOptions machine_for(const std::string& program) {
   return options;
 }
 
+/// The tools of NAME.tools beside a bad program NAME.ngc.
+std::optional<ToolTable> tools_beside(std::filesystem::path path) {
+  path.replace_extension(".tools");
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  SourceSet sources;
+  Diagnostics diagnostics;
+  return read_tool_table(sources, sources.add(SourceText("tools", contents(path))), diagnostics);
+}
+
 /// A program, or a tool table alone.
 Outcome outcome_of(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
-  if (path.extension() == ".ngc") return run(contents(path), machine_for(name), name);
+  if (path.extension() == ".ngc") {
+    InterpretOptions options = machine_for(name);
+    options.tools = tools_beside(path);
+    return run(contents(path), options, name);
+  }
   Outcome outcome;
   SourceSet sources;
   const std::uint32_t file = sources.add(SourceText(name, contents(path)));

@@ -27,8 +27,8 @@ TEST_CASE("the words of a line run in the order of RS-274/NGC, however they are 
       "PROGRAM_STOP",
       "PROGRAM_END"};
   CHECK(outcome.trace == expected);
-  // G4 and G64 share P
-  CHECK(outcome.codes() == std::vector<Code>{Code::word_shared});
+  // G4 and G64 share P, and nothing stops the spindle
+  CHECK(outcome.codes() == std::vector<Code>{Code::word_shared, Code::spindle_left_running});
 }
 
 TEST_CASE("plane, units, offsets and distance of a line hold for the move of that line") {
