@@ -24,6 +24,10 @@ struct Bounds {
   std::uint32_t line_bytes = 1U << 20;
 };
 
+inline constexpr std::string_view kBoundNames = "blocks call_depth loop_passes file_bytes line_bytes";
+/// Sets a bound by its name. @return false if there is no such bound or the value is beyond its type
+bool set_bound(Bounds& bounds, std::string_view name, std::uint64_t value);
+
 /// Material that a probe meets: the half space below (or above) a plane across one axis, machine coordinates.
 struct StockPlane {
   int axis = 2;  ///< program axis

@@ -152,6 +152,21 @@ class Reader {
   }
 
   void reading(CLI::App* sub) {
+    sub->add_flag("--block-delete", arguments_.block_delete, "Leave out lines that begin with /");
+    sub->add_option("--subs", arguments_.sub_folders,
+                    "Folder in which called files are looked for after the program's own; repeatable")
+        ->type_name("DIR")
+        ->allow_extra_args(false)
+        ->take_all();
+    sub->add_option_function<std::vector<std::string>>(
+           "--limit",
+           [this](const std::vector<std::string>& texts) {
+             for (const std::string& text : texts) limit(text);
+           },
+           "Bound on a program: blocks, call_depth, loop_passes, file_bytes, line_bytes; 0: none; repeatable")
+        ->type_name("NAME=N")
+        ->allow_extra_args(false)
+        ->take_all();
     sub->add_option("--tools", arguments_.tools,
                     "Tool table, LinuxCNC's .tbl text with lengths in mm; default: tools without length")
         ->type_name("TABLE");
@@ -165,6 +180,17 @@ class Reader {
            },
            "How codes that controllers read differently are meant: linuxcnc|grbl|marlin|fanuc")
         ->type_name("WORD");
+  }
+
+  /// NAME=N of --limit.
+  void limit(const std::string& text) {
+    const auto equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    std::uint64_t value = 0;
+    const bool number = equals != std::string::npos && read_number(text.substr(equals + 1), value);
+    if (!number || !gcode::set_bound(arguments_.bounds, name, value))
+      throw CLI::ValidationError(fmt::format(
+          "--limit takes NAME=N with NAME one of {} (0: no bound); got '{}'", gcode::kBoundNames, text));
   }
 
   void strict(CLI::App* sub) {
@@ -260,7 +286,6 @@ class Reader {
                 "feeds in mm/min, dwells in s");
     programs(sub, "PROG", false);
     reading(sub);
-    sub->add_flag("--block-delete", arguments_.block_delete, "Leave out lines that begin with /");
     sub->add_option_function<std::string>(
            "--lines", [this](const std::string& text) { read_lines(text); },
            "Only calls of these program lines")

@@ -60,13 +60,15 @@ int canon_program(const Arguments& arguments, Console& console) {
   const bool json = console.options().json;
   Diagnostics diagnostics;
   gcode::InterpretOptions options;
-  options.block_delete = arguments.block_delete;
   if (!load_reading(arguments, job, diagnostics)) {
     console.diagnostics(diagnostics, job.sources, arguments.tools, Console::Where::errors);
     return kNotStarted;
   }
   options.tools = job.tools;
   options.dialect = job.dialect;
+  options.block_delete = job.block_delete;
+  options.bounds = job.bounds;
+  options.sub_folders = job.sub_folders;
 
   if (json)
     console.data(

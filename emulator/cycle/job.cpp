@@ -18,6 +18,9 @@ gcode::InterpretOptions interpret_options(const Job& job) {
   gcode::InterpretOptions options;
   options.tools = job.tools;
   options.dialect = job.dialect;
+  options.block_delete = job.block_delete;
+  options.bounds = job.bounds;
+  options.sub_folders = job.sub_folders;
   options.axis_letters.clear();
   for (const machine::AxisModel& axis : machine.axis) {
     options.axis_letters += axis.letter;
@@ -91,6 +94,7 @@ bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
   gcode::InterpretOptions options = interpret_options(job);
   ProgramReader reader(job, diagnostics, options.home);
   options.read_input = [&](const gcode::InputWait& wait) { return reader.read_input(wait); };
+  const std::size_t known_files = job.sources.size();
   gcode::interpret(
       job.sources, job.program, options,
       [&](const Block& block) {
@@ -98,6 +102,9 @@ bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
       },
       diagnostics);
   reader.finish();
+  job.called_files.clear();
+  for (std::size_t file = known_files; file < job.sources.size(); ++file)
+    job.called_files.push_back(static_cast<std::uint32_t>(file));
   if (diagnostics.has_errors()) return false;
   check_soft_limits(job.path, machine, soft_limits, diagnostics);
 
