@@ -7,6 +7,7 @@
 #include <string>
 
 #include "gcode/evaluate.h"
+#include "gcode/words.h"
 #include "machine/base/require.h"
 
 namespace kadr::gcode {
@@ -69,6 +70,15 @@ FlowWord beginning_of(FlowWord word) {
       return FlowWord::repeat;
     default:
       return FlowWord::if_true;
+  }
+}
+
+/// The controller passes over what stands beside an O word, messages too.
+void warn_comments(const Line& line, Report& report) {
+  for (const Item& item : line.items) {
+    if (item.kind != ItemKind::comment || active_comment(line.slice(item.bytes)).command.empty()) continue;
+    report.warning(problem(Code::comment_not_run, line.span(item.bytes),
+                           "a comment beside an O word is not run", "write it on a line of its own"));
   }
 }
 
@@ -295,7 +305,10 @@ bool Structure::read(Program& program, bool block_delete, Names& names, Report& 
     if (line->items.empty()) continue;
     if (block_delete && line->items.front().kind == ItemKind::block_delete) continue;
     if (line->has_flow && line->failed) unread = true;
-    if (line->has_flow && !line->failed) reader.add(*line, at, program.position());
+    if (line->has_flow && !line->failed) {
+      reader.add(*line, at, program.position());
+      warn_comments(*line, report);
+    }
     const bool percent = std::any_of(line->items.begin(), line->items.end(),
                                      [](const Item& item) { return item.kind == ItemKind::percent; });
     if (percent && words) break;

@@ -175,6 +175,12 @@ TEST_CASE("M98 runs the lines from O to M99, with the caller's parameters, L tim
   CHECK(xs(run("%\nO1234 (part)\nG0 X1\nM98 P5\nM30\nO5\nG0 X5\nM99\n%\n")) == Values{1, 5});
 }
 
+TEST_CASE("a message beside an O word is not run, and that is told") {
+  const Outcome outcome = run("O1 if [1] (MSG, hi)\n(MSG, run)\nO1 endif (plain)\nM2\n");
+  CHECK(outcome.codes() == std::vector<Code>{Code::comment_not_run});
+  CHECK(outcome.trace.front() == "MESSAGE \" run\"");
+}
+
 TEST_CASE("mistakes of text are told in subs and branches that never run, all at once") {
   CHECK(run("O1 if [0]\nG0 X1..2\nO1 endif\nO2 sub\nG1 X\nO2 endsub\nM2\n").codes() ==
         std::vector<Code>{Code::bad_number, Code::number_missing});
