@@ -17,23 +17,23 @@ enum class BlockKind : std::uint8_t {
   arc,                ///< G2 G3, helix
   spline,             ///< G5 G5.1 G5.2: spline
   probe,              ///< G38.2 to G38.5: straight until the probe changes, at most to `end`
-  rigid_tap,          ///< G33.1: to `end` in step with the spindle, and back to where it began
+  rigid_tap,          ///< G33.1: to `end` in step with the spindle, and back to where it began `value` times
+                      ///< as fast
   dwell,              ///< G4
   set_feed_rate,      ///< value: mm/min or deg/min, 1/min under G93
   set_feed_mode,      ///< feed_mode
   set_path_mode,      ///< path_mode, path_tolerance_mm
-  spindle_speed,      ///< value: rpm
-  spindle_clockwise,  ///< value: rpm
+  spindle_speed,      ///< value: S as written; rpm, under G96 see surface_speed_m_min
+  spindle_clockwise,  ///< value: rpm, under G96 that of this place
   spindle_counterclockwise,
   spindle_stop,
   mist_on,
   mist_off,
   flood_on,
   flood_off,
-  sync_start,  ///< feed follows the spindle from here on; value: mm/rev, number 1: by its speed (G95), 0: by
-               ///< its angle
-  sync_stop,   ///< the feed no longer follows the spindle
-  spindle_mode,     ///< G96: value, surface speed in m/min, maximum_rpm; G97: value 0
+  sync_start,       ///< the moves from here on follow the spindle's angle; value: mm/rev
+  sync_stop,        ///< the feed no longer follows the spindle
+  spindle_mode,     ///< surface_speed_m_min, maximum_rpm (G96); both 0 (G97)
   select_tool,      ///< number
   change_tool,      ///< number
   set_tool_number,  ///< number; M61: no change, another number for the tool in the spindle
@@ -118,9 +118,10 @@ struct Block {
   ProbeRule probe;
   AxisValues contact{};  ///< probe: machine coordinates where the move ends
   InputWait wait;
-  bool on = false;           ///< digital_output
-  bool with_motion = false;  ///< output changes as the next motion begins, not at once
-  double maximum_rpm = 0;    ///< spindle_mode, 0: none
+  bool on = false;                 ///< digital_output
+  bool with_motion = false;        ///< output changes as the next motion begins, not at once
+  double surface_speed_m_min = 0;  ///< spindle_mode, spindle_speed: under G96, 0: the speed is in rpm
+  double maximum_rpm = 0;          ///< spindle_mode: D of G96, 0: none
 
   // the rest
   double dwell_s = 0;

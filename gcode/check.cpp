@@ -35,13 +35,13 @@ std::string_view users_of(char letter) {
     case 'R':
       return "R belongs to G2 G3 G10 G76 and cycles";
     case '$':
-      return "$ names a spindle: it belongs to S, M3 M4 M5, G33 G33.1 G76 G96 G97";
+      return "$ names a spindle: it belongs to S, M3 M4 M5 M51, G33 G33.1 G76 G95 G96 G97";
     default:
       return "no code that kadr runs reads this letter";
   }
 }
 
-/// Letters besides axes, F, S and T that a motion reads.
+/// Letters besides axes, F, S and T that a motion reads. `code`: of the line, of a cycle the one in force.
 std::uint32_t letters_of_motion(Motion motion, int code) {
   switch (motion) {
     case Motion::arc_clockwise:
@@ -60,7 +60,7 @@ std::uint32_t letters_of_motion(Motion motion, int code) {
     case Motion::thread_cycle:
       return letter_bits("PIJRKQHEL$");
     case Motion::cycle:
-      return letter_bits("RLPQ$");
+      return letters_of_cycle(code);
     default:
       return 0;
   }
@@ -74,6 +74,7 @@ bool Interpreter::check() {
   check_codes();
   check_unused();
   check_values();
+  if (motion_of_line() > Motion::nurbs && moves()) check_motion_words();
   check_shared_p();
   return report_.errors() == errors;
 }
@@ -132,9 +133,29 @@ void Interpreter::check_codes() {
   }
 }
 
+void Interpreter::check_motion_words() {
+  const int code = words_.g(GGroup::motion);
+  switch (motion_of_line()) {
+    case Motion::cycle:
+      return check_cycle(code == kNoCode ? state_.cycle.code : code);
+    case Motion::thread:
+      return check_thread(330);
+    case Motion::rigid_tap:
+      return check_thread(331);
+    case Motion::thread_cycle:
+      return check_thread_cycle();
+    default:
+      return;
+  }
+}
+
 std::uint32_t Interpreter::usable_letters() const {
   std::uint32_t letters = kAxisBits | letter_bits("FST@^");
-  if (moves()) letters |= letters_of_motion(motion_of_line(), words_.g(GGroup::motion));
+  const int motion_code = words_.g(GGroup::motion);
+  if (moves()) {
+    const bool cycle_goes_on = motion_code == kNoCode && state_.motion == Motion::cycle;
+    letters |= letters_of_motion(motion_of_line(), cycle_goes_on ? state_.cycle.code : motion_code);
+  }
   switch (words_.g(GGroup::nonmodal)) {
     case 40:
       letters |= letter_bit('P');
@@ -162,7 +183,9 @@ std::uint32_t Interpreter::usable_letters() const {
   }
   const int mode = words_.g(GGroup::spindle_mode);
   if (mode == 960) letters |= letter_bit('D');
-  if (mode != kNoCode || words_.has('S') || words_.m(MGroup::spindle) != kNoCode) letters |= letter_bit('$');
+  if (mode != kNoCode || words_.g(GGroup::feed_mode) == 950 || words_.has('S') ||
+      words_.m(MGroup::spindle) != kNoCode)
+    letters |= letter_bit('$');
   const int override_code = words_.m(MGroup::overrides);
   if (override_code >= 50) letters |= letter_bit('P');
   if (override_code == 51) letters |= letter_bit('$');
@@ -199,7 +222,10 @@ void Interpreter::check_unused() {
 }
 
 void Interpreter::check_values() {
-  if (words_.present == 0 && words_.g(GGroup::nonmodal) == kNoCode) return;
+  if (words_.present == 0 && words_.g(GGroup::nonmodal) == kNoCode &&
+      words_.g(GGroup::spindle_mode) == kNoCode) {
+    return;
+  }
   for (const char letter : {'F', 'S'}) {
     if (!words_.has(letter) || words_.value(letter) >= 0) continue;
     error(problem(Code::word_out_of_range, words_.span(*line_, letter),
@@ -230,6 +256,8 @@ void Interpreter::check_values() {
       break;
   }
   if (moves() && is_arc(motion_of_line())) check_whole('P', 1, kLargestTurns);
+  if (words_.g(GGroup::spindle_mode) == 960) require_word('S', GGroup::spindle_mode, "the surface speed");
+  if (words_.g(GGroup::spindle_mode) != kNoCode || words_.g(GGroup::feed_mode) == 950) check_whole('$', 0, 0);
   if (words_.g(GGroup::path) == 640 && words_.has('P') && words_.value('P') < 0) {
     error(problem(Code::word_out_of_range, words_.span(*line_, 'P'), "a tolerance below 0"));
   }
@@ -244,6 +272,15 @@ bool Interpreter::require_word(char letter, GGroup group, std::string_view what)
   if (words_.has(letter)) return true;
   return error(problem(Code::word_missing, g_span(group),
                        fmt::format("{} needs {}: {}", g_name(words_.g(group)), letter, what)));
+}
+
+bool Interpreter::require_words(const std::vector<NeededWord>& needed, Span span, std::string_view who) {
+  std::string missing;
+  for (const NeededWord& word : needed) {
+    if (words_.has(word.letter)) continue;
+    missing += fmt::format("{} {} ({})", missing.empty() ? "" : ",", word.letter, word.meaning);
+  }
+  return missing.empty() || error(problem(Code::word_missing, span, fmt::format("{} needs{}", who, missing)));
 }
 
 bool Interpreter::check_whole(char letter, double least, double most) {

@@ -2,14 +2,6 @@
 
 namespace kadr::gcode {
 
-void Interpreter::spindle_speed() {
-  if (!words_.has('S')) return;
-  state_.spindle_rpm = words_.value('S');
-  Block block = make_block(BlockKind::spindle_speed, words_.span(*line_, 'S'));
-  block.value = state_.spindle_rpm;
-  emit(block);
-}
-
 void Interpreter::select_tool() {
   if (!words_.has('T')) return;
   near_integer(words_.value('T'), state_.tool_selected);
@@ -21,7 +13,7 @@ void Interpreter::select_tool() {
 void Interpreter::change_tool() {
   if (words_.m(MGroup::tool_change) == kNoCode) return;
   const Span span = words_.span(*line_, MGroup::tool_change);
-  simple_block(BlockKind::spindle_stop, span);
+  turn_spindle(Turning::stopped, span);
   state_.tool_in_spindle = state_.tool_selected;
   Block block = make_block(BlockKind::change_tool, span);
   block.number = state_.tool_in_spindle;
@@ -31,11 +23,19 @@ void Interpreter::change_tool() {
 void Interpreter::spindle() {
   const int code = words_.m(MGroup::spindle);
   if (code == kNoCode) return;
-  Block block = make_block(code == 3   ? BlockKind::spindle_clockwise
-                           : code == 4 ? BlockKind::spindle_counterclockwise
-                                       : BlockKind::spindle_stop,
-                           words_.span(*line_, MGroup::spindle));
-  block.value = code == 5 ? 0 : state_.spindle_rpm;
+  turn_spindle(code == 3   ? Turning::clockwise
+               : code == 4 ? Turning::counterclockwise
+                           : Turning::stopped,
+               words_.span(*line_, MGroup::spindle));
+}
+
+void Interpreter::turn_spindle(Turning turning, Span span) {
+  state_.turning = turning;
+  Block block = make_block(turning == Turning::clockwise          ? BlockKind::spindle_clockwise
+                           : turning == Turning::counterclockwise ? BlockKind::spindle_counterclockwise
+                                                                  : BlockKind::spindle_stop,
+                           span);
+  block.value = mean_spindle_rpm(state_.position, state_.position);
   emit(block);
 }
 
@@ -114,7 +114,7 @@ void Interpreter::end_program() {
   simple_block(BlockKind::set_feed_rate, span);
   if (!state_.feed_override) override_block(BlockKind::feed_override, true);
   if (!state_.speed_override) override_block(BlockKind::speed_override, true);
-  simple_block(BlockKind::spindle_stop, span);
+  turn_spindle(Turning::stopped, span);
   if (state_.mist) simple_block(BlockKind::mist_off, span);
   if (state_.flood) simple_block(BlockKind::flood_off, span);
   finish(span);

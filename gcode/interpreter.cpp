@@ -88,10 +88,9 @@ void Interpreter::recover(bool syntax) {
   silent_ = false;
   const Motion before = state_.motion;
   Uncertain& uncertain = state_.uncertain;
-  if (words_.g(GGroup::motion) != kNoCode) {
-    state_.motion = motion_of_line();
-    uncertain.motion = false;
-  }
+  const bool cycles = motion_of_line() == Motion::cycle && moves();
+  if (words_.g(GGroup::motion) != kNoCode) take_motion(words_.g(GGroup::motion));
+  if (cycles) uncertain.cycle = true;
   if (words_.refused_motion || (syntax && words_.g(GGroup::motion) == kNoCode)) uncertain.motion = true;
   if (syntax) uncertain.feed = true;
   for (const Item& item : line_->items) {

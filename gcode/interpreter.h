@@ -1,7 +1,9 @@
 #pragma once
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "gcode/advice.h"
 #include "gcode/arc.h"
@@ -18,6 +20,12 @@ struct CallRequest {
   std::int64_t number = 0;    ///< M98 P
   std::uint64_t repeats = 1;  ///< M98 L
   Span place;
+};
+
+/// A word that a code can't do without, and what it says.
+struct NeededWord {
+  char letter;
+  std::string_view meaning;
 };
 
 using Sink = std::function<void(const Block&)>;
@@ -45,9 +53,11 @@ class Interpreter {
   void check_axes();
   void check_unused();
   void check_values();
+  void check_motion_words();
   void check_codes();
   std::uint32_t usable_letters() const;
   bool require_word(char letter, GGroup group, std::string_view what);
+  bool require_words(const std::vector<NeededWord>& needed, Span span, std::string_view who);
   bool check_whole(char letter, double least, double most);
   void check_shared_p();
 
@@ -60,14 +70,15 @@ class Interpreter {
   void tool_length();
   void work_system();
   void path_control();
+  void set_path_mode(PathMode mode, double tolerance_mm, Span span);
   void distance_mode();
   void parameters();
 
   // functions.cpp: spindle, tool, coolant, overrides, dwell, stop
-  void spindle_speed();
   void select_tool();
   void change_tool();
   void spindle();
+  void turn_spindle(Turning turning, Span span);
   void coolant();
   void overrides();
   void dwell();
@@ -89,8 +100,12 @@ class Interpreter {
   Motion motion_of_line() const;
   bool axis_words_taken() const;
   bool moves() const;
+  void take_motion(int code);
   AxisValues target() const;
+  AxisValues near_position(const AxisValues& wanted) const;
   void straight(Motion motion);
+  void go(BlockKind kind, const AxisValues& program);
+  void go_to(BlockKind kind, const AxisValues& end);
   void arc(Motion motion);
   bool find_arc(const AxisValues& end, bool clockwise, Arc& result);
   bool arc_center_words(PlanePoint& center);
@@ -106,14 +121,47 @@ class Interpreter {
   void add_nurbs_point();
   void end_nurbs();
 
-  // threads.cpp: G33 G33.1 G76 G95 G96 G97
+  // spindle_feed.cpp: S, G96, G97, feeds that follow the spindle
+  void spindle_speed();
+  void spindle_mode();
+  double surface_speed_m_min() const;
+  double mean_spindle_rpm(const AxisValues& from, const AxisValues& to) const;
+  bool feed_per_turn_ready();
+  void warn_standing_spindle();
+  void follow_spindle(Block& block);
+
+  // threads.cpp: G33 G33.1
+  void check_thread(int code);
+  bool spindle_turns(int code);
+  void start_thread(double pitch_u_rev);
+  void stop_thread();
+  void warn_pitch(char letter);
   void thread();
   void rigid_tap();
+
+  // thread_cycle.cpp: G76
+  struct ThreadShape;
+  void check_thread_cycle();
   void thread_cycle();
-  void spindle_mode();
+  bool thread_shape(ThreadShape& shape, const AxisValues& end);
+  void warn_thread(const ThreadShape& shape);
+  void thread_pass(const ThreadShape& shape, double depth);
 
   // cycles.cpp: G73 G74 G81 to G86 G89, G98 G99
+  struct Hole;
+  void check_cycle(int code);
+  bool cycle_allowed();
   void cycle();
+  bool cycle_levels(Hole& hole);
+  void cycle_holes(Hole hole);
+  void make_hole(const Hole& hole);
+  void peck(const Hole& hole);
+  void tap(const Hole& hole);
+  void bore_and_stop(const Hole& hole);
+  void tap_to_level(const Hole& hole, double level);
+  AxisValues place_at(const Hole& hole, double level) const;
+  void go_to_level(const Hole& hole, BlockKind kind, double level);
+  void dwell_at_bottom();
   void retract_mode();
 
   // probe.cpp: G38.2 to G38.5
@@ -155,7 +203,10 @@ class Interpreter {
   std::uint64_t blocks_ = 0;
   bool started_ = false;  ///< some line with words has been run, or the opening % was seen
   bool ended_ = false;
-  bool silent_ = false;  ///< recovering from an error: modes are taken over, nothing is handed out
+  bool threading_ = false;         ///< feed moves follow the spindle's angle, by thread_pitch_u_rev_
+  double thread_pitch_u_rev_ = 0;  ///< as written
+  bool standing_told_ = false;     ///< the warning of a feed that follows a standing spindle
+  bool silent_ = false;            ///< recovering from an error: modes are taken over, nothing is handed out
 };
 
 }  // namespace kadr::gcode

@@ -91,10 +91,7 @@ bool Interpreter::moves() const {
 void Interpreter::motion() {
   const int code = words_.g(GGroup::motion);
   if (code != kNoCode) {
-    state_.motion = motion_of_line();
-    if (state_.motion == Motion::cycle) state_.cycle_code = code;
-    if (state_.motion == Motion::probe) state_.probe_code = code;
-    state_.uncertain.motion = false;
+    take_motion(code);
     if (code == 53) return end_nurbs();
   }
   if (!moves()) return;
@@ -126,6 +123,17 @@ void Interpreter::motion() {
   }
 }
 
+void Interpreter::take_motion(int code) {
+  state_.motion = motion_of_line();
+  state_.uncertain.motion = false;
+  if (state_.motion == Motion::cycle) {
+    state_.cycle.code = code;
+    return;
+  }
+  state_.cycle.in_sequence = false;
+  if (state_.motion == Motion::probe) state_.probe_code = code;
+}
+
 AxisValues Interpreter::target() const {
   const bool machine_coordinates = words_.g(GGroup::nonmodal) == 530;
   AxisValues wanted = state_.position;
@@ -152,11 +160,7 @@ AxisValues Interpreter::target() const {
     }
     wanted = state_.to_machine(program);
   }
-  AxisValues end = state_.position;
-  for (std::size_t a = 0; a < kProgramAxes; ++a) {
-    if (std::fabs(wanted[a] - end[a]) > kSamePoint_u) end[a] = wanted[a];
-  }
-  return end;
+  return near_position(wanted);
 }
 
 void Interpreter::move_to(const AxisValues& end) {
@@ -186,6 +190,29 @@ void Interpreter::straight(Motion motion) {
   if (ready) emit(block);
 }
 
+void Interpreter::go(BlockKind kind, const AxisValues& program) {
+  go_to(kind, near_position(state_.to_machine(program)));
+}
+
+void Interpreter::go_to(BlockKind kind, const AxisValues& end) {
+  Block& block = motion_block_;
+  block.kind = kind;
+  block.span = action_span();
+  block.end = end;
+  measure_straight(state_.position, block);
+  set_feed(block);
+  move_to(end);
+  emit(block);
+}
+
+AxisValues Interpreter::near_position(const AxisValues& wanted) const {
+  AxisValues end = state_.position;
+  for (std::size_t a = 0; a < kProgramAxes; ++a) {
+    if (std::fabs(wanted[a] - end[a]) > kSamePoint_u) end[a] = wanted[a];
+  }
+  return end;
+}
+
 bool Interpreter::feed_ready() {
   if (state_.feed_mode == FeedMode::inverse_time) {
     if (!words_.has('F')) {
@@ -196,26 +223,20 @@ bool Interpreter::feed_ready() {
     return error(
         problem(Code::feed_zero, words_.span(*line_, 'F'), "F0 under G93: the move would never end"));
   }
-  if (state_.feed_linear_mm_min > 0 && !state_.feed_cleared) return true;
+  if (state_.feed_linear_mm_min > 0) return true;
+  if (state_.feed_linear_mm_rev > 0) return feed_per_turn_ready();
   const Span span = action_span();
-  if (state_.feed_linear_mm_min > 0) {
-    state_.feed_cleared = false;
-    Block block = make_block(BlockKind::set_feed_rate, span);
-    block.value = state_.feed_linear_mm_min;
-    emit(block);
-    report_.warning(
-        problem(Code::feed_kept, span,
-                fmt::format("F{} holds on", figure(state_.feed_linear_mm_min / state_.length_factor())),
-                "LinuxCNC forgets F at each G94: write F again"));
-    return true;
-  }
   if (state_.uncertain.feed) return false;
   state_.uncertain.feed = true;
-  if (!state_.feed_given) {
-    return error(problem(Code::feed_missing, span, "no F has been given before this move",
-                         "write F and the feed in units per minute"));
+  const bool per_turn = state_.feed_mode == FeedMode::units_per_revolution;
+  const std::string help =
+      fmt::format("write F and the feed in units per {}", per_turn ? "turn of the spindle" : "minute");
+  if (state_.feed_given) return error(problem(Code::feed_zero, span, "the feed in force here is F0"));
+  if (state_.feed_cleared) {
+    return error(
+        problem(Code::feed_cleared, span, fmt::format("no F since {}", per_turn ? "G95" : "G94"), help));
   }
-  return error(problem(Code::feed_zero, span, "the feed in force here is F0"));
+  return error(problem(Code::feed_missing, span, "no F has been given before this move", help));
 }
 
 void Interpreter::set_feed(Block& block) {
@@ -226,14 +247,16 @@ void Interpreter::set_feed(Block& block) {
   block.plane = state_.plane;
   block.feed_u_s = 0;
   block.duration_s = 0;
+  block.pitch_u_rev = 0;
   if (block.kind == BlockKind::traverse) return;
+  const bool rotary = block.feed_length == FeedLength::rotary;
+  if (threading_ || state_.feed_mode == FeedMode::units_per_revolution) return follow_spindle(block);
   if (state_.feed_mode == FeedMode::inverse_time) {
     block.duration_s = kSecondsPerMinute / words_.value('F');
     block.feed_u_s = block.length_u / block.duration_s;
     return;
   }
-  const double per_minute =
-      block.feed_length == FeedLength::rotary ? state_.feed_rotary_deg_min : state_.feed_linear_mm_min;
+  const double per_minute = rotary ? state_.feed_rotary_deg_min : state_.feed_linear_mm_min;
   block.feed_u_s = per_minute / kSecondsPerMinute;
 }
 

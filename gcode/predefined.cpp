@@ -53,7 +53,7 @@ double motion_mode(const Context& c) {
     case Motion::probe:
       return c.state.probe_code;
     case Motion::cycle:
-      return c.state.cycle_code;
+      return c.state.cycle.code;
   }
   return 0;
 }
@@ -121,8 +121,8 @@ const std::array kEntries = {
     Entry{"_ijk_absolute_mode", [](const Context& c) { return one_if(c.state.arc_centers_absolute); }},
     Entry{"_lathe_diameter_mode", [](const Context& c) { return one_if(c.state.diameter_mode); }},
     Entry{"_lathe_radius_mode", [](const Context& c) { return one_if(!c.state.diameter_mode); }},
-    Entry{"_spindle_on", [](const Context& c) { return one_if(c.state.spindle_turns != 0); }},
-    Entry{"_spindle_cw", [](const Context& c) { return one_if(c.state.spindle_turns > 0); }},
+    Entry{"_spindle_on", [](const Context& c) { return one_if(c.state.turning != Turning::stopped); }},
+    Entry{"_spindle_cw", [](const Context& c) { return one_if(c.state.turning == Turning::clockwise); }},
     Entry{"_mist", [](const Context& c) { return one_if(c.state.mist); }},
     Entry{"_flood", [](const Context& c) { return one_if(c.state.flood); }},
     Entry{"_speed_override", [](const Context& c) { return one_if(c.state.speed_override); }},

@@ -30,17 +30,18 @@ void Interpreter::comment() {
 void Interpreter::feed_mode() {
   const int code = words_.g(GGroup::feed_mode);
   if (code == kNoCode) return;
-  const FeedMode before = state_.feed_mode;
-  state_.feed_mode = code == 930 ? FeedMode::inverse_time : FeedMode::units_per_minute;
-  simple_block(BlockKind::set_feed_mode, g_span(GGroup::feed_mode));
+  const Span span = g_span(GGroup::feed_mode);
+  state_.feed_mode = code == 930   ? FeedMode::inverse_time
+                     : code == 940 ? FeedMode::units_per_minute
+                                   : FeedMode::units_per_revolution;
+  simple_block(BlockKind::set_feed_mode, span);
   if (state_.feed_mode == FeedMode::inverse_time) return;
-  // the trace of a G94 always says feed 0; a feed that held before is told again at the next feed move
-  simple_block(BlockKind::set_feed_rate, g_span(GGroup::feed_mode));
-  if (before == FeedMode::inverse_time) {
-    state_.feed_linear_mm_min = state_.feed_rotary_deg_min = 0;
-    state_.feed_given = false;
-  }
-  state_.feed_cleared = state_.feed_linear_mm_min > 0;
+  // G94 and G95 always begin without a feed, even if they were in force already
+  simple_block(BlockKind::set_feed_rate, span);
+  state_.feed_cleared = state_.feed_cleared || state_.feed_given;
+  state_.feed_given = false;
+  state_.feed_linear_mm_min = state_.feed_rotary_deg_min = 0;
+  state_.feed_linear_mm_rev = state_.feed_rotary_deg_rev = 0;
 }
 
 void Interpreter::feed_rate() {
@@ -49,9 +50,12 @@ void Interpreter::feed_rate() {
   const Span span = words_.span(*line_, 'F');
   Block block = make_block(BlockKind::set_feed_rate, span);
   block.value = f;
-  if (state_.feed_mode == FeedMode::units_per_minute) {
-    state_.feed_linear_mm_min = block.value = f * state_.length_factor();
-    state_.feed_rotary_deg_min = f;
+  const bool inverse = state_.feed_mode == FeedMode::inverse_time;
+  if (!inverse) {
+    const bool per_minute = state_.feed_mode == FeedMode::units_per_minute;
+    block.value = f * state_.length_factor();
+    (per_minute ? state_.feed_linear_mm_min : state_.feed_linear_mm_rev) = block.value;
+    (per_minute ? state_.feed_rotary_deg_min : state_.feed_rotary_deg_rev) = f;
     state_.feed_given = true;
     state_.feed_cleared = false;
     state_.uncertain.feed = (words_.doubtful & letter_bit('F')) != 0;
@@ -59,9 +63,10 @@ void Interpreter::feed_rate() {
   emit(block);
   const int units_code = words_.g(GGroup::units);
   const bool changes_units = units_code != kNoCode && (units_code == 200) != state_.inches;
-  if (changes_units && state_.feed_mode == FeedMode::units_per_minute && !silent_) {
+  if (changes_units && !inverse && !silent_) {
     report_.warning(problem(Code::feed_before_units, span,
-                            fmt::format("taken as {} per minute", state_.inches ? "inches" : "mm"),
+                            fmt::format("taken as {} per {}", state_.inches ? "inches" : "mm",
+                                        state_.feed_mode == FeedMode::units_per_minute ? "minute" : "turn"),
                             fmt::format("write {} on a line before F", g_name(units_code))));
   }
 }
@@ -122,11 +127,17 @@ void Interpreter::work_system() {
 void Interpreter::path_control() {
   const int code = words_.g(GGroup::path);
   if (code == kNoCode) return;
-  state_.path_mode = code == 610   ? PathMode::exact_path
-                     : code == 611 ? PathMode::exact_stop
-                                   : PathMode::continuous;
-  state_.path_tolerance_mm = code == 640 && words_.has('P') ? words_.value('P') * state_.length_factor() : 0;
-  simple_block(BlockKind::set_path_mode, g_span(GGroup::path));
+  const double tolerance_mm = code == 640 && words_.has('P') ? words_.value('P') * state_.length_factor() : 0;
+  set_path_mode(code == 610   ? PathMode::exact_path
+                : code == 611 ? PathMode::exact_stop
+                              : PathMode::continuous,
+                tolerance_mm, g_span(GGroup::path));
+}
+
+void Interpreter::set_path_mode(PathMode mode, double tolerance_mm, Span span) {
+  state_.path_mode = mode;
+  state_.path_tolerance_mm = tolerance_mm;
+  simple_block(BlockKind::set_path_mode, span);
 }
 
 void Interpreter::distance_mode() {

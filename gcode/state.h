@@ -28,7 +28,7 @@ enum class Motion : std::uint8_t {
   rigid_tap,         ///< G33.1
   probe,             ///< G38.2 to G38.5, which one: State::probe_code
   thread_cycle,      ///< G76
-  cycle,             ///< G73 G74 G81 to G86 G89, which one: State::cycle_code
+  cycle,             ///< G73 G74 G81 to G86 G89, which one: CycleWords::code
 };
 constexpr bool is_arc(Motion motion) {
   return motion == Motion::arc_clockwise || motion == Motion::arc_counterclockwise;
@@ -55,12 +55,35 @@ inline constexpr int kPosition = 5420;      ///< .. 5428, program coordinates in
 inline constexpr int kReadOnlyLast = 5428;
 }  // namespace parameter
 
+enum class Turning : std::uint8_t { stopped, clockwise, counterclockwise };
+
+/// G96: the spindle's speed follows the distance of the tool from X0.
+struct SurfaceSpeed {
+  bool on = false;
+  double speed_m_min = 0;
+  double maximum_rpm = 0;  ///< D; 0: none
+};
+
+/// What canned cycles keep from line to line: numbers as they were written, in the units of their line, as
+/// RS-274/NGC keeps them.
+struct CycleWords {
+  int code = 0;              ///< ten times the G number of the cycle in force
+  bool in_sequence = false;  ///< no other motion has come since the sequence of cycles began
+  double initial_level = 0;  ///< where the sequence began, along the plane's normal: G98 returns there
+  double last_level = 0;     ///< where the last cycle ended
+  double retract = 0;        ///< R
+  double bottom = 0;         ///< Z, in G18 Y, in G19 X
+  double peck = 0;           ///< Q
+  double dwell_s = 0;        ///< P
+};
+
 /// What can't be trusted after a line with an error, so that one mistake is told once.
 struct Uncertain {
   std::uint32_t axes = 0;  ///< bit per program axis: position unknown
   bool feed = false;
   bool motion = false;
   bool parameters = false;
+  bool cycle = false;  ///< words that a cycle keeps
 };
 
 /// What belongs to one call of a subroutine; the main program is the first.
@@ -88,25 +111,28 @@ struct State {
   FeedMode feed_mode = FeedMode::units_per_minute;
   double feed_linear_mm_min = 0;   ///< F as it holds for lengths
   double feed_rotary_deg_min = 0;  ///< F as it holds for angles: never scaled
-  bool feed_given = false;         ///< some F has been seen since the start or the last change of feed mode
-  bool feed_cleared = false;       ///< a repeated G94 cleared F in the trace; restored at the next feed move
-  PathMode path_mode = PathMode::exact_path;
+  double feed_linear_mm_rev = 0;   ///< F under G95, for lengths
+  double feed_rotary_deg_rev = 0;  ///< F under G95, for angles
+  bool feed_given = false;         ///< some F has been seen since the start or the last G94 or G95
+  bool feed_cleared = false;       ///< the last G94 or G95 has taken away an F that held
+  PathMode path_mode = PathMode::continuous;
   double path_tolerance_mm = 0;
   bool feed_override = true;
   bool speed_override = true;
 
-  bool retract_to_start = true;         ///< G98: cycles go back to where they began, not to R
+  bool retract_to_start = false;        ///< G98: cycles go back to where they began, not to R
   bool diameter_mode = false;           ///< G7
   int compensation_code = 400;          ///< ten times the G number
   bool constant_surface_speed = false;  ///< G96
 
-  double spindle_rpm = 0;
-  int spindle_turns = 0;  ///< 1 clockwise, -1 counter-clockwise, 0 stands
+  double spindle_rpm = 0;  ///< S as written, under G96 a surface speed
+  Turning turning = Turning::stopped;
+  SurfaceSpeed surface;
   bool feed_hold = true;  ///< M53: the hold input is obeyed
   bool mist = false, flood = false;
   int tool_selected = 0;
-  ToolTable tools;     ///< as G10 L1 L10 L11 have changed it
-  int cycle_code = 0;  ///< ten times the G number
+  ToolTable tools;  ///< as G10 L1 L10 L11 have changed it
+  CycleWords cycle;
   int probe_code = 0;
   int tool_in_spindle = 0;
   int pocket_of(int tool) const {
@@ -114,7 +140,10 @@ struct State {
     return entry ? entry->pocket : 0;
   }
   /// F in the units of the program and of the feed mode in force.
-  double feed_in_program_units() const { return feed_linear_mm_min / length_factor(); }
+  double feed_in_program_units() const {
+    const bool per_turn = feed_mode == FeedMode::units_per_revolution;
+    return (per_turn ? feed_linear_mm_rev : feed_linear_mm_min) / length_factor();
+  }
 
   std::vector<double> parameters = std::vector<double>(parameter::kLast + 1, 0.0);
   Names names;                         ///< of parameters and of labels of O words

@@ -97,6 +97,9 @@ class Words {
   Evaluator evaluator_;
 };
 
+/// Letters besides axes, F, S and T that a canned cycle reads; its code as ten times the G number.
+std::uint32_t letters_of_cycle(int code);
+
 /// "G92.1" of 921
 std::string g_name(int tenths);
 

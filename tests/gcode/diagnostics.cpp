@@ -37,10 +37,10 @@ std::vector<std::filesystem::path> bad_programs() {
   return paths;
 }
 
-/// The machine that the bad programs are read for: three axes, a bound on blocks.
+/// The machine that the bad programs are read for: a mill with a turntable, a bound on blocks.
 InterpretOptions small_machine() {
   InterpretOptions options;
-  options.axis_letters = "XYZ";
+  options.axis_letters = "XYZC";
   options.bounds.blocks = 50;
   options.bounds.loop_passes = 1000;
   return options;

@@ -67,13 +67,13 @@ TEST_CASE("a feed move without F, with F0, and under G93 without its own F is re
   CHECK(only_code("G93 G1 F1 X6\nG94 X7\n") == Code::feed_missing);
 }
 
-TEST_CASE("a repeated G94 keeps the feed, says so, and tells it again in the trace") {
-  const Outcome outcome = run("F100 G1 X1\nG94\nX2\n");
-  CHECK_FALSE(outcome.diagnostics.has_errors());
-  CHECK(outcome.codes() == std::vector<Code>{Code::feed_kept});
-  CHECK(outcome.moves()[1].feed_u_s == doctest::Approx(100.0 / 60).epsilon(1e-15));
+TEST_CASE("G94 and G95 take away the feed that held before, even a repeated G94") {
+  const Outcome outcome = run("F100 G1 X1\nG94\nX2\nX3\n");
+  CHECK(outcome.codes() == std::vector<Code>{Code::feed_cleared});
+  CHECK(outcome.trace[2] == "SET_FEED_MODE G94");
   CHECK(outcome.trace[3] == "SET_FEED_RATE 0.000000");
-  CHECK(outcome.trace[4] == "SET_FEED_RATE 100.000000");
+  CHECK(only_code("S100 F100\nG95\nG1 X2\n") == Code::feed_cleared);
+  CHECK(run("F100 G1 X1\nG94\nF50 X2\n").codes().empty());
 }
 
 TEST_CASE("F is taken before the units of its line change, with a warning") {
@@ -148,7 +148,7 @@ TEST_CASE("the start point is the machine's home") {
 
 TEST_CASE("path mode and override permission travel on each move") {
   const auto m = run("F60 G1 X1\nG64 P0.05\nX2\nM49\nG61.1\nX3\nM50\nG20\nG64 P0.01\nX0\n").moves();
-  CHECK(m[0].path_mode == PathMode::exact_path);
+  CHECK(m[0].path_mode == PathMode::continuous);
   CHECK(m[1].path_mode == PathMode::continuous);
   CHECK(m[1].path_tolerance_mm == 0.05);
   CHECK(m[1].feed_override_enabled);
