@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kLargestTool = 99999;
 constexpr double kLargestTurns = 1e6;
+constexpr double kLargestOrder = 1e6;
 constexpr double kLargestCall = 1e9;
 constexpr int kLargestSystem = kWorkSystems;
 
@@ -52,7 +53,7 @@ std::uint32_t letters_of_motion(Motion motion, int code) {
     case Motion::quadratic_spline:
       return letter_bits("IJ");
     case Motion::nurbs:
-      return code == 52 ? letter_bits("PL") : letter_bit('P');
+      return letter_bits("PL");
     case Motion::thread:
       return letter_bits("K$");
     case Motion::rigid_tap:
@@ -258,6 +259,7 @@ void Interpreter::check_values() {
   if (moves() && is_arc(motion_of_line())) check_whole('P', 1, kLargestTurns);
   if (words_.g(GGroup::spindle_mode) == 960) require_word('S', GGroup::spindle_mode, "the surface speed");
   if (words_.g(GGroup::spindle_mode) != kNoCode || words_.g(GGroup::feed_mode) == 950) check_whole('$', 0, 0);
+  if (moves() && motion_of_line() == Motion::nurbs) check_whole('L', 0, kLargestOrder);
   if (words_.g(GGroup::path) == 640 && words_.has('P') && words_.value('P') < 0) {
     error(problem(Code::word_out_of_range, words_.span(*line_, 'P'), "a tolerance below 0"));
   }

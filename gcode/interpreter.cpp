@@ -89,8 +89,12 @@ void Interpreter::recover(bool syntax) {
   const Motion before = state_.motion;
   Uncertain& uncertain = state_.uncertain;
   const bool cycles = motion_of_line() == Motion::cycle && moves();
-  if (words_.g(GGroup::motion) != kNoCode) take_motion(words_.g(GGroup::motion));
+  const int motion_code = words_.g(GGroup::motion);
+  const bool for_this_line = motion_code == 50 || motion_code == 51;
+  if (motion_code != kNoCode && !for_this_line) take_motion(motion_code);
+  if (for_this_line) uncertain.motion = false;
   if (cycles) uncertain.cycle = true;
+  if (nurbs_.open) nurbs_.faulty = true;
   if (words_.refused_motion || (syntax && words_.g(GGroup::motion) == kNoCode)) uncertain.motion = true;
   if (syntax) uncertain.feed = true;
   for (const Item& item : line_->items) {
@@ -112,6 +116,7 @@ void Interpreter::recover(bool syntax) {
 
 void Interpreter::finish(Span end) {
   if (ended_) return;
+  if (nurbs_.open) drop_nurbs(end);
   simple_block(BlockKind::program_end, end);
   ended_ = true;
 }
