@@ -43,7 +43,7 @@ enum class BlockKind : std::uint8_t {
   message,          ///< text
   program_stop,
   optional_stop,
-  program_end,
+  program_end,     ///< number 1: by a closing %, which is no call; 0: by all else
   feed_override,   ///< number: 1 enabled, 0 disabled (M48 M49 M50)
   speed_override,  ///< number: 1 enabled, 0 disabled (M48 M49 M51)
   comment,         ///< text; printed as a note only

@@ -246,6 +246,7 @@ bool write(LineWriter& line, const Block& block) {
       line.text("OPTIONAL_PROGRAM_STOP");
       break;
     case BlockKind::program_end:
+      if (block.number == 1) return false;
       line.text("PROGRAM_END");
       break;
     case BlockKind::message:

@@ -22,7 +22,7 @@ void Interpreter::run(const Line& line) {
   const bool readable = words_.read(line, state_, line.failed ? nullptr : &report_);
   if (words_.percent) {
     // the first % opens the program, the next one ends it; before the first only comments may stand
-    if (started_) finish(line_span());
+    if (started_) finish(line_span(), true);
     started_ = true;
     return;
   }
@@ -114,10 +114,12 @@ void Interpreter::recover(bool syntax) {
   }
 }
 
-void Interpreter::finish(Span end) {
+void Interpreter::finish(Span end, bool by_percent) {
   if (ended_) return;
   if (nurbs_.open) drop_nurbs(end);
-  simple_block(BlockKind::program_end, end);
+  Block block = make_block(BlockKind::program_end, end);
+  block.number = by_percent ? 1 : 0;
+  emit(block);
   ended_ = true;
 }
 

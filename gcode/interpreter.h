@@ -49,7 +49,7 @@ class Interpreter {
 
   void run(const Line& line);
   /// The program's end if no M2 or M30 gave it.
-  void finish(Span end);
+  void finish(Span end, bool by_percent = false);
   /// What the line just run asks of the flow; asked once.
   std::optional<CallRequest> take_call() { return std::exchange(call_, std::nullopt); }
   /// A line that only steers has been read: the program has begun.

@@ -65,7 +65,6 @@ double work_system(const Context& c) {
   const int system = c.state.work_system;  // G54 .. G59 are 1 .. 6, G59.1 .. G59.3 are 7 .. 9
   return system <= 6 ? 530 + 10 * system : 584 + system;
 }
-double feed(const Context& c) { return c.state.feed_in_program_units(); }
 double tool_length(const Context& c) {
   for (const double offset : c.state.tool_offset) {
     if (offset != 0) return 1;
@@ -129,7 +128,7 @@ const std::array kEntries = {
     Entry{"_feed_override", [](const Context& c) { return one_if(c.state.feed_override); }},
     Entry{"_adaptive_feed", always_zero},
     Entry{"_feed_hold", [](const Context& c) { return one_if(c.state.feed_hold); }},
-    Entry{"_feed", feed},
+    Entry{"_feed", [](const Context& c) { return c.state.feed_number; }},
     Entry{"_rpm", [](const Context& c) { return c.state.spindle_rpm; }},
     Entry{"_current_tool", [](const Context& c) -> double { return c.state.tool_in_spindle; }},
     Entry{"_current_pocket",

@@ -42,6 +42,7 @@ void Interpreter::feed_mode() {
   state_.feed_given = false;
   state_.feed_linear_mm_min = state_.feed_rotary_deg_min = 0;
   state_.feed_linear_mm_rev = state_.feed_rotary_deg_rev = 0;
+  state_.feed_number = 0;
 }
 
 void Interpreter::feed_rate() {
@@ -49,7 +50,7 @@ void Interpreter::feed_rate() {
   const double f = words_.value('F');
   const Span span = words_.span(*line_, 'F');
   Block block = make_block(BlockKind::set_feed_rate, span);
-  block.value = f;
+  block.value = state_.feed_number = f;
   const bool inverse = state_.feed_mode == FeedMode::inverse_time;
   if (!inverse) {
     const bool per_minute = state_.feed_mode == FeedMode::units_per_minute;

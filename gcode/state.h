@@ -109,6 +109,7 @@ struct State {
   bool incremental = false;           ///< G91
   bool arc_centers_absolute = false;  ///< G90.1
   FeedMode feed_mode = FeedMode::units_per_minute;
+  double feed_number = 0;          ///< F as it was written last, 0 after each G94 and G95
   double feed_linear_mm_min = 0;   ///< F as it holds for lengths
   double feed_rotary_deg_min = 0;  ///< F as it holds for angles: never scaled
   double feed_linear_mm_rev = 0;   ///< F under G95, for lengths
@@ -120,7 +121,7 @@ struct State {
   bool feed_override = true;
   bool speed_override = true;
 
-  bool retract_to_start = false;        ///< G98: cycles go back to where they began, not to R
+  bool retract_to_start = false;        ///< G98: cycles go back to where they began, not to R (G99, at start)
   bool diameter_mode = false;           ///< G7
   int compensation_code = 400;          ///< ten times the G number
   bool constant_surface_speed = false;  ///< G96
@@ -138,11 +139,6 @@ struct State {
   int pocket_of(int tool) const {
     const Tool* entry = tools.find(tool);
     return entry ? entry->pocket : 0;
-  }
-  /// F in the units of the program and of the feed mode in force.
-  double feed_in_program_units() const {
-    const bool per_turn = feed_mode == FeedMode::units_per_revolution;
-    return (per_turn ? feed_linear_mm_rev : feed_linear_mm_min) / length_factor();
   }
 
   std::vector<double> parameters = std::vector<double>(parameter::kLast + 1, 0.0);

@@ -105,11 +105,11 @@ TEST_CASE("numbers may lack digits before or after the point, and are correctly 
   CHECK(last_point("G0 X123456.123456789012345678\n")[0] == 123456.123456789012345678);
 }
 
-TEST_CASE("a closing percent sign ends a program and what follows is not read") {
+TEST_CASE("a closing percent sign ends a program without a call, and what follows is not read") {
   const Outcome outcome = run("(head)\n%\nG0 X1\n%\nthis is no program\n");
   CHECK(outcome.diagnostics.list().empty());
-  CHECK(outcome.trace.size() == 2);
-  CHECK(outcome.trace.back() == "PROGRAM_END");
+  CHECK(outcome.trace.size() == 1);
+  CHECK(outcome.blocks.back().kind == BlockKind::program_end);
 }
 
 TEST_CASE("nothing after M2 or M30 is run") {
@@ -138,7 +138,12 @@ TEST_CASE("the last comment of a line is the message") {
 
 TEST_CASE("debug messages show parameters with six decimals, quotes and bad bytes don't break the trace") {
   const Outcome outcome = run("#7=1.5\n(DEBUG, a #7 #9999 \"q\" \xFF)\n");
-  CHECK(outcome.trace[0] == "MESSAGE \" a 1.500000 #9999 \\\"q\\\" \xEF\xBF\xBD\"");
+  CHECK(outcome.trace[0] == "MESSAGE \" a 1.500000 ###### \\\"q\\\" \xEF\xBF\xBD\"");
+}
+
+TEST_CASE("a format in a message holds for the values behind it, what is no format is text") {
+  const Outcome outcome = run("#7=2.25\n(DEBUG,%d#7 #7 %f#7 %.1f#7 %lf#7 100% %5d)\n");
+  CHECK(outcome.trace[0] == "MESSAGE \"2 2 2.2500 2.2 %lf2.2 100% %5d\"");
 }
 
 TEST_CASE("a byte order mark and CR LF line ends are accepted") {

@@ -195,7 +195,7 @@ class ExpressionPrograms {
 
 }  // namespace
 
-TEST_CASE("expressions and parameters have the values that rs274 gives them" * doctest::skip()) {
+TEST_CASE("expressions and parameters have the values that rs274 gives them") {
   compare_with_rs274("expressions", 40, [](Random& random) {
     TestProgram program;
     program.text = ExpressionPrograms(random).program();

@@ -25,8 +25,10 @@ namespace fs = std::filesystem;
 
 constexpr double kHalfDecimal = 0.51e-4;  // rounding of one number of four decimals
 constexpr double kTextTolerance = 2e-6;
-constexpr int kOracleSeconds = 10;
-constexpr int kTimedOut = 124;  // exit status of `timeout`
+constexpr int kOracleSeconds = 4;
+constexpr int kShorteningRuns = 150;
+constexpr std::size_t kKindsShown = 8;  // of a family
+constexpr int kTimedOut = 124;          // exit status of `timeout`
 constexpr std::size_t kContext = 5;
 
 std::string text_of(const Call& call) {
@@ -305,6 +307,9 @@ std::optional<Call> call_of(const Block& b, const std::string& name) {
       return Call{b.number != 0 ? "ENABLE_FEED_OVERRIDE" : "DISABLE_FEED_OVERRIDE", {}, 0, {}};
     case BlockKind::speed_override:
       return Call{b.number != 0 ? "ENABLE_SPEED_OVERRIDE" : "DISABLE_SPEED_OVERRIDE", {}, 0, {}};
+    case BlockKind::program_end:
+      if (b.number == 1) return std::nullopt;
+      return Call{name, {}, 0, {}};
     case BlockKind::wait_input:
       return std::nullopt;
     default:
@@ -457,7 +462,7 @@ std::string kind_of(const std::string& difference) {
 
 /// Leaves out lines, halves first, as long as the same disagreement remains.
 TestProgram shortened(const Comparison& comparison, TestProgram program, const std::string& difference) {
-  int runs_left = 300;
+  int runs_left = kShorteningRuns;
   std::vector<std::string> lines = lines_of(program.text);
   for (std::size_t piece = std::max<std::size_t>(lines.size() / 2, 1); piece >= 1 && runs_left > 0;) {
     bool shorter = false;
@@ -532,7 +537,7 @@ void compare(std::string_view family, std::uint64_t fallback, const MakeProgram&
       continue;
     }
     ++differing;
-    if (!kinds.insert(kind_of(difference)).second) continue;
+    if (kinds.size() >= kKindsShown || !kinds.insert(kind_of(difference)).second) continue;
     const TestProgram minimal = shortened(comparison, program, difference);
     difference = comparison.disagreement(minimal);
     FAIL_CHECK(family, " ", i, " (seed ", seed(), "): ", difference, "\n", shown(minimal));
