@@ -59,10 +59,15 @@ inline AxisValues last_point(const std::string& text, const InterpretOptions& op
 /// X of the last move: the value of an expression in "G0 X[...]".
 inline double evaluated(const std::string& expression) { return last_point("G0 X" + expression + "\n")[0]; }
 
-/// The only code that a program is refused with; broken_promise if there is none or several.
+/// The only code that a program is refused with, warnings aside; of one that is not refused, the code of its
+/// only warning; broken_promise if there is none or several.
 inline Code only_code(const std::string& text, const InterpretOptions& options = {}) {
+  std::vector<Code> errors, warnings;
   const Outcome outcome = run(text, options);
-  return outcome.codes().size() == 1 ? outcome.codes()[0] : Code::broken_promise;
+  for (const Diagnostic& d : outcome.diagnostics.list())
+    (d.severity == Severity::error ? errors : warnings).push_back(d.code);
+  const std::vector<Code>& told = errors.empty() ? warnings : errors;
+  return told.size() == 1 ? told[0] : Code::broken_promise;
 }
 
 inline std::uint64_t environment(const char* name, std::uint64_t fallback) {
