@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kLargestTool = 99999;
 constexpr double kLargestTurns = 1e6;
+constexpr double kLargestOrder = 1e6;
 constexpr double kLargestCall = 1e9;
 constexpr int kLargestSystem = kWorkSystems;
 
@@ -42,7 +43,7 @@ std::string_view users_of(char letter) {
 }
 
 /// Letters besides axes, F, S and T that a motion reads.
-std::uint32_t letters_of_motion(Motion motion, int code) {
+std::uint32_t letters_of_motion(Motion motion) {
   switch (motion) {
     case Motion::arc_clockwise:
     case Motion::arc_counterclockwise:
@@ -52,7 +53,7 @@ std::uint32_t letters_of_motion(Motion motion, int code) {
     case Motion::quadratic_spline:
       return letter_bits("IJ");
     case Motion::nurbs:
-      return code == 52 ? letter_bits("PL") : letter_bit('P');
+      return letter_bits("PL");
     case Motion::thread:
       return letter_bits("K$");
     case Motion::rigid_tap:
@@ -134,7 +135,7 @@ void Interpreter::check_codes() {
 
 std::uint32_t Interpreter::usable_letters() const {
   std::uint32_t letters = kAxisBits | letter_bits("FST@^");
-  if (moves()) letters |= letters_of_motion(motion_of_line(), words_.g(GGroup::motion));
+  if (moves()) letters |= letters_of_motion(motion_of_line());
   switch (words_.g(GGroup::nonmodal)) {
     case 40:
       letters |= letter_bit('P');
@@ -230,6 +231,7 @@ void Interpreter::check_values() {
       break;
   }
   if (moves() && is_arc(motion_of_line())) check_whole('P', 1, kLargestTurns);
+  if (moves() && motion_of_line() == Motion::nurbs) check_whole('L', 0, kLargestOrder);
   if (words_.g(GGroup::path) == 640 && words_.has('P') && words_.value('P') < 0) {
     error(problem(Code::word_out_of_range, words_.span(*line_, 'P'), "a tolerance below 0"));
   }

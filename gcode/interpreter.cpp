@@ -88,10 +88,13 @@ void Interpreter::recover(bool syntax) {
   silent_ = false;
   const Motion before = state_.motion;
   Uncertain& uncertain = state_.uncertain;
-  if (words_.g(GGroup::motion) != kNoCode) {
-    state_.motion = motion_of_line();
+  const int motion_code = words_.g(GGroup::motion);
+  if (motion_code != kNoCode) {
+    const bool for_this_line = motion_code == 50 || motion_code == 51;
+    if (!for_this_line) state_.motion = motion_of_line();
     uncertain.motion = false;
   }
+  if (nurbs_.open) nurbs_.faulty = true;
   if (words_.refused_motion || (syntax && words_.g(GGroup::motion) == kNoCode)) uncertain.motion = true;
   if (syntax) uncertain.feed = true;
   for (const Item& item : line_->items) {
@@ -113,6 +116,7 @@ void Interpreter::recover(bool syntax) {
 
 void Interpreter::finish(Span end) {
   if (ended_) return;
+  if (nurbs_.open) drop_nurbs(end);
   simple_block(BlockKind::program_end, end);
   ended_ = true;
 }

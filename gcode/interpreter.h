@@ -22,6 +22,17 @@ struct CallRequest {
 
 using Sink = std::function<void(const Block&)>;
 
+/// The points between G5.2 and G5.3: program coordinates, mm.
+struct Nurbs {
+  bool open = false;
+  int order = 3;
+  std::vector<SplinePoint> points;
+  Span span;             ///< of its first line
+  double inverse_f = 0;  ///< F of one of its lines under G93
+  bool faulty = false;   ///< an error was told
+  bool doubtful = false;
+};
+
 /// Lines -> Blocks. Keeps what earlier lines have set, checks a whole line before anything of it takes
 /// effect, then executes its words in the order of RS-274/NGC, whatever order they are written in.
 class Interpreter {
@@ -102,9 +113,20 @@ class Interpreter {
   void move_to(const AxisValues& end);
 
   // splines.cpp: G5 G5.1 G5.2 G5.3
-  void spline();
+  void spline(Motion motion);
+  bool spline_allowed(Motion motion);
+  bool spline_place_allowed(std::string_view name);
+  double spline_offset(char letter) const;
+  void add_control(Block& block, AxisValues program, double x_mm, double y_mm, double weight) const;
+  void warn_direction_kept();
+  void emit_spline(Block& block);
   void add_nurbs_point();
+  void add_nurbs_control(const AxisValues& program, double weight);
+  bool nurbs_words_allowed(bool first);
+  void set_nurbs_order();
   void end_nurbs();
+  void emit_nurbs(const Nurbs& nurbs);
+  void drop_nurbs(Span span);
 
   // threads.cpp: G33 G33.1 G76 G95 G96 G97
   void thread();
@@ -151,6 +173,10 @@ class Interpreter {
   Block motion_block_;
   std::optional<CallRequest> call_;
   const Line* line_ = nullptr;
+  Nurbs nurbs_;
+  double spline_i_mm_ = 0;  ///< from the start to the first control point of a G5 without I and J
+  double spline_j_mm_ = 0;
+  std::optional<AxisValues> spline_end_;  ///< of the last G5
   std::uint32_t axes_on_machine_ = 0;
   std::uint64_t blocks_ = 0;
   bool started_ = false;  ///< some line with words has been run, or the opening % was seen

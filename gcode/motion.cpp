@@ -91,6 +91,8 @@ bool Interpreter::moves() const {
 void Interpreter::motion() {
   const int code = words_.g(GGroup::motion);
   if (code != kNoCode) {
+    if (nurbs_.open && code != 52 && code != 53) drop_nurbs(g_span(GGroup::motion));
+    if (code == 50 || code == 51) return spline(motion_of_line());
     state_.motion = motion_of_line();
     if (state_.motion == Motion::cycle) state_.cycle_code = code;
     if (state_.motion == Motion::probe) state_.probe_code = code;
@@ -101,6 +103,8 @@ void Interpreter::motion() {
   if (state_.uncertain.motion) return move_to(target());
   switch (state_.motion) {
     case Motion::none:
+    case Motion::cubic_spline:  // hold for their line only
+    case Motion::quadratic_spline:
       return;
     case Motion::traverse:
     case Motion::feed:
@@ -108,9 +112,6 @@ void Interpreter::motion() {
     case Motion::arc_clockwise:
     case Motion::arc_counterclockwise:
       return arc(state_.motion);
-    case Motion::cubic_spline:
-    case Motion::quadratic_spline:
-      return spline();
     case Motion::nurbs:
       return add_nurbs_point();
     case Motion::thread:
