@@ -14,21 +14,35 @@ constexpr std::size_t kKeptBytes = 1U << 20;
 /// Length of a UTF-8 byte order mark at the head of a text: editors put it there, it means nothing.
 std::size_t byte_order_mark(std::string_view text) { return text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0; }
 
-/// What stands first on a line behind blanks, / and a line number.
+/// What stands first on a line behind all that may stand before an O word: blanks, comments, / and N words.
 enum class LineHead : std::uint8_t { nothing, o_word, other };
 
 LineHead head_of(std::string_view line) {
-  std::size_t at = 0;
-  const auto skip = [&](auto accept) {
-    while (at < line.size() && (is_blank(line[at]) || accept(line[at]))) ++at;
-  };
-  skip([](char c) { return c == '/' || c == '%'; });
-  if (at < line.size() && upper(line[at]) == 'N') {
-    ++at;
-    skip([](char c) { return is_digit(c) || c == '.'; });
+  std::size_t at = byte_order_mark(line);
+  while (at < line.size()) {
+    const char c = upper(line[at]);
+    if (is_blank(c) || c == '/' || c == '%') {
+      ++at;
+    } else if (c == 'O') {
+      return LineHead::o_word;
+    } else if (c == ';') {
+      return LineHead::nothing;
+    } else if (c == '(') {
+      at = line.find(')', at);
+      if (at == std::string_view::npos) return LineHead::other;
+      ++at;
+    } else if (c == 'N') {
+      at = line.find_first_not_of("0123456789.+- \t\r", at + 1);
+      if (at == std::string_view::npos) return LineHead::nothing;
+      // where the value of N ends only the parser could tell
+      const bool computed = line[at] == '[' || line[at] == '#';
+      if (computed && line.find_first_of("Oo", at) != std::string_view::npos) return LineHead::o_word;
+      if (computed) return LineHead::other;
+    } else {
+      return LineHead::other;
+    }
   }
-  if (at == line.size() || line[at] == '(' || line[at] == ';') return LineHead::nothing;
-  return upper(line[at]) == 'O' ? LineHead::o_word : LineHead::other;
+  return LineHead::nothing;
 }
 
 }  // namespace
