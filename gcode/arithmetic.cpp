@@ -93,7 +93,8 @@ double round_away(double a) { return a < 0 ? -std::floor(0.5 - a) : std::floor(a
 }  // namespace
 
 double atan_deg(double y, double x) {
-  if (y == 0) return x < 0 ? 180.0 : 0.0;
+  // zeros have signs here, as in the controller: -#1 of a parameter that is 0 turns the angle round
+  if (y == 0) return std::copysign(std::signbit(x) ? 180.0 : 0.0, y);
   if (x == 0) return y > 0 ? 90.0 : -90.0;
   return exact_atan2(y, x) * kDegrees;
 }

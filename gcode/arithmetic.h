@@ -18,7 +18,7 @@ struct Arithmetic {
 Arithmetic apply(Operation operation, double a, double b);
 /// Functions of one argument, angles in degrees. ROUND goes away from zero, FIX down, FUP up.
 Arithmetic apply(Operation operation, double a);
-/// ATAN[y]/[x] in degrees, (-180, 180].
+/// ATAN[y]/[x] in degrees, [-180, 180]; -180 for y = -0 and x < 0.
 double atan_deg(double y, double x);
 
 }  // namespace kadr::gcode

@@ -79,10 +79,10 @@ TEST_CASE("threads need a turning spindle, their words, and no F") {
   CHECK(only_code("M3 S1\nG33 Z-5 K1\nZ-6\n") == Code::word_missing);
   CHECK(only_code("M3 S1\nG33 Z-5 K1 F100\n") == Code::thread_with_feed);
   CHECK(only_code("M3 S1\nG33 Z-5 K1 $1\n") == Code::word_out_of_range);
-  CHECK(run("M3 S1\nG33 Z-5 K1 $0\nZ-6 K1\n").codes().empty());
-  CHECK(run("G93 M3 S1\nG33 Z-5 K1\n").codes().empty());
-  CHECK(only_code("M3\nG33 Z-5 K1\n") == Code::feed_of_standing_spindle);
-  CHECK_FALSE(run("M3\nG33 Z-5 K1\n").diagnostics.has_errors());
+  CHECK(run("M3 S1\nG33 Z-5 K1 $0\nZ-6 K1\nM2\n").codes().empty());
+  CHECK(run("G93 M3 S1\nG33 Z-5 K1\nM2\n").codes().empty());
+  CHECK(only_code("M3\nG33 Z-5 K1\nM2\n") == Code::feed_of_standing_spindle);
+  CHECK_FALSE(run("M3\nG33 Z-5 K1\nM2\n").diagnostics.has_errors());
 }
 
 TEST_CASE("the passes of G76 deepen by J times the R-th root of their number") {
@@ -169,9 +169,9 @@ TEST_CASE("G76 is refused without its words, with impossible depths and with oth
   CHECK(only_code(head + "G76 P1 Z-20 I-2 J0.001 K1 R9\n") == Code::thread_passes);
   CHECK(only_code(head + "M5\nG76 P1 Z-20 I-2 J0.5 K1\n") == Code::thread_spindle_stopped);
   // accepted, with a warning
-  CHECK(only_code(head + "G76 P1 Z-20 I-2 J0.5 K1 R0.5\n") == Code::thread_unusual);
-  CHECK(only_code(head + "G76 P1 Z-20 I-2 J0.5 K1 E15 L1\n") == Code::thread_unusual);
-  CHECK(only_code(head + "G17\nG76 P1 Z-20 I-2 J0.5 K1\n") == Code::thread_unusual);
+  CHECK(only_code(head + "G76 P1 Z-20 I-2 J0.5 K1 R0.5\nM2\n") == Code::thread_unusual);
+  CHECK(only_code(head + "G76 P1 Z-20 I-2 J0.5 K1 E15 L1\nM2\n") == Code::thread_unusual);
+  CHECK(only_code(head + "G17\nG76 P1 Z-20 I-2 J0.5 K1\nM2\n") == Code::thread_unusual);
 }
 
 TEST_CASE("under G95 F is the way per turn of the spindle") {
