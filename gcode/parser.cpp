@@ -204,9 +204,15 @@ bool Parser::parse_percent() {
   item.bytes = {cursor_.at(), cursor_.at() + 1};
   line_->items.push_back(item);
   cursor_.advance();
-  const char next = cursor_.peek();
-  if (cursor_.at_end() || next == '(' || next == ';') return true;
-  return fail(Code::text_after_percent, {cursor_.at(), static_cast<std::uint32_t>(line_->text.size())},
+  // only comments may follow
+  Cursor ahead = cursor_;
+  for (char next = ahead.peek(); next == '('; next = ahead.peek()) {
+    const std::size_t end = line_->text.find(')', ahead.at());
+    if (end == std::string_view::npos) return true;  // told where the comment is read
+    ahead.go_to(static_cast<std::uint32_t>(end) + 1);
+  }
+  if (ahead.at_end() || ahead.peek() == ';') return true;
+  return fail(Code::text_after_percent, {ahead.at(), static_cast<std::uint32_t>(line_->text.size())},
               "% stands alone on its line");
 }
 

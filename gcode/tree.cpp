@@ -22,13 +22,7 @@ std::vector<Bytes> lexemes_of(const Line& line) {
   std::vector<Bytes> lexemes;
   for (std::size_t i = 0; i < line.items.size(); ++i) {
     const Item& item = line.items[i];
-    // an item's nodes end where the next item's begin
-    auto end_node = static_cast<std::int32_t>(line.nodes.size());
-    for (std::size_t k = i + 1; k < line.items.size(); ++k) {
-      if (line.items[k].first < 0) continue;
-      end_node = line.items[k].first;
-      break;
-    }
+    const std::int32_t end_node = item.first < 0 ? -1 : node_end(line, i);
     const std::uint32_t begin = item.bytes.begin;
     switch (item.kind) {
       case ItemKind::word:
@@ -62,6 +56,12 @@ void append_blanks(std::string& out, std::string_view gap) {
 }
 
 }  // namespace
+
+std::int32_t node_end(const Line& line, std::size_t item) {
+  for (std::size_t next = item + 1; next < line.items.size(); ++next)
+    if (line.items[next].first >= 0) return line.items[next].first;
+  return static_cast<std::int32_t>(line.nodes.size());
+}
 
 void append_source(std::string& out, const Line& line) {
   std::uint32_t at = 0;

@@ -147,6 +147,9 @@ struct Line {
   std::string_view slice(Bytes bytes) const { return text.substr(bytes.begin, bytes.end - bytes.begin); }
 };
 
+/// Where the nodes of an item end, which begin at Item::first: those of the next item follow.
+std::int32_t node_end(const Line& line, std::size_t item);
+
 /// Writes the line back from its tree, line end included: every lexeme of every item and the blanks between
 /// them. Equals the source byte for byte; bytes that belong to no item and are not blanks break a promise.
 void append_source(std::string& out, const Line& line);

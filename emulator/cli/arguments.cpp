@@ -37,6 +37,7 @@ class Reader {
     add_check();
     add_plan();
     add_canon();
+    add_fmt();
     add_info();
     add_machine();
     add_explain();
@@ -292,6 +293,20 @@ class Reader {
         ->type_name("FIRST-LAST");
     diagnostics(sub);
     output(sub);
+  }
+
+  void add_fmt() {
+    CLI::App* sub = command(app_, "fmt", Command::fmt,
+                            "Print programs in normal form: words in order of action, aligned comments,\n"
+                            "indentation by O words; same lines, same meaning");
+    programs(sub, "PROG", true);
+    CLI::Option* check =
+        sub->add_flag("--check", arguments_.only_check,
+                      "Print only the names of programs that differ; exit 1 if there are any");
+    sub->add_flag("-i,--in-place", arguments_.in_place, "Rewrite the files that differ")->excludes(check);
+    diagnostics(sub);
+    output(sub);
+    sub->footer("Example: kadr fmt --check *.ngc");
   }
 
   void read_lines(const std::string& text) {

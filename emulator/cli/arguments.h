@@ -16,6 +16,7 @@ enum class Command : std::uint8_t {
   check,
   plan,
   canon,
+  fmt,
   info,
   machine_show,
   machine_list,
@@ -65,6 +66,8 @@ struct Arguments {
   bool list = false;
   bool force = false;
   bool update = false;
+  bool only_check = false;  ///< fmt --check
+  bool in_place = false;    ///< fmt --in-place
   std::string junit_path;
   double until_s = machine::kInfinity;
   int threads = 1;

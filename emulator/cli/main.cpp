@@ -20,6 +20,8 @@ int dispatch(const Arguments& arguments, Console& console) {
       return plan_program(arguments, console);
     case Command::canon:
       return canon_program(arguments, console);
+    case Command::fmt:
+      return format_programs(arguments, console);
     case Command::info:
       return log_info(arguments, console);
     case Command::machine_show:

@@ -301,3 +301,12 @@ TEST_CASE("a file above its bound is not read") {
   CHECK(run("O<large> call\nM2\n", options, (folder / "parts/main.ngc").string()).codes() ==
         std::vector<Code>{Code::file_too_large});
 }
+
+TEST_CASE("a byte order mark and comments may stand before the first O word") {
+  for (const std::string head : {"\xEF\xBB\xBF", "(only) ", "(o o) N5 (two) "}) {
+    CAPTURE(head);
+    const Outcome outcome = run(head + "O100 sub\nG0 X1\nO100 endsub\nO100 call\nM2\n");
+    CHECK(outcome.diagnostics.list().empty());
+    CHECK(outcome.moves().size() == 1);
+  }
+}

@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <string>
+
+#include "emulator/cli/commands.h"
+#include "emulator/cli/exit_codes.h"
+#include "emulator/cli/inputs.h"
+#include "gcode/gcode.h"
+
+/// `kadr fmt`: programs in normal form.
+namespace kadr::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using emulator::Json;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+  throw WorldError(fmt::format("{}: {}", path.string(), reason));
+}
+
+/// Puts a text in the place of a file at once: whoever reads it sees the old text or the new one.
+void replace_file(const std::string& path, const std::string& text) {
+  std::error_code error;
+  // a symbolic link stays one
+  const fs::path file = fs::canonical(path, error);
+  if (error) fail(path, error.message());
+  fs::path part = file;
+  part += ".part";
+  std::FILE* out = std::fopen(part.c_str(), "wx");
+  if (!out) fail(part, std::strerror(errno));
+  const bool written = std::fwrite(text.data(), 1, text.size(), out) == text.size();
+  const int reason = errno;
+  if (std::fclose(out) != 0 || !written) {
+    const std::string why = std::strerror(written ? errno : reason);
+    fs::remove(part, error);
+    fail(part, why);
+  }
+  fs::permissions(part, fs::status(file).permissions(), error);
+  fs::rename(part, file, error);
+  if (!error) return;
+  const std::string why = error.message();
+  fs::remove(part, error);
+  fail(file, why);
+}
+
+struct Formatted {
+  bool readable = false;
+  bool differs = false;
+  std::string text;
+};
+
+int act(const Formatted& formatted, const std::string& path, const Arguments& arguments, Console& console) {
+  const int code = formatted.readable ? kYes : kNo;
+  if (arguments.only_check) {
+    if (formatted.differs && !console.options().json) console.data(program_text(path) + '\n');
+    return formatted.differs ? kNo : code;
+  }
+  if (!arguments.in_place) {
+    if (!console.options().json) console.data(formatted.text);
+    return code;
+  }
+  if (!formatted.readable) {
+    console.error(fmt::format("{}: left as it is, mend its errors first", path));
+    return code;
+  }
+  if (formatted.differs) replace_file(path, formatted.text);
+  return code;
+}
+
+/// One program; its exit code.
+int format_one(const std::string& path, const Arguments& arguments, Console& console, Json& documents) {
+  emulator::Job job;
+  Diagnostics diagnostics;
+  Formatted formatted;
+  try {
+    if (path == "-" && arguments.in_place) throw WorldError("standard input can't be rewritten in place");
+    load_program(path, job);
+    formatted.readable = gcode::format_program(job.sources, job.program, diagnostics, formatted.text);
+    formatted.differs = formatted.text != job.sources[job.program].text();
+    const int code = act(formatted, path, arguments, console);
+    if (!console.options().json) {
+      console.diagnostics(diagnostics, job.sources, program_text(path), Console::Where::errors);
+      return code;
+    }
+    Json j;
+    j["program"] = program_text(path);
+    j["exit_code"] = code;
+    j["differs"] = formatted.differs;
+    j["text"] = arguments.only_check || arguments.in_place ? Json(nullptr) : Json(formatted.text);
+    j["diagnostics"] = emulator::json_of(diagnostics, job.sources);
+    documents.push_back(std::move(j));
+    return code;
+  } catch (const WorldError& e) {
+    // the other programs still get their form
+    console.error(e.what());
+    return kNotStarted;
+  }
+}
+
+}  // namespace
+
+int format_programs(const Arguments& arguments, Console& console) {
+  int worst = kYes;
+  Json documents = Json::array();
+  for (const std::string& path : arguments.files)
+    worst = std::max(worst, format_one(path, arguments, console, documents));
+  if (console.options().json) console.document(documents);
+  return worst;
+}
+
+}  // namespace kadr::cli
