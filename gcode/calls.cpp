@@ -179,7 +179,7 @@ void Flow::leave_call() {
   if (level.own_numbered) {
     std::copy(level.numbered.begin(), level.numbered.end(), state_.parameters.begin() + parameter::kFirst);
   }
-  state_.levels.pop_back();
+  interpreter_.leave_level(places_.back());
   unit_ = calls_.back().caller;
   unit_->program.go_to(calls_.back().back);
   calls_.pop_back();

@@ -28,8 +28,9 @@ void Interpreter::run(const Line& line) {
   }
   started_ = started_ || words_.any;
   if (line.failed) return recover(true);
+  if (state_.diameter_mode || words_.g(GGroup::diameter) != kNoCode) take_diameters();
   if (readable && plain_move()) return motion();
-  if (!readable || !check()) return recover(false);
+  if (!readable || !polar_words() || !check()) return recover(false);
   execute();
 }
 
@@ -150,6 +151,7 @@ void Interpreter::emit(Block& block) {
     return;
   }
   ++blocks_;
+  if (place_) block.span = *place_;
   advice_.watch(block);
   sink_(block);
 }

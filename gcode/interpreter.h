@@ -52,6 +52,8 @@ class Interpreter {
   void finish(Span end, bool by_percent = false);
   /// What the line just run asks of the flow; asked once.
   std::optional<CallRequest> take_call() { return std::exchange(call_, std::nullopt); }
+  /// The end of a call: its modes are given back if M73 asked for it, and its level goes.
+  void leave_level(Span place);
   /// A line that only steers has been read: the program has begun.
   void start() { started_ = true; }
   State& state() { return state_; }
@@ -195,8 +197,16 @@ class Interpreter {
   // inputs.cpp: M62 to M68
   void inputs_and_outputs();
 
+  // polar.cpp: @ and ^, X as a diameter
+  bool polar_words();
+  bool resolve_polar();
+  void take_diameters();
+
   // modal_state.cpp: M70 to M73, G7 G8
   void modal_state();
+  ModalState modes() const;
+  void restore(const ModalState& saved, Span place);
+  void run_words(const std::string& words, Span place);
   void diameter_mode();
 
   // interpreter.cpp
@@ -220,6 +230,7 @@ class Interpreter {
   Words words_;
   Block motion_block_;
   std::optional<CallRequest> call_;
+  std::optional<Span> place_;  ///< of blocks while modes are restored
   const Line* line_ = nullptr;
   Nurbs nurbs_;
   double spline_i_mm_ = 0;  ///< from the start to the first control point of a G5 without I and J

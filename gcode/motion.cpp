@@ -97,6 +97,7 @@ void Interpreter::motion() {
     if (code == 53) return end_nurbs();
   }
   if (!moves()) return;
+  if ((words_.present & letter_bits("@^")) != 0 && !resolve_polar()) return;
   if (state_.uncertain.motion) return move_to(target());
   switch (state_.motion) {
     case Motion::none:

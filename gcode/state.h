@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -86,10 +87,29 @@ struct Uncertain {
   bool cycle = false;  ///< words that a cycle keeps
 };
 
+/// The modes that M70 and M73 keep and M72 gives back. The motion code is not among them.
+struct ModalState {
+  bool inches = false, incremental = false, arc_centers_absolute = false;
+  bool retract_to_start = false, diameter_mode = false, constant_surface_speed = false;
+  bool feed_override = true, speed_override = true, feed_hold = true;
+  bool mist = false, flood = false;
+  Plane plane = Plane::xy;
+  FeedMode feed_mode = FeedMode::units_per_minute;
+  PathMode path_mode = PathMode::continuous;
+  double path_tolerance = 0;  ///< in the units in force then
+  double feed_number = 0;     ///< F as written
+  double spindle_rpm = 0;
+  int spindle_turns = 0;
+  int work_system = 1;
+  int compensation_code = 400;
+};
+
 /// What belongs to one call of a subroutine; the main program is the first.
 struct CallLevel {
   std::array<double, 30> numbered{};                   ///< #1 to #30 of the caller, given back at the return
   bool own_numbered = true;                            ///< false: M98, which shares the caller's
+  std::optional<ModalState> modal;                     ///< kept by M70 or M73
+  bool restores_modal = false;                         ///< M73: given back at the return
   std::vector<std::pair<std::int32_t, double>> named;  ///< local named parameters by number of the name
 };
 

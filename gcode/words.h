@@ -41,6 +41,14 @@ class Words {
 
   bool has(char letter) const { return (present & letter_bit(letter)) != 0; }
   double value(char letter) const { return values_[index(letter)]; }
+  void set(char letter, double value) { values_[index(letter)] = value; }
+  /// The item of `other` gives this letter too; its value follows by set().
+  void stand_in(char letter, char other) {
+    present |= letter_bit(letter);
+    if ((doubtful & letter_bit(other)) != 0) doubtful |= letter_bit(letter);
+    items_[index(letter)] = items_[index(other)];
+    values_[index(letter)] = 0;
+  }
   const Item& item(const Line& line, char letter) const { return line.items[items_[index(letter)]]; }
   Span span(const Line& line, char letter) const { return line.span(item(line, letter).bytes); }
 
