@@ -18,6 +18,16 @@ PlanePoint in_plane(const AxisValues& values, const PlaneAxes& axes) {
 
 }  // namespace
 
+AxisValues Interpreter::arc_frame(const AxisValues& machine) const {
+  const bool tilted = state_.rotation_deg != 0 && state_.plane != Plane::xy;
+  return tilted ? state_.to_program(machine) : machine;
+}
+
+AxisValues Interpreter::arc_frame_to_machine(const AxisValues& point) const {
+  const bool tilted = state_.rotation_deg != 0 && state_.plane != Plane::xy;
+  return tilted ? state_.to_machine(point) : point;
+}
+
 void Interpreter::arc(Motion motion) {
   const bool clockwise = motion == Motion::arc_clockwise;
   const PlaneAxes axes = plane_axes(state_.plane);
@@ -25,9 +35,11 @@ void Interpreter::arc(Motion motion) {
   const AxisValues end = target();
   const std::uint32_t plane_bits = (1U << axes.first) | (1U << axes.second);
   const std::uint32_t words_in_doubt = words_.doubtful & (kAxisBits | letter_bits("IJKR"));
+  const AxisValues from = arc_frame(state_.position);
+  const AxisValues to = arc_frame(end);
   Arc found;
   const bool known = (state_.uncertain.axes & plane_bits) == 0 && words_in_doubt == 0;
-  if (!known || !find_arc(end, clockwise, found) || !feed_is_ready) return move_to(end);
+  if (!known || !find_arc(from, to, clockwise, found) || !feed_is_ready) return move_to(end);
 
   Block& block = motion_block_;
   int turns = 1;
@@ -35,14 +47,19 @@ void Interpreter::arc(Motion motion) {
   block.kind = BlockKind::arc;
   block.span = action_span();
   block.end = end;
-  block.center_first_mm = found.center.first_mm;
-  block.center_second_mm = found.center.second_mm;
+  AxisValues center = to;
+  center[static_cast<std::size_t>(axes.first)] = found.center.first_mm;
+  center[static_cast<std::size_t>(axes.second)] = found.center.second_mm;
+  const PlanePoint machine_center = in_plane(arc_frame_to_machine(center), axes);
+  block.center_first_mm = machine_center.first_mm;
+  block.center_second_mm = machine_center.second_mm;
+  block.plane_rotation_deg = state_.plane == Plane::xy ? 0 : state_.rotation_deg;
   block.turns = clockwise ? -turns : turns;
   const double sweep =
-      arc_sweep_rad(in_plane(state_.position, axes), in_plane(end, axes), found.center, clockwise, turns);
+      arc_sweep_rad(in_plane(from, axes), in_plane(to, axes), found.center, clockwise, turns);
   const auto normal = static_cast<std::size_t>(axes.normal);
   const double around = sweep * (found.radius_start_mm + found.radius_end_mm) / 2;
-  const double along = end[normal] - state_.position[normal];
+  const double along = to[normal] - from[normal];
   block.feed_length = FeedLength::xyz;
   block.length_u = std::sqrt(around * around + along * along);
   set_feed(block);
@@ -50,11 +67,12 @@ void Interpreter::arc(Motion motion) {
   emit(block);
   block.center_first_mm = block.center_second_mm = 0;
   block.turns = 0;
+  block.plane_rotation_deg = 0;
 }
 
-bool Interpreter::find_arc(const AxisValues& end, bool clockwise, Arc& result) {
+bool Interpreter::find_arc(const AxisValues& start, const AxisValues& end, bool clockwise, Arc& result) {
   const PlaneAxes axes = plane_axes(state_.plane);
-  const PlanePoint from = in_plane(state_.position, axes);
+  const PlanePoint from = in_plane(start, axes);
   const PlanePoint to = in_plane(end, axes);
   const bool centers = (words_.present & letter_bits("IJK")) != 0;
   const Span span = action_span();
@@ -100,7 +118,7 @@ bool Interpreter::arc_center_words(PlanePoint& center) {
     double& along = program[static_cast<std::size_t>(axis)];
     along = state_.arc_centers_absolute ? value : along + value;
   }
-  center = in_plane(state_.to_machine(program), axes);
+  center = in_plane(arc_frame(state_.to_machine(program)), axes);
   return true;
 }
 
@@ -114,14 +132,14 @@ bool Interpreter::refuse_arc(const Arc& arc, PlanePoint end) {
   const char second = kAxisLetters[static_cast<std::size_t>(axes.second)];
   const double unit = state_.length_factor();
   const auto point = [&](double a_mm, double b_mm) {
-    AxisValues at = state_.position;
+    AxisValues at = arc_frame(state_.position);
     at[static_cast<std::size_t>(axes.first)] = a_mm;
     at[static_cast<std::size_t>(axes.second)] = b_mm;
-    at = state_.to_program(at);
+    at = state_.to_program(arc_frame_to_machine(at));
     return fmt::format("{}{} {}{}", first, figure(at[static_cast<std::size_t>(axes.first)] / unit), second,
                        figure(at[static_cast<std::size_t>(axes.second)] / unit));
   };
-  const PlanePoint start = in_plane(state_.position, axes);
+  const PlanePoint start = in_plane(arc_frame(state_.position), axes);
   const Span span = action_span();
   Diagnostic d = problem(Code::arc_end_off_circle, span, {});
   switch (arc.fault) {

@@ -105,6 +105,9 @@ struct Block {
 
   // arc
   Plane plane = Plane::xy;
+  /// Angle about Z by which the planes zx and yz are turned out of the machine's: 0 but under a rotated work
+  /// system. The centre is then the point abreast of `end`.
+  double plane_rotation_deg = 0;
   double center_first_mm = 0;  ///< machine coordinates in the plane's first and second axis
   double center_second_mm = 0;
   int turns = 0;  ///< > 0 counter-clockwise; 1: up to one turn

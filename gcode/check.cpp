@@ -7,11 +7,9 @@
 namespace kadr::gcode {
 namespace {
 
-constexpr double kLargestTool = 99999;
 constexpr double kLargestTurns = 1e6;
 constexpr double kLargestOrder = 1e6;
 constexpr double kLargestCall = 1e9;
-constexpr int kLargestSystem = kWorkSystems;
 
 /// Codes that read a letter, for the message about a letter that nobody reads.
 std::string_view users_of(char letter) {
@@ -76,6 +74,7 @@ bool Interpreter::check() {
   check_unused();
   check_values();
   if (motion_of_line() > Motion::nurbs && moves()) check_motion_words();
+  check_tools();
   check_shared_p();
   return report_.errors() == errors;
 }
@@ -101,17 +100,7 @@ void Interpreter::check_codes() {
   const int motion_code = words_.g(GGroup::motion);
   const bool takes_axes = axis_words_taken();
   const bool names_motion = motion_code != kNoCode && motion_code != 800;
-  if (takes_axes && names_motion) {
-    const bool tool = words_.g(GGroup::tool_length) == 431;
-    error(problem(Code::axis_words_wanted_twice,
-                  tool ? g_span(GGroup::tool_length) : g_span(GGroup::nonmodal),
-                  fmt::format("{} and {} both use the axis words", g_name(tool ? 431 : nonmodal_code),
-                              g_name(motion_code)),
-                  "write them on two lines"));
-  }
-  if (nonmodal_code == 920 && !words_.has_axis()) {
-    error(problem(Code::word_missing, g_span(GGroup::nonmodal), "G92 needs at least one axis word"));
-  }
+  if (takes_axes) check_axis_words();
   if (words_.has_axis() && !takes_axes && !names_motion && !state_.uncertain.motion &&
       (motion_code == 800 || state_.motion == Motion::none)) {
     error(problem(
@@ -232,7 +221,6 @@ void Interpreter::check_values() {
     error(problem(Code::word_out_of_range, words_.span(*line_, letter),
                   fmt::format("{} is {}, allowed 0 and above", letter, figure(words_.value(letter)))));
   }
-  check_whole('T', 0, kLargestTool);
   switch (words_.g(GGroup::nonmodal)) {
     case 40:
       if (!require_word('P', GGroup::nonmodal, "the seconds to wait")) break;
@@ -242,16 +230,7 @@ void Interpreter::check_values() {
       }
       break;
     case 100:
-      if (require_word('L', GGroup::nonmodal, "2 or 20") &&
-          require_word('P', GGroup::nonmodal, "the work system, 0 to 9")) {
-        const double l = words_.value('L');
-        if (l != 2 && l != 20) {
-          error(problem(Code::word_not_run, words_.span(*line_, 'L'),
-                        fmt::format("kadr does not run G10 L{:.6g}", l),
-                        "G10 L2 and G10 L20 set work offsets"));
-        }
-        check_whole('P', 0, kLargestSystem);
-      }
+      check_g10();
       break;
     default:
       break;
@@ -267,7 +246,6 @@ void Interpreter::check_values() {
     check_whole('P', 0, kLargestCall);
     check_whole('L', 0, kLargestCall);
   }
-  if (words_.g(GGroup::tool_length) == 430) check_whole('H', 0, kLargestTool);
 }
 
 bool Interpreter::require_word(char letter, GGroup group, std::string_view what) {

@@ -138,7 +138,7 @@ MCode m_code(int number) {
 }
 
 bool takes_axis_words(int tenths) {
-  return tenths == 100 || tenths == 280 || tenths == 300 || tenths == 431 || tenths == 920;
+  return tenths == 100 || tenths == 280 || tenths == 300 || tenths == 520 || tenths == 920;
 }
 
 }  // namespace kadr::gcode

@@ -54,7 +54,7 @@ struct MCode {
 GCode g_code(int tenths);
 MCode m_code(int number);
 
-/// True for the non-modal and tool codes that take the axis words of a line for themselves.
+/// True for the non-modal codes that take the axis words of a line for themselves.
 bool takes_axis_words(int tenths);
 
 }  // namespace kadr::gcode

@@ -2,24 +2,6 @@
 
 namespace kadr::gcode {
 
-void Interpreter::select_tool() {
-  if (!words_.has('T')) return;
-  near_integer(words_.value('T'), state_.tool_selected);
-  Block block = make_block(BlockKind::select_tool, words_.span(*line_, 'T'));
-  block.number = state_.tool_selected;
-  emit(block);
-}
-
-void Interpreter::change_tool() {
-  if (words_.m(MGroup::tool_change) == kNoCode) return;
-  const Span span = words_.span(*line_, MGroup::tool_change);
-  turn_spindle(Turning::stopped, span);
-  state_.tool_in_spindle = state_.tool_selected;
-  Block block = make_block(BlockKind::change_tool, span);
-  block.number = state_.tool_in_spindle;
-  emit(block);
-}
-
 void Interpreter::spindle() {
   const int code = words_.m(MGroup::spindle);
   if (code == kNoCode) return;

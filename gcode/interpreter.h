@@ -80,16 +80,13 @@ class Interpreter {
   void feed_rate();
   void plane();
   void units();
-  void tool_length();
   void work_system();
   void path_control();
   void set_path_mode(PathMode mode, double tolerance_mm, Span span);
   void distance_mode();
   void parameters();
 
-  // functions.cpp: spindle, tool, coolant, overrides, dwell, stop
-  void select_tool();
-  void change_tool();
+  // functions.cpp: spindle, coolant, overrides, dwell, stop
   void spindle();
   void turn_spindle(Turning turning, Span span);
   void coolant();
@@ -100,13 +97,30 @@ class Interpreter {
   void call();
   void override_block(BlockKind kind, bool enabled);
 
-  // references.cpp: G10 G28 G30 G92
+  // tools.cpp: T, M6 M61, G43 G43.1 G43.2 G49, G10 L1 L10 L11
+  void select_tool();
+  void change_tool();
+  void tool_length();
+  const Tool* length_of_tool(int number);
+  void set_tool_table();
+  AxisValues measured_tool_offset(AxisValues offset, bool in_fixture) const;
+
+  // references.cpp: G10 G28 G30 G52 G92
   void nonmodal();
   void go_to_reference(int parameters);
+  void set_offsets();
   void set_work_offset();
-  void set_local_offset();
-  void set_g92();
-  void refresh_offsets();
+  AxisValues measured_work_offset(int system);
+  void turn_under_g92(double rotation_deg);
+  void set_g92(bool local);
+
+  // check_offsets.cpp
+  void check_axis_words();
+  void check_tools();
+  bool check_tool(char letter, double least);
+  void check_g10();
+  void check_g10_tool(int l);
+  void check_g10_work_offset(int l);
 
   // motion.cpp
   void motion();
@@ -120,7 +134,11 @@ class Interpreter {
   void go(BlockKind kind, const AxisValues& program);
   void go_to(BlockKind kind, const AxisValues& end);
   void arc(Motion motion);
-  bool find_arc(const AxisValues& end, bool clockwise, Arc& result);
+  /// Where an arc is a circle of its plane: machine coordinates, and program coordinates of X Z and Y Z under
+  /// a rotation, which tilts those planes.
+  AxisValues arc_frame(const AxisValues& machine) const;
+  AxisValues arc_frame_to_machine(const AxisValues& point) const;
+  bool find_arc(const AxisValues& start, const AxisValues& end, bool clockwise, Arc& result);
   bool arc_center_words(PlanePoint& center);
   ArcLimits limits_of_arc() const;
   bool refuse_arc(const Arc& arc, PlanePoint end);

@@ -78,7 +78,9 @@ Motion Interpreter::motion_of_line() const {
 }
 
 bool Interpreter::axis_words_taken() const {
-  return takes_axis_words(words_.g(GGroup::nonmodal)) || takes_axis_words(words_.g(GGroup::tool_length));
+  if (takes_axis_words(words_.g(GGroup::nonmodal))) return true;
+  const int tool_length = words_.g(GGroup::tool_length);
+  return tool_length == 431 || tool_length == 432;
 }
 
 bool Interpreter::moves() const {

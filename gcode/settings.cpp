@@ -93,36 +93,13 @@ void Interpreter::units() {
   if (code != kNoCode) state_.inches = code == 200;
 }
 
-void Interpreter::tool_length() {
-  const int code = words_.g(GGroup::tool_length);
-  if (code != kNoCode) advice_.length_named();
-  if (code == 431) {
-    for (int axis = 0; axis < kProgramAxes; ++axis) {
-      const char letter = kAxisLetters[static_cast<std::size_t>(axis)];
-      if (!words_.has(letter)) continue;
-      state_.tool_offset[static_cast<std::size_t>(axis)] = state_.to_base_units(axis, words_.value(letter));
-    }
-  } else if (code == 430 || code == 490) {
-    state_.tool_offset = {};
-    const bool by_number = code == 430 && words_.has('H');
-    const double tool = by_number ? words_.value('H') : code == 430 ? state_.tool_in_spindle : 0;
-    if (tool != 0) {
-      Diagnostic d = problem(Code::tool_length_unknown,
-                             by_number ? words_.span(*line_, 'H') : g_span(GGroup::tool_length),
-                             fmt::format("length of tool {} taken as 0", figure(tool)),
-                             "give the length itself: G43.1 Z and the length");
-      d.notes.emplace_back("kadr has no tool table; positions are those of a tool without length");
-      report_.warning(std::move(d));
-    }
-  }
-}
-
 void Interpreter::work_system() {
   const int code = words_.g(GGroup::coordinate_system);
   if (code == kNoCode) return;
   // G54 .. G59 are 1 .. 6, G59.1 .. G59.3 are 7 .. 9
-  state_.work_system = code <= 590 ? (code - 530) / 10 : 6 + (code - 590);
-  refresh_offsets();
+  const int system = code <= 590 ? (code - 530) / 10 : 6 + (code - 590);
+  // as RS-274/NGC: parameters that a program has set take effect with the change to their system
+  if (system != state_.work_system) state_.use_work_system(system);
 }
 
 void Interpreter::path_control() {

@@ -1,17 +1,23 @@
 #include "gcode/state.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "machine/base/numbers.h"
 
 namespace kadr::gcode {
+namespace {
+
+constexpr double kQuarterTurn_deg = 90;
+constexpr double kFullTurn_deg = 360;
+constexpr double kRadiansPerDegree = kPi / 180;
+
+}  // namespace
 
 AxisValues State::to_machine(const AxisValues& program) const {
   AxisValues at;
   for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] = program[a] + g92_offset[a];
-  if (rotation_deg != 0) {
-    const double x = at[0], y = at[1];
-    at[0] = x * rotation_cos - y * rotation_sin;
-    at[1] = x * rotation_sin + y * rotation_cos;
-  }
+  at = rotated(at);
   for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] += work_offset[a] + tool_offset[a];
   return at;
 }
@@ -19,24 +25,79 @@ AxisValues State::to_machine(const AxisValues& program) const {
 AxisValues State::to_program(const AxisValues& machine) const {
   AxisValues at;
   for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] = machine[a] - work_offset[a] - tool_offset[a];
-  if (rotation_deg != 0) {
-    const double x = at[0], y = at[1];
-    at[0] = x * rotation_cos + y * rotation_sin;
-    at[1] = y * rotation_cos - x * rotation_sin;
-  }
+  at = rotated_back(at);
   for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] -= g92_offset[a];
   return at;
 }
 
-double read_parameter(const State& state, int index) {
-  if (index == parameter::kToolNumber) return state.tool_in_spindle;
-  if (index == parameter::kWorkSystem) return state.work_system;
-  const int tool_axis = index - parameter::kToolOffset;
-  if (tool_axis >= 0 && tool_axis < kProgramAxes) {
-    return state.to_program_units(tool_axis, state.tool_offset[static_cast<std::size_t>(tool_axis)]);
+AxisValues State::rotated(AxisValues vector) const {
+  if (rotation_deg == 0) return vector;
+  const double x = vector[0], y = vector[1];
+  vector[0] = x * rotation_cos - y * rotation_sin;
+  vector[1] = x * rotation_sin + y * rotation_cos;
+  return vector;
+}
+
+AxisValues State::rotated_back(AxisValues vector) const {
+  if (rotation_deg == 0) return vector;
+  const double x = vector[0], y = vector[1];
+  vector[0] = x * rotation_cos + y * rotation_sin;
+  vector[1] = y * rotation_cos - x * rotation_sin;
+  return vector;
+}
+
+void State::set_rotation(double degrees) {
+  rotation_deg = degrees;
+  // quarter turns are exact
+  const double quarters = degrees / kQuarterTurn_deg;
+  const double whole = std::floor(quarters + 0.5);
+  if (quarters == whole) {
+    static constexpr double kCosines[] = {1, 0, -1, 0};
+    const auto turn = static_cast<std::size_t>(whole - 4 * std::floor(whole / 4));
+    rotation_cos = kCosines[turn];
+    rotation_sin = kCosines[(turn + 3) % 4];
+    return;
   }
-  const int axis = index - parameter::kPosition;
-  if (axis >= 0 && axis < kProgramAxes) return state.program_position(axis);
+  const SinCos turned = exact_sincos(std::fmod(degrees, kFullTurn_deg) * kRadiansPerDegree);
+  rotation_cos = turned.cos;
+  rotation_sin = turned.sin;
+}
+
+void State::use_work_system(int system) {
+  work_system = system;
+  work_offset = read_axis_parameters(*this, work_offset_parameter(system));
+  set_rotation(parameters[static_cast<std::size_t>(work_rotation_parameter(system))]);
+}
+
+namespace {
+
+/// Parameters 5400 to 5413, in mm and degrees.
+double tool_parameter(const State& state, int index) {
+  if (index == parameter::kToolNumber) return state.tool_in_spindle;
+  const Tool* tool = state.find_tool(0);
+  if (tool == nullptr) return 0;
+  switch (index) {
+    case parameter::kToolDiameter:
+      return tool->diameter_mm;
+    case parameter::kToolFrontAngle:
+      return tool->front_angle_deg;
+    case parameter::kToolBackAngle:
+      return tool->back_angle_deg;
+    case parameter::kToolOrientation:
+      return tool->orientation;
+    default:
+      return tool->offset[static_cast<std::size_t>(index - parameter::kToolOffset)];
+  }
+}
+
+}  // namespace
+
+double read_parameter(const State& state, int index) {
+  if (parameter::is_read_only(index)) {
+    if (index == parameter::kWorkSystem) return state.work_system;
+    if (index <= parameter::kToolLast) return tool_parameter(state, index);
+    return state.program_position(index - parameter::kPosition);
+  }
   return state.parameters[static_cast<std::size_t>(index)];
 }
 

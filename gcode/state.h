@@ -50,10 +50,23 @@ inline constexpr int kWorkSystem = 5220;  ///< 1 .. 9: G54 .. G59.3
 inline constexpr int kWorkOffset = 5221;  ///< .. 5229, then 20 further for each system
 inline constexpr int kWorkOffsetStride = 20;
 inline constexpr int kWorkRotation = 5230;  ///< of G54 in degrees, then 20 further for each system
-inline constexpr int kToolNumber = 5400;    ///< 5400 .. 5428 are read-only
-inline constexpr int kToolOffset = 5401;    ///< .. 5409
-inline constexpr int kPosition = 5420;      ///< .. 5428, program coordinates in the units in force
-inline constexpr int kReadOnlyLast = 5428;
+// of the tool in the spindle, as its table says; read-only up to kToolLast
+inline constexpr int kToolNumber = 5400;
+inline constexpr int kToolOffset = 5401;  ///< .. 5409
+inline constexpr int kToolDiameter = 5410;
+inline constexpr int kToolFrontAngle = 5411;
+inline constexpr int kToolBackAngle = 5412;
+inline constexpr int kToolOrientation = 5413;
+inline constexpr int kToolLast = kToolOrientation;
+inline constexpr int kPosition =
+    5420;  ///< .. kPositionLast, program coordinates in the units in force; read-only
+inline constexpr int kPositionLast = 5428;
+
+/// True for what tells the interpreter's state and can't be set.
+constexpr bool is_read_only(int index) {
+  return index == kWorkSystem || (index >= kToolNumber && index <= kToolLast) ||
+         (index >= kPosition && index <= kPositionLast);
+}
 }  // namespace parameter
 
 enum class Turning : std::uint8_t { stopped, clockwise, counterclockwise };
@@ -118,9 +131,9 @@ struct State {
   AxisValues position{};     ///< controlled point, machine coordinates, mm and deg
   AxisValues work_offset{};  ///< of the work system in force
   AxisValues g92_offset{};   ///< in force
-  AxisValues tool_offset{};
-  int work_system = 1;      ///< 1 .. 9
-  double rotation_deg = 0;  ///< of the work system in force, about Z
+  AxisValues tool_offset{};  ///< G43 in force
+  int work_system = 1;       ///< 1 .. 9
+  double rotation_deg = 0;   ///< of the work system in force, about Z
   double rotation_cos = 1, rotation_sin = 0;
 
   Motion motion = Motion::none;
@@ -183,6 +196,14 @@ struct State {
   ///   machine = work + R(rotation) · (program + g92) + tool,  R turns X and Y about Z
   AxisValues to_machine(const AxisValues& program) const;
   AxisValues to_program(const AxisValues& machine) const;
+  /// R(rotation) of a vector, and R(-rotation).
+  AxisValues rotated(AxisValues vector) const;
+  AxisValues rotated_back(AxisValues vector) const;
+  void set_rotation(double degrees);
+  /// Brings a work system's offset and rotation into force.
+  void use_work_system(int system);
+  /// The tool of a number; 0 means the one in the spindle. Null if the table does not have it.
+  const Tool* find_tool(int number) const { return tools.find(number == 0 ? tool_in_spindle : number); }
   /// The same for one axis; X and Y only where rotation_deg is 0.
   double axis_to_machine(std::size_t a, double program) const {
     return (program + g92_offset[a]) + (work_offset[a] + tool_offset[a]);
@@ -203,6 +224,14 @@ double read_parameter(const State& state, int index);
 /// Value of a named parameter that is not predefined, null if it was never set where it holds.
 const double* find_named(const State& state, std::int32_t name);
 void set_named(State& state, std::int32_t name, double value);
+
+/// First of the nine offset parameters of a work system.
+constexpr int work_offset_parameter(int system) {
+  return parameter::kWorkOffset + (system - 1) * parameter::kWorkOffsetStride;
+}
+constexpr int work_rotation_parameter(int system) {
+  return parameter::kWorkRotation + (system - 1) * parameter::kWorkOffsetStride;
+}
 
 /// Nine consecutive parameters from `first` on.
 AxisValues read_axis_parameters(const State& state, int first);

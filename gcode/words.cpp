@@ -213,13 +213,11 @@ bool Words::read_setting(const Line& line, const Item& item, const State& state,
                   fmt::format("parameter {}, allowed are whole numbers from {} to {}", number,
                               parameter::kFirst, parameter::kLast));
   }
-  const bool tells_state =
-      (parameter_number >= parameter::kToolNumber && parameter_number <= parameter::kReadOnlyLast) ||
-      parameter_number == parameter::kWorkSystem;
-  if (tells_state) {
+  if (parameter::is_read_only(parameter_number)) {
     return refuse(report, Code::parameter_read_only, span,
-                  fmt::format("parameters {} and {} to {} tell work system, tool and position",
-                              parameter::kWorkSystem, parameter::kToolNumber, parameter::kReadOnlyLast));
+                  fmt::format("parameters {}, {} to {} and {} to {} tell work system, tool and position",
+                              parameter::kWorkSystem, parameter::kToolNumber, parameter::kToolLast,
+                              parameter::kPosition, parameter::kPositionLast));
   }
   settings.push_back({parameter_number, -1, value});
   return true;

@@ -133,7 +133,8 @@ TEST_CASE("predefined parameters tell position, work system, offsets, reference 
   CHECK(last_point("G10 L2 P2 X7\nG0 Y#5241\n")[1] == 7);
   CHECK(last_point("G0 X5\nG28.1\nX6\nX#5161\n")[0] == 5);
   CHECK(last_point("T4 M6\nG0 X#5400\n")[0] == 4);
-  CHECK(last_point("G43.1 Z5\nG0 X#5403\n")[0] == 5);
+  // of the tool in the spindle, not of the length in force
+  CHECK(last_point("G43.1 Z5\nG0 X#5403\n")[0] == 0);
   CHECK(only_code("#5421=1\n") == Code::parameter_read_only);
   CHECK(only_code("#5220=2\n") == Code::parameter_read_only);
   CHECK(only_code("#5602=1\n") == Code::parameter_range);

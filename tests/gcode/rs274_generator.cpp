@@ -10,7 +10,8 @@ namespace {
 constexpr int kStatements = 50;
 constexpr char kLetters[] = "XYZABC";
 
-ToolTable tool_table(Random& random) {
+/// @param rotary  some tools have an offset in A, which rs274 forgets in G53, G28 and G30
+ToolTable tool_table(Random& random, bool rotary) {
   ToolTable table;
   for (const int number : {1, 2, 7, 30}) {
     Tool tool;
@@ -18,7 +19,7 @@ ToolTable tool_table(Random& random) {
     tool.pocket = number % 5 + 1;
     tool.offset[2] = std::floor(random.real(-40, 40) * 8) / 8;
     if (random.chance(0.3)) tool.offset[0] = std::floor(random.real(-9, 9) * 8) / 8;
-    if (random.chance(0.2)) tool.offset[3] = 15;
+    if (rotary && random.chance(0.2)) tool.offset[3] = 15;
     tool.diameter_mm = std::floor(random.real(1, 20) * 4) / 4;
     table.tools.push_back(tool);
   }
@@ -59,7 +60,7 @@ Generator::Generator(Random& random, const Subjects& subjects)
 
 TestProgram Generator::program() {
   TestProgram program;
-  if (subjects_.tools) program.tools = tool_table(random_);
+  if (subjects_.tools) program.tools = tool_table(random_, !subjects_.offsets);
   program.text = "G21 G90 G94 G17 F1000\n";
   if (subjects_.turning || subjects_.threads || subjects_.cycles) program.text += "M3 S500\n";
   for (int i = 0; i < kStatements; ++i) {
@@ -265,21 +266,23 @@ void Generator::polar() {
 
 void Generator::tool() {
   const std::string number_word = w_.pick({"1", "2", "7", "30"});
+  // G0 alone before M6 and M61: the stand-alone rs274 takes the position after a change from the last move,
+  // and forgets what offsets have done to it since
   switch (random_.below(11)) {
     case 0:
     case 1:
-      text_ += random_.chance(0.5) ? "T" + number_word + " M6\n" : "M6 T" + number_word + "\n";
+      text_ += "G0\n" + (random_.chance(0.5) ? "T" + number_word + " M6\n" : "M6 T" + number_word + "\n");
       number_set_ = false;
       break;
     case 2:
       text_ += "T" + number_word + "\n";
       break;
     case 3:
-      text_ += "M6\n";
+      text_ += "G0\nM6\n";
       number_set_ = false;
       break;
     case 4:
-      text_ += "M61 Q" + number_word + "\n";
+      text_ += "G0\nM61 Q" + number_word + "\n";
       number_set_ = true;
       break;
     case 5:
@@ -298,7 +301,7 @@ void Generator::tool() {
       text_ += "G49\n";
       break;
     default:
-      text_ += "(debug,#5400 #<_current_tool> #<_selected_tool> #<_tool_offset>)\n";
+      if (!number_set_) text_ += "(debug,#5400 #<_current_tool> #<_selected_tool> #<_tool_offset>)\n";
   }
 }
 

@@ -79,7 +79,7 @@ class Generator {
   std::string text_;
   Modes modes_, stored_;
   bool is_stored_ = false;
-  bool number_set_ = false;  ///< M61 since the last M6: bare G43 is not compared
+  bool number_set_ = false;  ///< M61 since the last M6: rs274 keeps the old tool's data
   bool moved_ = false;
 };
 

@@ -377,6 +377,15 @@ std::string oracle_table(const ToolTable& table) {
   return text;
 }
 
+/// rs274 tells the row of the table where M61 has changed the number of the tool.
+void name_tools(std::vector<Call>& calls, const ToolTable& table) {
+  for (Call& call : calls) {
+    if (call.name != "CHANGE_TOOL_NUMBER" || call.numbers.at(0) < 1) continue;
+    const auto row = static_cast<std::size_t>(call.numbers[0]) - 1;
+    if (row < table.tools.size()) call.numbers[0] = table.tools[row].number;
+  }
+}
+
 std::string read_text(const fs::path& file) {
   std::ifstream in(file);
   std::ostringstream text;
@@ -580,6 +589,7 @@ Trace oracle_trace(const std::string& rs274, const TestProgram& program) {
   for (const std::string& line : lines_of(read_text(folder.path() / "out"))) reader.line(line);
   // a program ends at M2; behind it rs274 only resets
   trace.calls = std::move(reader.calls);
+  name_tools(trace.calls, program.tools);
   drop_resets_of_the_end(trace.calls);
   for (const std::string& line : lines_of(read_text(folder.path() / "err"))) {
     if (line != "executing" && line.rfind("link (updating", 0) != 0) trace.refusal += line + "\n";
