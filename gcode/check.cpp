@@ -34,7 +34,7 @@ std::string_view users_of(char letter) {
     case 'R':
       return "R belongs to G2 G3 G10 G76 and cycles";
     case '$':
-      return "$ names a spindle: it belongs to S, M3 M4 M5 M51, G33 G33.1 G76 G95 G96 G97";
+      return "$ names a spindle: it belongs to S, M3 M4 M5 M51, G33 G33.1 G76 G96 G97";
     default:
       return "no code that kadr runs reads this letter";
   }
@@ -173,9 +173,7 @@ std::uint32_t Interpreter::usable_letters() const {
   }
   const int mode = words_.g(GGroup::spindle_mode);
   if (mode == 960) letters |= letter_bit('D');
-  if (mode != kNoCode || words_.g(GGroup::feed_mode) == 950 || words_.has('S') ||
-      words_.m(MGroup::spindle) != kNoCode)
-    letters |= letter_bit('$');
+  if (mode != kNoCode || words_.has('S') || words_.m(MGroup::spindle) != kNoCode) letters |= letter_bit('$');
   const int override_code = words_.m(MGroup::overrides);
   if (override_code >= 50) letters |= letter_bit('P');
   if (override_code == 51) letters |= letter_bit('$');
@@ -237,7 +235,7 @@ void Interpreter::check_values() {
   }
   if (moves() && is_arc(motion_of_line())) check_whole('P', 1, kLargestTurns);
   if (words_.g(GGroup::spindle_mode) == 960) require_word('S', GGroup::spindle_mode, "the surface speed");
-  if (words_.g(GGroup::spindle_mode) != kNoCode || words_.g(GGroup::feed_mode) == 950) check_whole('$', 0, 0);
+  if (words_.g(GGroup::spindle_mode) != kNoCode) check_whole('$', 0, 0);
   if (moves() && motion_of_line() == Motion::nurbs) check_whole('L', 0, kLargestOrder);
   if (words_.g(GGroup::path) == 640 && words_.has('P') && words_.value('P') < 0) {
     error(problem(Code::word_out_of_range, words_.span(*line_, 'P'), "a tolerance below 0"));

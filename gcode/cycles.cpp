@@ -11,6 +11,7 @@ namespace {
 /// G73 lifts the drill by this to break the chip; G83 comes back to this far above the hole's bottom.
 constexpr double kPeckClearance_in = 0.010;
 constexpr double kLargestRepeats = 1e6;
+constexpr double kMostPecks = 1e6;
 /// A level read back through offsets carries their rounding; a program has fewer decimals than this. Levels
 /// are compared, and the number of pecks hangs on it, so they must be what the program made them.
 constexpr double kLevelDecimals = 1e10;
@@ -47,17 +48,19 @@ std::uint32_t letters_of_cycle(int code) {
 }
 
 void Interpreter::check_cycle(int code) {
+  const bool named = words_.g(GGroup::motion) != kNoCode;
+  const bool goes_on =
+      state_.motion == Motion::cycle && state_.cycle.code == code && !(named && state_.uncertain.cycle);
   for (const char letter : std::string_view("ABCUVW")) {
     if ((words_.present & axes_on_machine_ & letter_bit(letter)) == 0) continue;
     error(problem(Code::cycle_axis_refused, words_.span(*line_, letter),
                   fmt::format("{} does not move {}", g_name(code), letter),
                   fmt::format("move {} on a line before the cycle", letter)));
   }
-  if (words_.g(GGroup::motion) != kNoCode && !words_.has_axis()) {
+  if (named && !words_.has_axis()) {
     error(problem(Code::word_missing, g_span(GGroup::motion),
                   fmt::format("{} needs at least one axis word", g_name(code))));
   }
-  const bool goes_on = state_.motion == Motion::cycle && state_.cycle.code == code;
   if (!goes_on) {
     const int plane_code = words_.g(GGroup::plane);
     const Plane plane = plane_code == 170   ? Plane::xy
@@ -114,7 +117,8 @@ void Interpreter::cycle() {
   if (words_.has(along)) kept.bottom = words_.value(along);
   if (words_.has('P') && dwells(kept.code)) kept.dwell_s = words_.value('P');
   if (words_.has('Q') && pecks(kept.code)) kept.peck = words_.value('Q');
-  if (words_.has('R') && words_.has(along)) state_.uncertain.cycle = false;
+  if (words_.g(GGroup::motion) != kNoCode) state_.uncertain.cycle = false;
+  if (state_.uncertain.cycle) return;
   if (!cycle_allowed() || !cycle_levels(hole)) {
     state_.uncertain.cycle = true;
     return;
@@ -139,7 +143,6 @@ bool Interpreter::cycle_levels(Hole& hole) {
   hole.retract = state_.incremental ? kept.retract + initial : kept.retract;
   hole.bottom = state_.incremental ? hole.retract + kept.bottom : kept.bottom;
   if (hole.retract < hole.bottom) {
-    if (state_.uncertain.cycle) return false;
     const char along = kAxisLetters[static_cast<std::size_t>(hole.axes.normal)];
     return error(problem(Code::cycle_retract_below_bottom, action_span(),
                          fmt::format("R lies at {0}{1}, the bottom of the hole at {0}{2}", along,
@@ -147,6 +150,11 @@ bool Interpreter::cycle_levels(Hole& hole) {
                          state_.incremental
                              ? fmt::format("under G91 {} counts from R: downwards it has a minus", along)
                              : "R is the level above the hole to which the tool goes at the rapid rate"));
+  }
+  if (pecks(kept.code) && hole.retract - hole.bottom > kMostPecks * kept.peck) {
+    return error(problem(Code::word_out_of_range, words_.has('Q') ? words_.span(*line_, 'Q') : action_span(),
+                         fmt::format("pecks of {} for a depth of {}, allowed are {:.0f} pecks",
+                                     figure(kept.peck, 9), figure(hole.retract - hole.bottom), kMostPecks)));
   }
   // a sequence that began below R: first straight up
   if (initial < hole.retract) {

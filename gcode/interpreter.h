@@ -208,6 +208,11 @@ class Interpreter {
 
   // probe.cpp: G38.2 to G38.5
   void probe();
+  bool probe_allowed();
+  bool find_contact(Block& block, double& travelled);
+  bool refuse_probe_start(const Block& block, double beyond_mm);
+  std::string stock_text() const;
+  void keep_probe_result(const Block& block);
 
   // compensation.cpp: G40 G41 G42 G41.1 G42.1
   void compensation();
@@ -254,6 +259,8 @@ class Interpreter {
   double spline_i_mm_ = 0;  ///< from the start to the first control point of a G5 without I and J
   double spline_j_mm_ = 0;
   std::optional<AxisValues> spline_end_;  ///< of the last G5
+  std::optional<AxisValues> probe_left_;  ///< where the last G38.4 or G38.5 lost contact
+  bool probe_stock_told_ = false;
   std::uint32_t axes_on_machine_ = 0;
   std::uint64_t blocks_ = 0;
   bool started_ = false;  ///< some line with words has been run, or the opening % was seen

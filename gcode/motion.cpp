@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gcode/interpreter.h"
+#include "gcode/measure.h"
 
 namespace kadr::gcode {
 namespace {
@@ -11,32 +12,6 @@ constexpr double kSecondsPerMinute = 60.0;
 // absolute coordinates computed through offsets return to a point only up to rounding; nearer than this is
 // the same point
 constexpr double kSamePoint_u = 1e-9;
-
-double length_of(const AxisValues& from, const AxisValues& to, std::size_t first_axis) {
-  double sum = 0;
-  for (std::size_t axis = first_axis; axis < first_axis + 3; ++axis) {
-    const double d = to[axis] - from[axis];
-    sum += d * d;
-  }
-  return std::sqrt(sum);
-}
-
-/// The NIST rule, in this one place: X Y Z if one of them moves, else U V W, else A B C.
-void measure_straight(const AxisValues& from, Block& block) {
-  constexpr std::size_t kX = 0, kA = 3, kU = 6;
-  block.feed_length = FeedLength::xyz;
-  block.length_u = length_of(from, block.end, kX);
-  if (block.length_u > 0) return;
-  const double uvw = length_of(from, block.end, kU);
-  const double rotary = length_of(from, block.end, kA);
-  if (uvw > 0) {
-    block.feed_length = FeedLength::uvw;
-    block.length_u = uvw;
-  } else if (rotary > 0) {
-    block.feed_length = FeedLength::rotary;
-    block.length_u = rotary;
-  }
-}
 
 }  // namespace
 

@@ -39,9 +39,10 @@ constexpr bool is_arc(Motion motion) {
 namespace parameter {
 inline constexpr int kFirst = 1;
 inline constexpr int kLast = 5601;
-inline constexpr int kG28 = 5161;    ///< .. 5169
-inline constexpr int kG30 = 5181;    ///< .. 5189
-inline constexpr int kProbe = 5061;  ///< .. 5069, where the last probing tripped, program coordinates
+inline constexpr int kG28 = 5161;  ///< .. 5169
+inline constexpr int kG30 = 5181;  ///< .. 5189
+inline constexpr int kProbe =
+    5061;  ///< .. 5069, where the last probing tripped, program coordinates and units of then
 inline constexpr int kProbeTripped = 5070;
 inline constexpr int kInput = 5399;       ///< what the last M66 read
 inline constexpr int kG92Active = 5210;   ///< 1 while the G92 offset holds

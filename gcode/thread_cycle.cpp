@@ -113,7 +113,7 @@ bool Interpreter::thread_shape(ThreadShape& shape, const AxisValues& end) {
   shape.start_x = shape.start[kX] / unit;
   shape.start_z = shape.start[kZ] / unit;
   shape.end_z = shape.end[kZ] / unit;
-  const double per_radius = 1.0;
+  const double per_radius = state_.diameter_mode ? 0.5 : 1.0;
   shape.inside = words_.value('I') > 0;
   shape.crest = std::fabs(words_.value('I')) * per_radius;
   shape.first_cut = words_.value('J') * per_radius;

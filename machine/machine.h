@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -96,6 +97,14 @@ struct LogSettings {
   bool operator==(const LogSettings&) const = default;
 };
 
+/// Material that a probe meets: all that lies below (or above) a plane across one linear axis.
+struct StockModel {
+  char axis = 'Z';
+  double position_mm = 0;  ///< machine coordinates of the probe's tip
+  bool below = true;
+  bool operator==(const StockModel&) const = default;
+};
+
 struct MachineModel {
   std::string name;
   ClockModel clock;
@@ -105,6 +114,7 @@ struct MachineModel {
   PlantSettings plant;
   LogSettings log;
   OnAlarm on_alarm = OnAlarm::report;
+  std::optional<StockModel> stock;
   AxisValues home2{};  ///< G30 position, machine coordinates
 
   /// Index in `axis` by letter, -1 if the machine has no such axis.

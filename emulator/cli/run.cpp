@@ -76,6 +76,7 @@ struct RunInputs {
   std::string program;  ///< as given, for people
   std::string scenario_toml;
   std::string scenario_name;
+  std::optional<emulator::Scenario> scenario;
   bool machine_good = false;
   bool started = false;  ///< machine, tool table and scenario could be read
 };
@@ -88,6 +89,7 @@ void take_scenario(RunInputs& in) {
   }
   in.scenario_toml = scenario->text;
   in.scenario_name = scenario->name;
+  in.scenario = *scenario;
   std::vector<std::string> settings = scenario->settings;
   settings.insert(settings.end(), in.arguments.settings.begin(), in.arguments.settings.end());
   in.arguments.settings = std::move(settings);
@@ -112,6 +114,9 @@ void read_inputs(RunInputs& in) {
     in.program = program_text(in.arguments.files.front());
   }
   in.started = load_reading(in.arguments, in.job, in.diagnostics) && in.machine_good;
+  if (!in.started || !in.scenario || in.scenario->steps.empty()) return;
+  emulator::place_inputs(*in.scenario, in.scenario->steps.front().span.file, in.job, in.diagnostics);
+  in.started = !in.diagnostics.has_errors();
 }
 
 Json head(const RunInputs& in, int exit_code) {

@@ -30,6 +30,9 @@ gcode::InterpretOptions interpret_options(const Job& job) {
   options.g30 = machine.home2;
   options.arc_end_tolerance_mm = machine.path.arc_end_tolerance_mm;
   options.arc_end_tolerance_relative = machine.path.arc_end_tolerance_relative;
+  if (machine.stock)
+    options.stock =
+        gcode::StockPlane{axis_index(machine.stock->axis), machine.stock->position_mm, machine.stock->below};
   return options;
 }
 

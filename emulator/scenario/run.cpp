@@ -148,6 +148,8 @@ bool open_job(const Scenario& scenario, Job& job, Diagnostics& diagnostics) {
     return false;
   }
   job.machine = std::move(*file);
+  const std::uint32_t text = job.sources.add(SourceText(scenario.file, scenario.text));
+  place_inputs(scenario, text, job, diagnostics);
   return diagnostics.errors() == errors;
 }
 

@@ -53,6 +53,16 @@ struct Expectations {
   std::vector<AxisExpectation> axis;
 };
 
+/// A step of the timeline: an input changes.
+struct ScenarioStep {
+  double at_s = 0;  ///< the time, unless at_tick is given
+  std::optional<std::int64_t> at_tick;
+  bool analog = false;
+  int number = 0;
+  double value = 0;
+  Span span;  ///< of the time
+};
+
 /// A scenario file as read; nothing of it has run.
 struct Scenario {
   std::string file;    ///< path of scenario.toml as given
@@ -68,6 +78,7 @@ struct Scenario {
   std::string tools_path;  ///< of the tool table, empty: none
   gcode::Dialect dialect = gcode::Dialect::linuxcnc;
   std::vector<std::string> settings;  ///< "key=value"
+  std::vector<ScenarioStep> steps;
   Expectations expect;
 };
 
@@ -83,6 +94,11 @@ tl::expected<Scenario, Diagnostics> read_scenario(const std::string& path, Sourc
 /// @return false if there were errors
 /// @throws std::system_error if a file can't be opened
 bool open_job(const Scenario& scenario, Job& job, Diagnostics& diagnostics);
+
+/// Puts the steps of a scenario on the control ticks of the job's machine; a time between two ticks is an
+/// error.
+/// @param file  of the scenario's text in job.sources
+void place_inputs(const Scenario& scenario, std::uint32_t file, Job& job, Diagnostics& diagnostics);
 
 /// One compared value.
 struct ScenarioCheck {

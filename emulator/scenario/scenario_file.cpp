@@ -20,6 +20,9 @@ using machine::TableReader;
 constexpr machine::Bounds kCount{-9e15, 9e15, false, true};
 constexpr machine::Bounds kTime{0, 1e9};
 constexpr machine::Bounds kVibration{0, 1e9};
+constexpr machine::Bounds kInput{0, 63, false, true};
+constexpr machine::Bounds kDigital{0, 1, false, true};
+constexpr machine::Bounds kAnalog{-1e9, 1e9};
 
 /// Reads one scenario file; mistakes go to the context's diagnostics.
 class ScenarioReader {
@@ -42,12 +45,9 @@ class ScenarioReader {
     const auto dialect = table.choice("dialect", {"linuxcnc", "grbl", "marlin", "fanuc"}, 0);
     scenario_.dialect = static_cast<gcode::Dialect>(dialect.value);
     if (const Node* settings = table.table("settings")) flatten_settings(*settings, "");
-    if (!table.tables("step").empty()) {
-      Diagnostic d = file_diagnostic(Code::scenario_step, table.tables("step").front().span,
-                                     "steps of a timeline are not run yet");
-      d.help = "leave [[step]] out; the program then runs at 100 % from start to end";
-      context_.diagnostics.add(std::move(d));
-    }
+    // the stock of a scenario goes before that of the machine file
+    if (const Node* stock = table.table("stock")) flatten_settings(*stock, "stock");
+    for (const Node& step : table.tables("step")) read_step(step);
     if (const Node* expect = table.table("expect")) read_expect(*expect);
     table.finish();
   }
@@ -139,6 +139,31 @@ class ScenarioReader {
       scenario_.settings.push_back(
           fmt::format("{}={}", key, source_.line(span.line).substr(span.column - 1, span.length)));
     }
+  }
+
+  void read_step(const Node& node) {
+    if (!node.find("input") && !node.find("analog_input")) {
+      tell(Code::scenario_step, node.span, "names neither input nor analog_input",
+           "steps that move an input are run: at_s = 1.2, input = 3, value = 1");
+      return;
+    }
+    TableReader table(&node, "step", node.span, context_);
+    ScenarioStep step;
+    if (table.has("at_tick")) {
+      const auto tick = table.number("at_tick", {0, 9e15, false, true});
+      step.at_tick = static_cast<std::int64_t>(tick.value);
+      step.span = tick.span;
+    } else {
+      const auto time = table.number("at_s", kTime);
+      step.at_s = time.value;
+      step.span = time.span;
+    }
+    const std::string_view key = table.one_of("input", "analog_input");
+    step.analog = key == "analog_input";
+    step.number = static_cast<int>(table.number(key, kInput).value);
+    step.value = table.number("value", step.analog ? kAnalog : kDigital).value;
+    table.finish();
+    scenario_.steps.push_back(step);
   }
 
   void read_expect(const Node& node) {

@@ -149,6 +149,27 @@ PlantSettings read_plant_settings(const Node* table, const Span& place, const st
   return s;
 }
 
+std::optional<StockModel> read_stock(const Node* table, const Span& place, const MachineModel& model,
+                                     ReadContext& context) {
+  if (!table) return std::nullopt;
+  constexpr std::string_view kLinear = "XYZUVW";
+  TableReader r(table, "stock", place, context);
+  StockModel stock;
+  const auto axis = r.choice("axis", {"X", "Y", "Z", "U", "V", "W"}, kLinear.find('Z'));
+  stock.axis = kLinear[axis.value];
+  stock.position_mm = r.number("position_mm", kPositionBounds).value;
+  stock.below = r.flag("below", stock.below).value;
+  r.finish();
+  const int index = model.find_axis(stock.axis);
+  if (axis.valid && (index < 0 || model.axis[static_cast<std::size_t>(index)].kind == AxisKind::rotary)) {
+    Diagnostic d = file_diagnostic(Code::machine_stock_axis, axis.span,
+                                   fmt::format("the machine has no linear axis {}", stock.axis));
+    d.help = "name the axis along which the probe meets the material";
+    context.diagnostics.add(std::move(d));
+  }
+  return stock;
+}
+
 void read_axes(TableReader& root, MachineModel& model) {
   ReadContext& context = root.context();
   const std::vector<Node>& tables = root.tables("axis");
@@ -186,6 +207,7 @@ MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
   model.planner = read_planner(root.table("planner"), top, context);
   read_axes(root, model);
   model.plant = read_plant_settings(root.table("plant"), top, model.axis, context);
+  model.stock = read_stock(root.table("stock"), top, model, context);
   model.log = read_log(root.table("log"), top, model.clock, context);
   root.finish();
   return model;

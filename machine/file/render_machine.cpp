@@ -125,6 +125,12 @@ void write_settings(TomlWriter& w, const MachineModel& m) {
   w.table("[plant]", "plant");
   w.word("integrator", integrators[static_cast<std::size_t>(m.plant.integrator)]);
   w.number("tolerance_um", m.plant.tolerance_um);
+  if (m.stock) {
+    w.table("[stock]", "stock");
+    w.word("axis", std::string(1, m.stock->axis));
+    w.number("position_mm", m.stock->position_mm);
+    w.flag("below", m.stock->below);
+  }
   w.table("[log]", "log");
   w.flag("ticks", m.log.ticks);
   w.flag("steps", m.log.steps);

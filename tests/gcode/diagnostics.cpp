@@ -49,6 +49,7 @@ InterpretOptions small_machine() {
 /// The bounds on sizes are small where a program is to exceed them.
 InterpretOptions machine_for(const std::string& program) {
   InterpretOptions options = small_machine();
+  if (program.find("_stock.") != std::string::npos) options.stock = StockPlane{2, -5, true};
   if (program.rfind("K1042", 0) == 0) options.bounds.file_bytes = 64;
   if (program.rfind("K1043", 0) == 0) options.bounds.line_bytes = 64;
   return options;

@@ -115,3 +115,34 @@ class CyclePrograms {
 TEST_CASE("random programs of canned cycles make the same calls as rs274") {
   compare_with_rs274("cycles", 60, [](Random& random) { return CyclePrograms(random).make(); });
 }
+
+TEST_CASE("words beside canned cycles are accepted or refused as rs274 does") {
+  static const char* const kWords[] = {"G73", "G74", "G80", "G81", "G82", "G83", "G84", "G85", "G86", "G89",
+                                       "G98", "G99", "G18", "G19", "X1",  "Y2",  "Z-3", "Z3",  "Z-3", "R1",
+                                       "R1",  "R-9", "Q1",  "Q0",  "P1",  "P0",  "L2",  "L0",  "A1",  "F50",
+                                       "F0",  "M3",  "M4",  "M5",  "G91", "G93", "$0",  "I1",  "D1",  "H1",
+                                       "G0",  "G53", "G4",  "G28", "G95", "L1",  "G92", "G20", "S9",  "E1"};
+  compare_verdict_with_rs274("cyclewords", 60, [](Random& random) {
+    TestProgram program;
+    std::string& text = program.text;
+    text = random.chance(0.8) ? "F100 S100 M3\n" : random.chance(0.5) ? "F100 M4\n" : "";
+    static const char* const kStarts[] = {"G81 X1 Z-5 R2 ",
+                                          "G83 X1 Z-5 R2 Q1 ",
+                                          "G84 X1 Z-5 R2 ",
+                                          "G82 Z-5 R2 P1 ",
+                                          "G19 G86 X-1 R1 P0 ",
+                                          "G73 R3 ",
+                                          "G89 Z-1 ",
+                                          "X2 ",
+                                          "Y1 Z-9 ",
+                                          ""};
+    for (int lines = 0; lines < 3; ++lines) {
+      text += kStarts[random.below(std::size(kStarts))];
+      for (std::uint64_t k = random.chance(0.3) ? 1 + random.below(2) : 0; k > 0; --k)
+        text += std::string(kWords[random.below(std::size(kWords))]) + " ";
+      text += "\n";
+    }
+    text += "M2\n";
+    return program;
+  });
+}

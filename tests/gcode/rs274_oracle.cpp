@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr double kHalfDecimal = 0.51e-4;  // rounding of one number of four decimals
 constexpr double kTextTolerance = 2e-6;
+constexpr double kNoSpeedBound_rpm = 1e20;
 constexpr int kOracleSeconds = 4;
 constexpr int kShorteningRuns = 150;
 constexpr std::size_t kKindsShown = 8;  // of a family
@@ -188,7 +189,9 @@ class OracleReader {
     } else if (name == "STOP_SPEED_FEED_SYNCH") {
       add("STOP_SPEED_FEED_SYNC");
     } else if (name == "SET_SPINDLE_SPEED" || name == "SET_SPINDLE_MODE") {
-      add(name, {v.at(1)}, kHalfDecimal);
+      // G96 without D is told as a bound that no spindle reaches
+      const bool unbound = name == "SET_SPINDLE_MODE" && v.at(1) > kNoSpeedBound_rpm;
+      add(name, {unbound ? 0.0 : v.at(1)}, kHalfDecimal);
     } else if (name == "SET_MOTION_CONTROL_MODE") {
       path_mode(inside);
     } else if (name == "CHANGE_TOOL") {

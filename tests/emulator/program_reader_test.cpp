@@ -1,0 +1,237 @@
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "emulator/cycle/input_timeline.h"
+#include "emulator/cycle/program_reader.h"
+#include "emulator/scenario/scenario.h"
+#include "tests/support/run_program.h"
+#include "tests/support/test_machine.h"
+
+using namespace kadr;
+using namespace kadr::emulator;
+using namespace kadr::test;
+using gcode::Block;
+using gcode::BlockKind;
+using gcode::InputWait;
+using gcode::WaitMode;
+
+namespace {
+
+constexpr double kTau_s = 0.001;
+
+InputStep digital(std::int64_t tick, int number, double value) { return {{tick}, false, number, value, {}}; }
+
+Block feed_to(double x_mm, double from_mm) {
+  Block b;
+  b.kind = BlockKind::feed;
+  b.end[0] = x_mm;
+  b.length_u = x_mm - from_mm;
+  b.feed_u_s = 100;
+  return b;
+}
+Block of_kind(BlockKind kind) {
+  Block b;
+  b.kind = kind;
+  return b;
+}
+Block output(int number, bool on, bool with_motion) {
+  Block b = of_kind(BlockKind::digital_output);
+  b.number = number;
+  b.on = on;
+  b.with_motion = with_motion;
+  return b;
+}
+
+}  // namespace
+
+TEST_CASE("a wait ends at the step that fulfils it, or after its time") {
+  // input 3: 1 from 1.2 s, 0 from 2 s, 1 from 3 s; input 4 and an analog input do not disturb it
+  const std::vector<InputStep> steps = {digital(1200, 3, 1),
+                                        digital(1500, 4, 1),
+                                        {{1600}, true, 3, 7.5, {}},
+                                        digital(2000, 3, 0),
+                                        digital(3000, 3, 1)};
+  struct Case {
+    WaitMode mode;
+    double begin_s, timeout_s;
+    bool reached;
+    double value, waited_s;
+  };
+  for (const Case& c : {
+           Case{WaitMode::immediate, 1.199, 0, true, 0, 0},
+           Case{WaitMode::immediate, 1.2, 0, true, 1, 0},  // the step holds from its tick on
+           Case{WaitMode::high, 0.5, 5, true, 1, 0.7},
+           Case{WaitMode::high, 1.3, 5, true, 1, 0},
+           Case{WaitMode::low, 1.3, 5, true, 0, 0.7},
+           Case{WaitMode::rise, 1.3, 5, true, 1, 1.7},  // high already: the next rise is at 3 s
+           Case{WaitMode::rise, 1.2, 1, false, 0, 1},   // it rose as the wait began; low since 2 s
+           Case{WaitMode::fall, 0, 5, true, 0, 2},
+           Case{WaitMode::high, 0.5, 0.7, true, 1, 0.7},
+           Case{WaitMode::high, 0.5, 0.6, false, 0, 0.6},
+       }) {
+    const WaitOutcome outcome = wait_for({3, false, c.mode, c.timeout_s}, c.begin_s, steps, kTau_s);
+    CAPTURE(static_cast<int>(c.mode));
+    CAPTURE(c.begin_s);
+    CHECK(outcome.reached == c.reached);
+    CHECK(outcome.value == c.value);
+    CHECK(outcome.waited_s == doctest::Approx(c.waited_s));
+  }
+  CHECK(wait_for({3, true, WaitMode::immediate, 0}, 1.7, steps, kTau_s).value == 7.5);
+}
+
+TEST_CASE("a wait begins when the machine stands at its block, and holds the machine until its input comes") {
+  // 100 mm at 100 mm/s take 1.1 s (see the cycle's first test); a dwell of 0.5 s follows, then the wait from
+  // 1.6 s to the step at 2.25 s, then 1.1 s of motion: 3.35 s
+  for (const bool asked_first : {true, false}) {
+    CAPTURE(asked_first);
+    Job job = make_job("", test_machine(1));
+    job.inputs = {digital(2250, 3, 1)};
+    Diagnostics diagnostics;
+    ProgramReader reader(job, diagnostics, {});
+    reader.take(feed_to(100, 0));
+    Block dwell = of_kind(BlockKind::dwell);
+    dwell.dwell_s = 0.5;
+    reader.take(dwell);
+    Block wait = of_kind(BlockKind::wait_input);
+    wait.wait = {3, false, WaitMode::high, 5};
+    gcode::InputReading reading;
+    if (asked_first) reading = reader.read_input(wait.wait);
+    reader.take(wait);
+    if (!asked_first) reading = reader.read_input(wait.wait);
+    CHECK(reading.reached);
+    CHECK(reading.value == 1);
+    reader.take(feed_to(200, 100));
+    reader.finish();
+    CHECK(diagnostics.list().empty());
+    REQUIRE(job.events.size() == 2);
+    CHECK(job.events[1].block.dwell_s == doctest::Approx(0.65));
+    CHECK(hold_time_s(job.events[1].block, job.machine.model) == doctest::Approx(0.65));
+  }
+}
+
+TEST_CASE("a wait that ends with its time is told, and the program goes on") {
+  Job job = make_job("", test_machine(1));
+  Diagnostics diagnostics;
+  ProgramReader reader(job, diagnostics, {});
+  Block wait = of_kind(BlockKind::wait_input);
+  wait.wait = {3, false, WaitMode::rise, 2};
+  reader.take(wait);
+  CHECK_FALSE(reader.read_input(wait.wait).reached);
+  REQUIRE(diagnostics.list().size() == 1);
+  CHECK(diagnostics.list()[0].code == Code::wait_timed_out);
+  CHECK(job.events[0].block.dwell_s == 2);
+}
+
+TEST_CASE("an output of M62 changes as the next motion begins, one of M64 at once and at rest") {
+  Job job = make_job("", test_machine(1));
+  Diagnostics diagnostics;
+  ProgramReader reader(job, diagnostics, {});
+  reader.take(feed_to(10, 0));
+  reader.take(output(1, true, true));
+  reader.take(output(2, true, true));
+  reader.take(output(1, false, true));  // overwrites the first one
+  Block dwell = of_kind(BlockKind::dwell);
+  dwell.dwell_s = 1;
+  reader.take(dwell);
+  reader.take(feed_to(20, 10));
+  reader.take(output(5, true, false));
+  reader.take(output(6, true, true));  // no motion follows
+  reader.finish();
+  REQUIRE(job.events.size() == 4);
+  CHECK(job.events[0].block.kind == BlockKind::dwell);
+  CHECK(job.events[1].block.number == 2);
+  CHECK(job.events[1].after_segment == 1);
+  CHECK(job.events[2].block.number == 1);
+  CHECK_FALSE(job.events[2].block.on);
+  CHECK(job.events[3].block.number == 5);
+  CHECK(job.path.segments[1].stop_at_end);
+  REQUIRE(diagnostics.list().size() == 1);
+  CHECK(diagnostics.list()[0].code == Code::output_without_motion);
+}
+
+TEST_CASE("a thread begins at rest, and the next cut of the same thread does not stop") {
+  Job job = make_job("", test_machine(1));
+  Diagnostics diagnostics;
+  ProgramReader reader(job, diagnostics, {});
+  Block start = of_kind(BlockKind::sync_start);
+  start.value = 1.5;
+  const Block stop = of_kind(BlockKind::sync_stop);
+  reader.take(feed_to(10, 0));
+  reader.take(start);
+  reader.take(feed_to(20, 10));
+  reader.take(stop);
+  reader.take(start);
+  reader.take(feed_to(30, 20));
+  reader.take(stop);
+  reader.finish();
+  CHECK(job.path.segments[0].stop_at_end);
+  CHECK_FALSE(job.path.segments[1].stop_at_end);
+}
+
+TEST_CASE("a spline is one block of the log, of the plan and of the soft limits") {
+  RunResult r;
+  run_program(r, "G0 X1\nG1 X2 F1200\nG5 X42 Y0 I0 J30 P0 Q-30\nX50\nM2\n", test_machine(2));
+  REQUIRE(r.log.blocks.size() == 4);
+  CHECK(r.log.blocks[2].motion == "spline");
+  CHECK(r.log.blocks[2].text == "G5 X42 Y0 I0 J30 P0 Q-30");
+  CHECK(r.log.blocks[2].length_u == doctest::Approx(r.job.path.length_u() - 1 - 1 - 8).epsilon(1e-6));
+  CHECK(r.log.blocks[2].programmed_u_s == 20);
+  CHECK(r.log.blocks[3].block == 3);
+  CHECK(r.job.blocks == 4);
+  CHECK(r.summary.axis[0].end_u == 50);
+
+  machine::MachineModel small = test_machine(2);
+  small.axis[1].soft_max_u = 5;
+  Job job = make_job("G5 X42 Y0 I0 J30 P0 Q-30 F1200\nM2\n", small);
+  Diagnostics diagnostics;
+  prepare(job, diagnostics, SoftLimitRule::warning);
+  CHECK(diagnostics.warnings() == 1);
+}
+
+TEST_CASE("a probing move is told with its contact, and the machine file's stock is met") {
+  machine::MachineModel machine = test_machine(3);
+  machine.stock = machine::StockModel{'Z', -5, true};
+  RunResult r;
+  run_program(r, "G38.2 Z-9 F600\nG0 X[#5063]\nM2\n", machine);
+  REQUIRE(r.log.of_kind("probe").size() == 1);
+  CHECK(r.log.of_kind("probe")[0].value == 1);
+  CHECK(r.log.of_kind("probe")[0].text == "contact at X0 Y0 Z-5 (machine coordinates, mm)");
+  CHECK(r.summary.axis[2].end_u == -5);
+  CHECK(r.summary.axis[0].end_u == -5);
+}
+
+TEST_CASE("steps of a scenario stand on control ticks, and one between two ticks is told") {
+  const auto folder = std::filesystem::temp_directory_path() / "kadr_scenario_inputs";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "program.ngc") << "M2\n";
+  const std::string head = "format = 1\nname = \"inputs\"\nprogram = \"program.ngc\"\nmachine = \"mill3\"\n";
+  std::ofstream(folder / "scenario.toml") << head << "[stock]\naxis = \"Y\"\nposition_mm = 12\n"
+                                          << "[[step]]\nat_tick = 12\nanalog_input = 1\nvalue = -2.5\n"
+                                          << "[[step]]\nat_s = 0.003\ninput = 3\nvalue = 1\n";
+  SourceSet sources;
+  const auto scenario = read_scenario(folder.string(), sources);
+  REQUIRE(scenario);
+  Job job;
+  Diagnostics diagnostics;
+  REQUIRE(open_job(*scenario, job, diagnostics));
+  REQUIRE(job.inputs.size() == 2);
+  CHECK(job.inputs[0].tick.value == 3);
+  CHECK(job.inputs[0].number == 3);
+  CHECK(job.inputs[1].analog);
+  CHECK(job.inputs[1].value == -2.5);
+  REQUIRE(job.machine.model.stock);
+  CHECK(job.machine.model.stock->axis == 'Y');
+  CHECK(job.machine.model.stock->position_mm == 12);
+
+  std::ofstream(folder / "scenario.toml") << head << "[[step]]\nat_s = 0.0125\ninput = 3\nvalue = 1\n";
+  SourceSet again;
+  const auto between = read_scenario(folder.string(), again);
+  REQUIRE(between);
+  Job refused;
+  CHECK_FALSE(open_job(*between, refused, diagnostics));
+  CHECK(diagnostics.list()[0].code == Code::scenario_step);
+  CHECK(diagnostics.list()[0].label == "is 12.5 control ticks of 0.001 s");
+  CHECK(diagnostics.list()[0].help == "write at_s = 0.012 or 0.013");
+}
