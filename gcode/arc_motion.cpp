@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gcode/interpreter.h"
+#include "gcode/measure.h"
 
 namespace kadr::gcode {
 namespace {
@@ -31,6 +32,13 @@ AxisValues Interpreter::arc_frame_to_machine(const AxisValues& point) const {
 void Interpreter::arc(Motion motion) {
   const bool clockwise = motion == Motion::arc_clockwise;
   const PlaneAxes axes = plane_axes(state_.plane);
+  if (state_.straight_move_due) {
+    error(problem(Code::compensation_exit_arc, action_span(),
+                  "an arc can't lead back from beside the contour",
+                  "write a straight move, G0 or G1, before it"));
+    state_.straight_move_due = false;
+    return move_to(target());
+  }
   const bool feed_is_ready = feed_ready();
   const AxisValues end = target();
   const std::uint32_t plane_bits = (1U << axes.first) | (1U << axes.second);
@@ -58,10 +66,7 @@ void Interpreter::arc(Motion motion) {
   const double sweep =
       arc_sweep_rad(in_plane(from, axes), in_plane(to, axes), found.center, clockwise, turns);
   const auto normal = static_cast<std::size_t>(axes.normal);
-  const double around = sweep * (found.radius_start_mm + found.radius_end_mm) / 2;
-  const double along = to[normal] - from[normal];
-  block.feed_length = FeedLength::xyz;
-  block.length_u = std::sqrt(around * around + along * along);
+  measure_arc(sweep, (found.radius_start_mm + found.radius_end_mm) / 2, to[normal] - from[normal], block);
   set_feed(block);
   move_to(end);
   emit(block);

@@ -76,6 +76,7 @@ bool Interpreter::check() {
   if (motion_of_line() > Motion::nurbs && moves()) check_motion_words();
   check_tools();
   check_shared_p();
+  if (state_.compensating() || words_.g(GGroup::compensation) != kNoCode) check_compensation();
   return report_.errors() == errors;
 }
 
@@ -162,8 +163,6 @@ std::uint32_t Interpreter::usable_letters() const {
   switch (words_.g(GGroup::compensation)) {
     case 410:
     case 420:
-      letters |= letter_bit('D');
-      break;
     case 411:
     case 421:
       letters |= letter_bits("DL");

@@ -7,7 +7,11 @@
 namespace kadr::gcode {
 
 Interpreter::Interpreter(const InterpretOptions& options, Report& report, const Sink& sink)
-    : options_(options), report_(report), sink_(sink), advice_(state_, options, report) {
+    : options_(options),
+      report_(report),
+      sink_(sink),
+      advice_(state_, options, report),
+      compensation_([this](Block& block) { hand_out(block); }) {
   state_.position = options.home;
   write_axis_parameters(state_, parameter::kG28, options.g28);
   write_axis_parameters(state_, parameter::kG30, options.g30);
@@ -31,13 +35,15 @@ void Interpreter::run(const Line& line) {
   if (state_.diameter_mode || words_.g(GGroup::diameter) != kNoCode) take_diameters();
   if (readable && plain_move()) return motion();
   if (!readable || !polar_words() || !check()) return recover(false);
+  if (compensation_.active()) return execute_compensated();
   execute();
 }
 
 /// True for a line of nothing but axis words under G0 or G1. Most lines of most programs are such; they pass
 /// by the checks and settings that can't concern them.
 bool Interpreter::plain_move() const {
-  if (!words_.only_moves() || (words_.present & ~axes_on_machine_) != 0 || state_.uncertain.motion)
+  if (!words_.only_moves() || (words_.present & ~axes_on_machine_) != 0 || state_.uncertain.motion ||
+      compensation_.active())
     return false;
   const Motion motion = motion_of_line();
   return motion == Motion::feed || motion == Motion::traverse;
@@ -79,6 +85,7 @@ void Interpreter::apply_modes() {
   feed_rate();
   plane();
   units();
+  compensation();
   work_system();
   distance_mode();
 }
@@ -98,6 +105,7 @@ void Interpreter::recover(bool syntax) {
   if (nurbs_.open) nurbs_.faulty = true;
   if (words_.refused_motion || (syntax && words_.g(GGroup::motion) == kNoCode)) uncertain.motion = true;
   if (syntax) uncertain.feed = true;
+  if (syntax || words_.has_axis() || (words_.present & letter_bits("IJK")) != 0) compensation_.lose();
   for (const Item& item : line_->items) {
     if (item.kind == ItemKind::setting || item.kind == ItemKind::unread) uncertain.parameters = true;
   }
@@ -144,6 +152,12 @@ void Interpreter::simple_block(BlockKind kind, Span span) {
 
 void Interpreter::emit(Block& block) {
   if (silent_ || ended_) return;
+  if (compensation_.active()) return compensate(block);
+  hand_out(block);
+}
+
+void Interpreter::hand_out(Block& block) {
+  if (ended_) return;
   if (options_.bounds.blocks != 0 && blocks_ >= options_.bounds.blocks) {
     error(problem(Code::too_many_blocks, block.span, fmt::format("block {} would begin here", blocks_ + 1),
                   fmt::format("allowed are {} (--limit blocks=N)", options_.bounds.blocks)));

@@ -7,6 +7,7 @@
 
 #include "gcode/advice.h"
 #include "gcode/arc.h"
+#include "gcode/compensation.h"
 #include "gcode/gcode.h"
 #include "gcode/report.h"
 #include "gcode/state.h"
@@ -214,8 +215,20 @@ class Interpreter {
   std::string stock_text() const;
   void keep_probe_result(const Block& block);
 
-  // compensation.cpp: G40 G41 G42 G41.1 G42.1
+  // compensation_codes.cpp: G40 G41 G42 G41.1 G42.1
   void compensation();
+  void compensation_off();
+  bool find_compensation_tool(CompensationTool& tool);
+  const Tool* compensation_table_entry();
+  void execute_compensated();
+  void compensate(const Block& block);
+  void report_compensation_fault(const CompensationFault& fault, Span span);
+
+  // compensation_checks.cpp: what may not stand while compensation is on
+  void check_compensation();
+  void check_compensation_words();
+  void check_while_compensating(bool until_now, bool from_now);
+  void refuse_while_compensating(Span span, std::string_view name, std::string_view what);
 
   // inputs.cpp: M62 to M68
   void inputs_and_outputs();
@@ -238,6 +251,7 @@ class Interpreter {
   void apply_modes();
   void recover(bool syntax);
   void emit(Block& block);
+  void hand_out(Block& block);
   Block make_block(BlockKind kind, Span span) const;
   void simple_block(BlockKind kind, Span span);
   Span line_span() const;
@@ -254,6 +268,9 @@ class Interpreter {
   Block motion_block_;
   std::optional<CallRequest> call_;
   std::optional<Span> place_;  ///< of blocks while modes are restored
+  Compensation compensation_;
+  Span compensation_span_;               ///< the G41 or G42 in force
+  std::size_t compensation_faults_ = 0;  ///< told on this line
   const Line* line_ = nullptr;
   Nurbs nurbs_;
   double spline_i_mm_ = 0;  ///< from the start to the first control point of a G5 without I and J

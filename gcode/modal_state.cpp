@@ -37,9 +37,9 @@ std::string differing_words(const ModalState& now, const ModalState& saved) {
   }
   const bool speed_told = saved.constant_surface_speed && !now.constant_surface_speed;
   differ(now.spindle_rpm != saved.spindle_rpm && !speed_told, fmt::format("S{:.9f} ", saved.spindle_rpm));
-  differ(now.spindle_turns != saved.spindle_turns, saved.spindle_turns > 0   ? "M3 "
-                                                   : saved.spindle_turns < 0 ? "M4 "
-                                                                             : "M5 ");
+  differ(now.turning != saved.turning, saved.spindle_turns > 0   ? "M3 "
+                                       : saved.spindle_turns < 0 ? "M4 "
+                                                                 : "M5 ");
   differ(now.plane != saved.plane, plane_word(saved.plane));
   differ(now.diameter_mode != saved.diameter_mode, saved.diameter_mode ? "G7 " : "G8 ");
   differ(now.compensation_code != saved.compensation_code && saved.compensation_code == 400, "G40 ");
@@ -73,7 +73,7 @@ ModalState Interpreter::modes() const {
   modes.path_tolerance = state_.path_tolerance_mm / state_.length_factor();
   modes.feed_number = state_.feed_number;
   modes.spindle_rpm = state_.spindle_rpm;
-  modes.spindle_turns = state_.spindle_turns;
+  modes.turning = state_.turning;
   modes.work_system = state_.work_system;
   modes.compensation_code = state_.compensation_code;
   return modes;

@@ -159,6 +159,7 @@ void Interpreter::move_to(const AxisValues& end) {
 void Interpreter::straight(Motion motion) {
   Block& block = motion_block_;
   const bool feed = motion == Motion::feed;
+  state_.straight_move_due = false;
   const bool ready = !feed || feed_ready();
   block.kind = feed ? BlockKind::feed : BlockKind::traverse;
   block.span = action_span();

@@ -30,6 +30,12 @@ AxisValues State::to_program(const AxisValues& machine) const {
   return at;
 }
 
+AxisValues State::tool_point() const {
+  AxisValues at = position;
+  for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] += tool_shift[a];
+  return at;
+}
+
 AxisValues State::rotated(AxisValues vector) const {
   if (rotation_deg == 0) return vector;
   const double x = vector[0], y = vector[1];

@@ -113,7 +113,7 @@ struct ModalState {
   double path_tolerance = 0;  ///< in the units in force then
   double feed_number = 0;     ///< F as written
   double spindle_rpm = 0;
-  int spindle_turns = 0;
+  Turning turning = Turning::stopped;
   int work_system = 1;
   int compensation_code = 400;
 };
@@ -129,7 +129,8 @@ struct CallLevel {
 
 /// All that a line of a program depends on besides its own words.
 struct State {
-  AxisValues position{};     ///< controlled point, machine coordinates, mm and deg
+  AxisValues position{};     ///< controlled point as programmed, machine coordinates, mm and deg
+  AxisValues tool_shift{};   ///< of the tool's centre from there under cutter compensation
   AxisValues work_offset{};  ///< of the work system in force
   AxisValues g92_offset{};   ///< in force
   AxisValues tool_offset{};  ///< G43 in force
@@ -157,7 +158,7 @@ struct State {
 
   bool retract_to_start = false;        ///< G98: cycles go back to where they began, not to R (G99, at start)
   bool diameter_mode = false;           ///< G7
-  int compensation_code = 400;          ///< ten times the G number
+  int compensation_code = 400;          ///< 400 off, 410 left, 420 right
   bool constant_surface_speed = false;  ///< G96
 
   double spindle_rpm = 0;  ///< S as written, under G96 a surface speed
@@ -174,6 +175,7 @@ struct State {
     const Tool* entry = tools.find(tool);
     return entry ? entry->pocket : 0;
   }
+  bool straight_move_due = false;  ///< no arc may follow G40
 
   std::vector<double> parameters = std::vector<double>(parameter::kLast + 1, 0.0);
   Names names;                         ///< of parameters and of labels of O words
@@ -184,6 +186,8 @@ struct State {
   bool value_returned = false;
   Uncertain uncertain;
 
+  /// G41 or G42 holds, also with a radius of 0.
+  bool compensating() const { return compensation_code != 400; }
   int call_level() const { return static_cast<int>(levels.size()) - 1; }
   double length_factor() const { return inches ? kMillimetresPerInch : 1.0; }
   /// A value of an axis word in mm or deg.
@@ -212,9 +216,11 @@ struct State {
   double axis_to_program(std::size_t a, double machine) const {
     return machine - work_offset[a] - tool_offset[a] - g92_offset[a];
   }
+  /// Where the controlled point really is: beside `position` under cutter compensation.
+  AxisValues tool_point() const;
   /// Program coordinate in program units, as parameters 5420.. and messages give it.
   double program_position(int axis) const {
-    return to_program_units(axis, to_program(position)[static_cast<std::size_t>(axis)]);
+    return to_program_units(axis, to_program(tool_point())[static_cast<std::size_t>(axis)]);
   }
 };
 

@@ -362,8 +362,8 @@ void write_files(const fs::path& folder, const TestProgram& program) {
   for (const auto& [name, text] : program.files) std::ofstream(folder / name) << text;
 }
 
-/// The stand-alone rs274 takes the lengths of its table as inches, the diameter as it stands.
-std::string oracle_table(const ToolTable& table) {
+/// The stand-alone rs274 takes the lengths of its table as inches.
+std::string oracle_table(const ToolTable& table, double diameter_unit_mm) {
   std::string text;
   for (const Tool& tool : table.tools) {
     text += fmt::format("T{} P{}", tool.number, tool.pocket);
@@ -374,8 +374,8 @@ std::string oracle_table(const ToolTable& table) {
       text +=
           fmt::format(" {}{:.12f}", letter, is_rotary_letter(letter) ? offset : offset / kMillimetresPerInch);
     }
-    text += fmt::format(" D{:.12f} I{:.6f} J{:.6f} Q{}\n", tool.diameter_mm, tool.front_angle_deg,
-                        tool.back_angle_deg, tool.orientation);
+    text += fmt::format(" D{:.12f} I{:.6f} J{:.6f} Q{}\n", tool.diameter_mm / diameter_unit_mm,
+                        tool.front_angle_deg, tool.back_angle_deg, tool.orientation);
   }
   return text;
 }
@@ -575,7 +575,7 @@ std::string find_rs274() {
 Trace oracle_trace(const std::string& rs274, const TestProgram& program) {
   const TemporaryFolder folder;
   write_files(folder.path(), program);
-  std::ofstream(folder.path() / "tools.tbl") << oracle_table(program.tools);
+  std::ofstream(folder.path() / "tools.tbl") << oracle_table(program.tools, program.diameter_unit_mm);
   std::ofstream(folder.path() / "parameters.var") << "";
   // HOME: rs274 maps its tool table to a file there, which other runs must not share
   // the trace comes by standard output, errors by standard error

@@ -34,6 +34,9 @@ struct Trace {
 struct TestProgram {
   std::string text;
   ToolTable tools;
+  /// The stand-alone rs274 takes the diameters of its table as inches where it compensates (25.4 here) and as
+  /// they stand in #5410 (1).
+  double diameter_unit_mm = 1;
   std::map<std::string, std::string> files;  ///< name ("sub.ngc") and text, in the program's folder
 };
 
