@@ -37,9 +37,9 @@ std::string differing_words(const ModalState& now, const ModalState& saved) {
   }
   const bool speed_told = saved.constant_surface_speed && !now.constant_surface_speed;
   differ(now.spindle_rpm != saved.spindle_rpm && !speed_told, fmt::format("S{:.9f} ", saved.spindle_rpm));
-  differ(now.turning != saved.turning, saved.spindle_turns > 0   ? "M3 "
-                                       : saved.spindle_turns < 0 ? "M4 "
-                                                                 : "M5 ");
+  differ(now.turning != saved.turning, saved.turning == Turning::clockwise          ? "M3 "
+                                       : saved.turning == Turning::counterclockwise ? "M4 "
+                                                                                    : "M5 ");
   differ(now.plane != saved.plane, plane_word(saved.plane));
   differ(now.diameter_mode != saved.diameter_mode, saved.diameter_mode ? "G7 " : "G8 ");
   differ(now.compensation_code != saved.compensation_code && saved.compensation_code == 400, "G40 ");

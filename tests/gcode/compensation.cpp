@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gcode/arc.h"
 #include "machine/base/numbers.h"
 #include "support.h"
 
