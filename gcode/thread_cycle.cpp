@@ -13,6 +13,8 @@ namespace {
 constexpr double kLargestCount = 1e6;
 constexpr double kMostPasses = 10'000;
 constexpr double kRightAngle_deg = 90;
+/// LinuxCNC marks a Q that was not written with this value, so it takes Q-1 for none.
+constexpr double kNoAngle_deg = -1;
 constexpr double kRadiansPerDegree = kPi / 180;
 constexpr std::size_t kX = 0, kZ = 2, kFirstOther = 3;
 constexpr int kEntryTaper = 1, kExitTaper = 2;
@@ -120,7 +122,8 @@ bool Interpreter::thread_shape(ThreadShape& shape, const AxisValues& end) {
   shape.height = words_.value('K') * per_radius;
   shape.pitch_u_rev = words_.value('P');
   shape.degression = std::max(1.0, word('R', 1));
-  const SinCos angle = exact_sincos(word('Q', 0) * kRadiansPerDegree);
+  const double angle_deg = word('Q', 0) == kNoAngle_deg ? 0 : word('Q', 0);
+  const SinCos angle = exact_sincos(angle_deg * kRadiansPerDegree);
   const bool upwards = shape.end_z > shape.start_z;
   shape.slope = (upwards ? -1 : 1) * angle.sin / angle.cos;
   if (words_.has('H')) near_integer(words_.value('H'), shape.spring_passes);
@@ -148,6 +151,7 @@ void Interpreter::warn_thread(const ThreadShape& shape) {
   };
   warn_pitch('P');
   if (words_.has('R') && words_.value('R') < 1) warn('R', "a degression below 1 is taken as 1");
+  if (words_.has('Q') && words_.value('Q') == kNoAngle_deg) warn('Q', "Q-1 is taken as no angle at all");
   if (words_.has('E') && words_.value('E') < 0) warn('E', "a taper below 0 is taken as none");
   const double length = std::fabs(shape.end_z - shape.start_z);
   const bool tapers = shape.entry_taper || shape.exit_taper;

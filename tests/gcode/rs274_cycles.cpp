@@ -30,8 +30,10 @@ class CyclePrograms {
   std::string number(double low, double high, int decimals = 3) {
     return fmt::format("{:.{}f}", random_.real(low, high), decimals);
   }
-  /// Numbers that depths are often multiples of, so that the last peck ends where the hole does.
+  /// Numbers that depths are often multiples of, so that the last peck ends where the hole does. Under G91
+  /// levels are sums: whether an empty peck follows hangs on their last bit, which both sides need not share.
   std::string step() {
+    if (incremental_) return number(0.2, 3, 4);
     static const char* const kSteps[] = {"0.1", "0.25", "0.3", "0.5", "0.7", "1", "1.1", "1.25", "2", "3"};
     return kSteps[random_.below(std::size(kSteps))];
   }
@@ -39,14 +41,40 @@ class CyclePrograms {
 
   void between() {
     static const char* const kLines[] = {
-        "G98",         "G99",       "G98",      "G99",
-        "G61",         "G61.1",     "G64",      "G64 P0.05",
-        "M49",         "M48",       "M50 P0",   "M51 P0",
-        "G80",         "G0",        "G94 F250", "S1200",
-        "G4 P0.1",     "(comment)", "M8",       "G10 L2 P1 X1",
-        "G92 X1 Z0.5", "G92.1",     "G43.1 Z2", "G49",
-        "G55",         "G54",       "G28",      "#1=3",
-        "G95 F0.2",    "G94 F300",  "G30 Z1",   "G10 L20 P2 X5 Y1",
+        "G98",
+        "G99",
+        "G98",
+        "G99",
+        "G61",
+        "G61.1",
+        "G64",
+        "G64 P0.05",
+        "M49",
+        "M48",
+        "M50 P0",
+        "M51 P0",
+        "G80",
+        "G0",
+        "G94 F250",
+        "S1200",
+        "G4 P0.1",
+        "(comment)",
+        "M8",
+        "G10 L2 P1 X1",
+        "G10 L2 P1 R30 X2",
+        "G10 L2 P1 R0",
+        "G92 X1 Z0.5",
+        "G92.1",
+        "G43.1 Z2",
+        "G49",
+        "G55",
+        "G54",
+        "G28",
+        "#1=3",
+        "G95 F0.2",
+        "G94 F300",
+        "G30 Z1",
+        "G10 L20 P2 X5 Y1",
     };
     for (std::uint64_t n = random_.below(4); n > 0; --n) line(kLines[random_.below(std::size(kLines))]);
     if (random_.chance(0.3)) line(random_.chance(0.5) ? "G91" : "G90 G0 X" + number(-9, 9));
