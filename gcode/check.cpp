@@ -75,6 +75,7 @@ bool Interpreter::check() {
   check_values();
   if (motion_of_line() > Motion::nurbs && moves()) check_motion_words();
   check_tools();
+  check_functions();
   check_shared_p();
   if (state_.compensating() || words_.g(GGroup::compensation) != kNoCode) check_compensation();
   return report_.errors() == errors;

@@ -54,7 +54,9 @@ void Interpreter::override_block(BlockKind kind, bool enabled) {
 void Interpreter::dwell() {
   if (words_.g(GGroup::nonmodal) != 40) return;
   Block block = make_block(BlockKind::dwell, g_span(GGroup::nonmodal));
-  block.dwell_s = words_.value('P');
+  // Marlin and Fanuc controls count P in milliseconds
+  const bool milliseconds = options_.dialect == Dialect::marlin || options_.dialect == Dialect::fanuc;
+  block.dwell_s = words_.value('P') * (milliseconds ? 1e-3 : 1.0);
   emit(block);
 }
 
@@ -68,6 +70,13 @@ void Interpreter::call() {
   if (words_.has('P') && near_integer(words_.value('P'), whole)) request.number = whole;
   if (words_.has('L') && near_integer(words_.value('L'), whole))
     request.repeats = static_cast<std::uint64_t>(whole);
+  if (options_.dialect == Dialect::fanuc && !words_.has('L')) {
+    // P30004 calls O4 three times
+    constexpr std::int64_t kProgramNumbers = 10'000;
+    const std::int64_t repeats = request.number / kProgramNumbers;
+    request.number %= kProgramNumbers;
+    if (repeats > 0) request.repeats = static_cast<std::uint64_t>(repeats);
+  }
   call_ = request;
 }
 

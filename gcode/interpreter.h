@@ -232,6 +232,11 @@ class Interpreter {
 
   // inputs.cpp: M62 to M68
   void inputs_and_outputs();
+  void wait_input();
+  void check_functions();
+  void check_inputs();
+  void check_wait();
+  void check_dwell_words();
 
   // polar.cpp: @ and ^, X as a diameter
   bool polar_words();

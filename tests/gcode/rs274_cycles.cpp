@@ -23,7 +23,9 @@ class CyclePrograms {
       between();
       cycles();
     }
-    return {text + text_ + "M2\n", {}, {}};
+    TestProgram program;
+    program.text = text + text_ + "M2\n";
+    return program;
   }
 
  private:

@@ -35,7 +35,9 @@ class ThreadPrograms {
           break;
       }
     }
-    return {text_ + "M2\n", {}, {}};
+    TestProgram program;
+    program.text = text_ + "M2\n";
+    return program;
   }
 
  private:

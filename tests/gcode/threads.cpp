@@ -171,7 +171,7 @@ TEST_CASE("G76 is refused without its words, with impossible depths and with oth
   // accepted, with a warning
   CHECK(only_code(head + "G76 P1 Z-20 I-2 J0.5 K1 R0.5\nM2\n") == Code::thread_unusual);
   CHECK(only_code(head + "G76 P1 Z-20 I-2 J0.5 K1 E15 L1\nM2\n") == Code::thread_unusual);
-  CHECK(only_code(head + "G76 P1 Z-20 I-2 J0.5 K1 Q-1\n") == Code::thread_unusual);
+  CHECK(only_code(head + "G76 P1 Z-20 I-2 J0.5 K1 Q-1\nM2\n") == Code::thread_unusual);
   CHECK(only_code(head + "G17\nG76 P1 Z-20 I-2 J0.5 K1\nM2\n") == Code::thread_unusual);
 }
 

@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include "gcode/interpreter.h"
+
+/// May these words of outputs, inputs, spindle and modal state stand together?
+namespace kadr::gcode {
+namespace {
+
+constexpr double kLargestChannel = 9999;
+constexpr double kLastWaitMode = 4;
+
+}  // namespace
+
+void Interpreter::check_functions() {
+  if (words_.m(MGroup::inputs) != kNoCode) check_inputs();
+  // one spindle: $0, and $-1, which means all
+  if (words_.has('$') && (words_.has('S') || words_.m(MGroup::spindle) != kNoCode)) check_whole('$', -1, 0);
+  check_dwell_words();
+  const int spindle_code = words_.m(MGroup::spindle);
+  const int state_code = words_.m(MGroup::modal_state);
+  if (spindle_code == kNoCode || state_code == kNoCode) return;
+  error(problem(Code::modal_conflict, words_.span(*line_, MGroup::modal_state),
+                fmt::format("M{} and M{} exclude each other on one line", spindle_code, state_code)));
+}
+
+void Interpreter::check_dwell_words() {
+  if (words_.g(GGroup::nonmodal) != 40) return;
+  const std::string_view seconds = options_.dialect == Dialect::marlin  ? "S"
+                                   : options_.dialect == Dialect::fanuc ? "XU"
+                                                                        : "";
+  for (const char letter : seconds) {
+    if (!words_.has(letter)) continue;
+    error(problem(Code::word_not_run, words_.span(*line_, letter),
+                  fmt::format("kadr does not run G4 {}", letter), "write G4 P and the milliseconds"));
+  }
+}
+
+void Interpreter::check_inputs() {
+  const int code = words_.m(MGroup::inputs);
+  const Span span = words_.span(*line_, MGroup::inputs);
+  if (code == 66) return check_wait();
+  const bool analog = code >= 67;
+  const std::string name = fmt::format("M{}", code);
+  if (analog) {
+    require_words({{'E', "the number of the output"}, {'Q', "its value"}}, span, name);
+    check_whole('E', 0, kLargestChannel);
+  } else {
+    require_words({{'P', "the number of the output"}}, span, name);
+    check_whole('P', 0, kLargestChannel);
+  }
+}
+
+void Interpreter::check_wait() {
+  const Span span = words_.span(*line_, MGroup::inputs);
+  if (words_.has('P') == words_.has('E')) {
+    error(problem(Code::input_unclear, span,
+                  words_.has('P') ? "both P (digital) and E (analog) name an input"
+                                  : "neither P (digital) nor E (analog) names an input"));
+    return;
+  }
+  check_whole('P', 0, kLargestChannel);
+  check_whole('E', 0, kLargestChannel);
+  if (!words_.has('L') || !check_whole('L', 0, kLastWaitMode)) return;
+  const bool waits = words_.value('L') > 0.5;
+  if (waits && words_.has('E')) {
+    error(problem(Code::input_unclear, words_.span(*line_, 'L'),
+                  "an analog input can only be read at once: L0"));
+  } else if (waits && !(words_.has('Q') && words_.value('Q') > 0)) {
+    error(problem(Code::input_unclear, words_.span(*line_, 'L'),
+                  "a wait needs Q above 0: the seconds after which it is given up"));
+  }
+}
+
+}  // namespace kadr::gcode
