@@ -127,7 +127,9 @@ void Interpreter::run_words(const std::string& words, Span place) {
   own.text = words;
   Parser(state_.names, report_).parse(own);
   place_ = place;
+  report_.set_place(place);
   run(own);
+  report_.set_place(std::nullopt);
   place_.reset();
   words_ = kept;
   line_ = line;

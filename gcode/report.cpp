@@ -8,6 +8,7 @@ namespace kadr::gcode {
 
 void Report::error(Diagnostic d) {
   ++errors_;
+  if (place_) d.span = *place_;
   if (full() || !first_time(d)) return;
   ++told_errors_;
   d.severity = Severity::error;
@@ -15,6 +16,7 @@ void Report::error(Diagnostic d) {
 }
 
 void Report::warning(Diagnostic d) {
+  if (place_) d.span = *place_;
   if (warnings_ > kMaxWarnings) {
     // only counted: remembering their places would take memory without bound
     ++warnings_;

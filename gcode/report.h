@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -30,6 +31,10 @@ class Report {
   /// diagnostic from now on carries them. Null: none. The vector must outlive its use here.
   void set_call_chain(const std::vector<Span>* chain) { chain_ = chain; }
 
+  /// Where everything told from now on stands, whatever place it names itself: for words that kadr runs on
+  /// the program's behalf and that stand nowhere in its text. Nothing: its own place again.
+  void set_place(std::optional<Span> place) { place_ = place; }
+
   /// Errors found, repeated ones included: grows with every call of error().
   std::size_t errors() const { return errors_; }
   /// True as soon as reading on is of no use.
@@ -44,6 +49,7 @@ class Report {
   using Key = std::tuple<Code, std::uint32_t, std::uint32_t, std::uint32_t>;
   Diagnostics& diagnostics_;
   const std::vector<Span>* chain_ = nullptr;
+  std::optional<Span> place_;
   std::set<Key> told_;  ///< code and place; as bounded as the diagnostics
   std::size_t errors_ = 0;
   std::size_t told_errors_ = 0;

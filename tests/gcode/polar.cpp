@@ -89,3 +89,12 @@ TEST_CASE("M73 gives the modes back at the return, M70 in a sub is that sub's ow
   CHECK(x_of("O1 sub\nM70\nG91 G20\nO1 endsub\nO1 call\nG0 X1\nX2\nM2\n") == 3 * 25.4);
   CHECK(x_of("O1 sub\nM70\nG91\nM72\nO1 endsub\nG91\nM70\nG90\nO1 call\nM72\nG0 X1\nX2\nM2\n") == 3);
 }
+
+TEST_CASE("what goes wrong while modes are restored is told at the word that restores them") {
+  // kept under G18 and given back under G17, with compensation on both times: the plane may not change there
+  const Outcome refused = run(
+      "G18 F100\nG41.1 D2\nG1 X20\nM70\nG40\nG17 G1 X50\nG41.1 D2\nG1 X90\n  M72\nG1 X99\nG40\nG0 Y9\nM2\n");
+  CAPTURE(refused.rendered);
+  REQUIRE(refused.diagnostics.has_errors());
+  CHECK(refused.diagnostics.list().front().span == Span{0, 9, 3, 3});
+}
