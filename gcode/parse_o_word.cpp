@@ -51,10 +51,19 @@ Arguments arguments_of(FlowWord word) {
 
 bool Parser::parse_o_word() {
   const std::uint32_t begin = cursor_.at() - 1;
+  bool numbered = false;
   for (const Item& item : line_->items) {
+    if (item.kind == ItemKind::word && item.letter == 'N') {
+      if (numbered) {
+        line_->has_flow = true;
+        return fail(Code::line_number_place, item.bytes, "N is not the first word",
+                    "a line number stands at the head of its line");
+      }
+      numbered = true;
+      continue;
+    }
     const bool may_stand_before = item.kind == ItemKind::block_delete || item.kind == ItemKind::comment ||
-                                  item.kind == ItemKind::byte_order_mark ||
-                                  (item.kind == ItemKind::word && item.letter == 'N');
+                                  item.kind == ItemKind::byte_order_mark;
     if (may_stand_before) continue;
     return fail(Code::o_word_place, {begin, begin + 1}, "O is not the first word",
                 "an O word stands alone on its line; if a zero was meant, write 0");
