@@ -164,6 +164,8 @@ void Formatter::add(const Line& line) {
 
 void Formatter::keep(std::string_view text) {
   flush();
+  // each carriage return before the line end would be taken for a part of it the next time
+  while (!text.empty() && text.back() == '\r') text.remove_suffix(1);
   out_ += text;
   out_ += '\n';
 }
@@ -355,9 +357,7 @@ bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& d
   std::string_view rest = source.text().substr(std::min(last.offset, source.text().size()));
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    std::string_view text = rest.substr(0, end);
-    if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
-    formatter.keep(text);
+    formatter.keep(rest.substr(0, end));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   report.close({file, last.line, 1, 1});
