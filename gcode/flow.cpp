@@ -173,7 +173,7 @@ void Flow::leave_loop(int index) {
 void Flow::repeat(const Line& line, int index) {
   double wanted = 0;
   const bool known = argument(line, wanted);
-  const double rounded = std::floor(wanted + 0.5);
+  const double rounded = std::nearbyint(wanted);  // 0.5 is no pass, 1.5 are two: to the even number
   if (!known || !(rounded >= 1)) return unit_->program.go_to(at(at(index).end).after);
   const double most = 9e18;
   repeats_.push_back({index, static_cast<std::uint64_t>(std::min(rounded, most)), calls_.size()});
