@@ -72,6 +72,7 @@ std::string wait_text(const Block& b) {
 std::string spindle_text(const Block& b) {
   switch (b.kind) {
     case BlockKind::spindle_speed:
+      if (b.surface_speed_m_min > 0) return fmt::format("surface speed {:.6g} m/min", b.surface_speed_m_min);
       return fmt::format("spindle speed {:.6g} rpm", b.value);
     case BlockKind::spindle_clockwise:
       return fmt::format("spindle clockwise {:.6g} rpm", b.value);
@@ -80,15 +81,14 @@ std::string spindle_text(const Block& b) {
     case BlockKind::spindle_stop:
       return "spindle stop";
     case BlockKind::sync_start:
-      return fmt::format("feed follows the spindle, {:.6g} mm per turn by its {}", b.value,
-                         b.number == 0 ? "angle" : "speed");
+      return fmt::format("feed follows the spindle's angle, {:.6g} mm per turn", b.value);
     case BlockKind::sync_stop:
       return "feed no longer follows the spindle";
     default:
       break;
   }
-  if (!(b.value > 0)) return "spindle at constant speed";
-  const std::string text = fmt::format("constant surface speed {:.6g} m/min", b.value);
+  if (!(b.surface_speed_m_min > 0)) return "spindle at constant speed";
+  const std::string text = fmt::format("constant surface speed {:.6g} m/min", b.surface_speed_m_min);
   return b.maximum_rpm > 0 ? text + fmt::format(", at most {:.6g} rpm", b.maximum_rpm) : text;
 }
 
@@ -145,10 +145,11 @@ double event_value(const Block& b) {
   switch (b.kind) {
     case BlockKind::dwell:
       return b.dwell_s;
+    case BlockKind::spindle_mode:
+      return b.surface_speed_m_min;
     case BlockKind::spindle_speed:
     case BlockKind::spindle_clockwise:
     case BlockKind::spindle_counterclockwise:
-    case BlockKind::spindle_mode:
     case BlockKind::sync_start:
     case BlockKind::analog_output:
     case BlockKind::wait_input:

@@ -50,9 +50,9 @@ void ProgramReader::take_event(const Block& block) {
   if (waits_for_motion(block)) return keep_output(block);
   if (block.kind == BlockKind::wait_input) return take_wait(block);
   if (block.kind == BlockKind::sync_start) {
-    sync_by_angle_ = block.number == 0;
+    sync_by_angle_ = true;
     // a thread begins at rest, where the spindle's index is waited for; one that goes on does not stop
-    if (sync_by_angle_ && !moved_by_angle_) builder_.stop();
+    if (!moved_by_angle_) builder_.stop();
   }
   if (block.kind == BlockKind::sync_stop) sync_by_angle_ = false;
   if (needs_rest(block)) builder_.stop();

@@ -97,6 +97,11 @@ TEST_CASE("splines are read in the units, distances and work system in force") {
   CHECK(inches.feed_u_s == doctest::Approx(25.4));
   const Block incremental = spline_of("G91 F60\nG1 X1 Y1\nG5 X1 Y2 I0 J3 P0 Q-3\n");
   check_point(incremental, 2, 2, 0);
+  // a quarter turn of G54: program (x, y) is machine (-y, x)
+  const Block turned = spline_of("G10 L2 P1 R90 X100\nF60\nG5 X10 Y20 I3 J4 P-5 Q6\n");
+  check_point(turned, 1, 0 + -4, 0 + 3);
+  check_point(turned, 2, 100 - 26, 5);
+  check_point(turned, 3, 100 - 20, 10);
   // points of a NURBS under G91 all count from the position before it
   const Block nurbs = spline_of("F60\nG0 X1\nG91\nG5.2 P1\nX1 Y1 P1\nX2 Y0 P1\nG5.3\n");
   check_point(nurbs, 1, 2, 1);
