@@ -96,7 +96,17 @@ bool Evaluator::read(const Line& line, const Node& node, const State& state, dou
                             parameter::kLast));
   }
   value = read_parameter(state, number);
+  const bool own = number >= parameter::kOwnFirst && number <= parameter::kOwnLast;
+  if (own && !state.parameters_set[static_cast<std::size_t>(number)])
+    tell_never_set(line, node, state, number);
   return true;
+}
+
+void Evaluator::tell_never_set(const Line& line, const Node& node, const State& state, int number) {
+  if (report_ == nullptr || state.uncertain.parameters || !told_.insert(number).second) return;
+  report_->warning(problem(Code::parameter_never_set, line.span(node.own),
+                           fmt::format("#{} is 0, because nothing has set it", number),
+                           "set it at the head of the program, or correct the number"));
 }
 
 bool Evaluator::read_named(const Line& line, const Node& node, const State& state, double& value) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <set>
 #include <vector>
 
 #include "gcode/report.h"
@@ -27,7 +28,10 @@ class Evaluator {
   bool read_named(const Line& line, const Node& node, const State& state, double& value);
   bool fail(Code code, Span span, std::string label);
 
+  void tell_never_set(const Line& line, const Node& node, const State& state, int number);
+
   std::vector<double> values_;  ///< [nodes of the line]
+  std::set<int> told_;          ///< parameters told as never set
   Report* report_ = nullptr;
   bool doubtful_ = false;
 };

@@ -38,6 +38,27 @@ void Flow::run() {
     return error(problem(Code::sub_without_end, head.span, "no M99 follows",
                          "end the subroutine with M99, or the program with M2 or M30"));
   }
+  if (interpreter_.ended() && straight_ && report_.errors() == 0) tell_words_behind_end();
+}
+
+/// The end of a program without O words is the end of all of it.
+void Flow::tell_words_behind_end() {
+  Program::Position at = unit_->program.position();
+  std::string_view rest = sources_[file_].text().substr(at.offset);
+  const std::string_view end = sources_[file_].line(end_.line);
+  // a closing % ends what is read: anything may follow it
+  if (end.find('%') != std::string_view::npos) return;
+  for (; !rest.empty(); ++at.line) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string_view::npos || line[first] == '(' || line[first] == ';') continue;
+    if (line[first] == '%') return;
+    const auto column = static_cast<std::uint32_t>(first) + 1;
+    Diagnostic d = problem(Code::words_behind_end, {file_, at.line, column, 1}, "never reached");
+    d.notes.push_back(fmt::format("the program ends in line {}", end_.line));
+    return report_.warning(std::move(d));
+  }
 }
 
 void Flow::step(const Line& line) {
@@ -67,7 +88,8 @@ bool Flow::add_unit(std::uint32_t file, std::string name) {
   Unit& unit = *units_.back();
   // a file that is called holds a subroutine, even if its O word looks like a program number
   const bool is_main = unit.name.empty();
-  if (is_main && !unit.program.has_o_words()) return true;
+  straight_ = is_main && !unit.program.has_o_words();
+  if (straight_) return true;
   return unit.structure.read(unit.program, options_.block_delete, state_.names, report_);
 }
 

@@ -45,6 +45,7 @@ class Flow {
 
   bool add_unit(std::uint32_t file, std::string name);
   bool size_allowed(std::uint32_t file);
+  void tell_words_behind_end();
   void step(const Line& line);
   void statement(const Line& line);
   void branch(const Line& line, int index);
@@ -90,6 +91,7 @@ class Flow {
   std::vector<Repeat> repeats_;
   std::uint64_t passes_ = 0;
   Span end_;
+  bool straight_ = false;  ///< no O words: nothing leads behind the program's end
   bool stopped_ = false;
 };
 

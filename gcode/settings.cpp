@@ -10,7 +10,9 @@ void Interpreter::parameters() {
     if (setting.name >= 0) {
       set_named(state_, setting.name, setting.value);
     } else {
-      state_.parameters[static_cast<std::size_t>(setting.number)] = setting.value;
+      const auto number = static_cast<std::size_t>(setting.number);
+      state_.parameters[number] = setting.value;
+      state_.parameters_set[number] = true;
     }
   }
 }

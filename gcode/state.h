@@ -39,6 +39,8 @@ constexpr bool is_arc(Motion motion) {
 namespace parameter {
 inline constexpr int kFirst = 1;
 inline constexpr int kLast = 5601;
+inline constexpr int kOwnFirst = 31;  ///< .. kOwnLast: mean what the program makes of them, in every call
+inline constexpr int kOwnLast = 5000;
 inline constexpr int kG28 = 5161;  ///< .. 5169
 inline constexpr int kG30 = 5181;  ///< .. 5189
 inline constexpr int kProbe =
@@ -178,6 +180,7 @@ struct State {
   bool straight_move_due = false;  ///< no arc may follow G40
 
   std::vector<double> parameters = std::vector<double>(parameter::kLast + 1, 0.0);
+  std::vector<bool> parameters_set = std::vector<bool>(parameter::kLast + 1);  ///< by the program
   Names names;                         ///< of parameters and of labels of O words
   std::vector<double> global_named;    ///< [names], by number of the name
   std::vector<bool> global_named_set;  ///< [names]

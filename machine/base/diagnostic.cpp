@@ -17,8 +17,14 @@ void Diagnostics::add(Diagnostic d) {
 
 namespace {
 
-/// Widest excerpt of a source line that is printed, in code points; longer lines are cut around the caret.
+/// Widest excerpt of a source line that is printed, in terminal columns; longer lines are cut around the
+/// caret.
 constexpr std::size_t kExcerpt = 160;
+
+/// Longest label, note or help, in code points: it may quote a word of any length.
+constexpr std::size_t kLongestText = 400;
+
+constexpr std::size_t kTab_columns = 8;
 
 /// Calls shown from either end of a long chain.
 constexpr std::size_t kCallsShown = 4;
@@ -27,10 +33,40 @@ std::string_view severity_name(Severity severity) {
   return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
 }
 
+/// Columns that a code point takes at most; a mark that takes none counts too, or a line of them had no end.
+std::size_t columns_of(char32_t c) {
+  if (c == U'\t') return kTab_columns;
+  return static_cast<std::size_t>(std::max(display_width(c), 1));
+}
+
+/// Number of bytes at a text's beginning that fit in so many columns.
+std::size_t prefix_bytes(std::string_view text, std::size_t columns) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const CodePoint c = decode_utf8(text, at);
+    const std::size_t needed = columns_of(c.value);
+    if (needed > columns) break;
+    columns -= needed;
+    at += c.bytes;
+  }
+  return at;
+}
+
+std::size_t columns_of(std::string_view text) {
+  std::size_t columns = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const CodePoint c = decode_utf8(text, at);
+    columns += columns_of(c.value);
+    at += c.bytes;
+  }
+  return columns;
+}
+
 /// Text that may quote the user's bytes, safe for one line of a terminal.
 std::string clean(std::string_view text) {
   std::size_t column = 0;
-  return displayable(text, column);
+  const std::size_t kept = text.size() > kLongestText ? prefix_bytes(text, kLongestText) : text.size();
+  return displayable(text.substr(0, kept), column) + (kept < text.size() ? "..." : "");
 }
 
 std::string message_of(const Diagnostic& d) {
@@ -56,31 +92,25 @@ struct Excerpt {
   bool cut_before = false, cut_after = false;
 };
 
-/// Number of bytes that `count` code points take from the text's beginning.
-std::size_t bytes_of(std::string_view text, std::size_t count) {
-  std::size_t at = 0;
-  while (count-- > 0 && at < text.size()) at += decode_utf8(text, at).bytes;
-  return at;
-}
-
 Excerpt excerpt(std::string_view line, const Span& span) {
   const std::size_t begin = std::min<std::size_t>(span.column > 0 ? span.column - 1 : 0, line.size());
   const std::size_t length = std::min<std::size_t>(span.length, line.size() - begin);
   Excerpt e{line.substr(0, begin), line.substr(begin, length), line.substr(begin + length)};
 
   // generated programs have lines of any length: keep what a screen can show round the caret
-  const std::size_t before = count_code_points(e.before);
-  if (before > kExcerpt / 2) {
-    e.before.remove_prefix(bytes_of(e.before, before - kExcerpt / 2));
+  for (std::size_t columns = columns_of(e.before); columns > kExcerpt / 2;) {
+    const CodePoint c = decode_utf8(e.before, 0);
+    columns -= columns_of(c.value);
+    e.before.remove_prefix(c.bytes);
     e.cut_before = true;
   }
-  const std::size_t marked = bytes_of(e.marked, kExcerpt / 2);
+  const std::size_t marked = prefix_bytes(e.marked, kExcerpt / 2);
   if (marked < e.marked.size()) {
     e.marked = e.marked.substr(0, marked);
     e.after = {};
     e.cut_after = true;
   }
-  const std::size_t after = bytes_of(e.after, kExcerpt / 2);
+  const std::size_t after = prefix_bytes(e.after, kExcerpt / 2);
   if (after < e.after.size()) {
     e.after = e.after.substr(0, after);
     e.cut_after = true;

@@ -527,3 +527,11 @@ TEST_CASE("-q leaves out everything but data and errors") {
   CHECK(contains(call({"run", "six.ngc", "-q"}, scratch.path()).err, "6 errors"));
   CHECK(!call({"plan", "square.ngc", "-q"}, scratch.path()).out.empty());
 }
+
+TEST_CASE("an M66 that waits in vain and an output that no motion follows are warnings with a place") {
+  const Scratch scratch;
+  scratch.write("outputs.ngc", "G21 G90\nG1 X10 F600\nM66 P3 L3 Q5\nM63 P1\nM2\n");
+  const Finished check = call({"check", "outputs.ngc", "--format", "human"}, scratch.path());
+  CHECK(check.code == 0);
+  check_golden("check_outputs.txt", check.out);
+}

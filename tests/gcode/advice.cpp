@@ -79,3 +79,12 @@ TEST_CASE("a dwell is long from 100 s on, where P is in seconds") {
   CHECK(codes("G4 P99\nM2\n").empty());
   CHECK(run("G4 P100\nM2\n").diagnostics.list()[0].help == "if milliseconds were meant, write P0.1");
 }
+
+TEST_CASE("a parameter of one's own that is read before it is set is told once") {
+  CHECK(codes("#100=1\nG0 X#100 Y#101 Z[#101+#101]\nG0 X#101\nM2\n") ==
+        std::vector<Code>{Code::parameter_never_set});
+  // set on the line before, values of a subroutine, what the controller sets
+  CHECK(codes("#31=1\nG0 X#31 Y#5 Z#5220 A#5161\nM2\n").empty());
+  // a line that sets a parameter reads its old value
+  CHECK(codes("#40=[#40+1]\nM2\n") == std::vector<Code>{Code::parameter_never_set});
+}

@@ -59,7 +59,16 @@ TEST_CASE("a closing percent sign ends a program without a call, and what follow
 }
 
 TEST_CASE("nothing after M2 or M30 is run") {
-  CHECK(run("G0 X1\nM2\nG0 X2 X3\n").diagnostics.list().empty());
+  const Outcome outcome = run("G0 X1\nM2\n(remark)\n G0 X2 X3\nG0 X5\n");
+  CHECK(outcome.moves().size() == 1);
+  CHECK(outcome.codes() == std::vector<Code>{Code::words_behind_end});
+  CHECK(outcome.diagnostics.list()[0].span == Span{0, 4, 2, 1});
+  // remarks, what follows a closing %, and subroutines
+  for (const std::string text :
+       {"M2\n(a)\n;b\n\n", "M2\n%\nnotes\n", "%\nG0 X1\n%\nnotes\n", "M98 P1\nM2\nO1\nG0 X1\nM99\n"}) {
+    CAPTURE(text);
+    CHECK(run(text).codes().empty());
+  }
   CHECK(run("G0 X1\nM30\nG0 X2\n").moves().size() == 1);
 }
 

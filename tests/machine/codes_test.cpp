@@ -48,6 +48,15 @@ TEST_CASE("codes ascend, none is given twice, and each lies in K1xxx to K5xxx or
   }
 }
 
+TEST_CASE("the long text of a code that a program can cause shows an example") {
+  for (const CodeEntry& e : all_codes()) {
+    const int number = static_cast<int>(e.code);
+    if (number >= 3000) continue;
+    CAPTURE(code_name(e.code));
+    CHECK(e.explanation.find("xample") != std::string_view::npos);
+  }
+}
+
 TEST_CASE("a code has one name and one title of its own") {
   std::set<std::string_view> names, titles;
   for (const CodeEntry& e : all_codes()) {

@@ -125,6 +125,36 @@ TEST_CASE("of a line of 100,000 characters only the part round the caret is show
   CHECK(text.find("\n  | " + std::string(83, ' ') + "^^^ here\n") != std::string::npos);
 }
 
+TEST_CASE(
+    "long lines of tabs, wide characters and combining marks fill no screen, and the caret stands right") {
+  // each of the three parts of an excerpt has 80 columns: 10 tabs, 40 wide characters, 80 marks
+  for (const std::string piece : {"\t", "加", "\xCC\x81", "x"}) {
+    CAPTURE(piece);
+    std::string line;
+    while (line.size() < 60'000) line += piece;
+    const auto column = static_cast<std::uint32_t>(line.size()) + 1;
+    SourceSet sources;
+    const auto file = sources.add(SourceText("p", line + "ERR" + line));
+    const std::string text = render_human(plain({file, 1, column, 3}, "here"), sources);
+    CHECK(text.size() < 800);
+    const std::size_t shown = text.find("1 | ") + 4;
+    const std::size_t caret = text.find("\n  | ", shown) + 5;
+    const std::size_t error = text.find("ERR", shown);
+    std::size_t columns = 0;
+    displayable(std::string_view(text).substr(shown, error - shown), columns);
+    CHECK(text.find('^', caret) - caret == columns);
+  }
+}
+
+TEST_CASE("a label that quotes a word of 60,000 bytes is cut") {
+  SourceSet sources;
+  const auto file = sources.add(SourceText("p", "X"));
+  Diagnostic d = plain({file, 1, 1, 1}, std::string(60'000, '9'));
+  d.help = d.message = d.label;
+  CHECK(render_human(d, sources).size() < 2000);
+  CHECK(render_gcc(d, sources).size() < 1500);
+}
+
 TEST_CASE("a mistake inside a subroutine tells the calls that led there, innermost first") {
   SourceSet sources;
   const auto program = sources.add(SourceText("part.ngc", "(деталь) O<bore> call [5] (hole)\nM2\n"));
