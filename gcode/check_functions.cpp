@@ -15,24 +15,11 @@ void Interpreter::check_functions() {
   if (words_.m(MGroup::inputs) != kNoCode) check_inputs();
   // one spindle: $0, and $-1, which means all
   if (words_.has('$') && (words_.has('S') || words_.m(MGroup::spindle) != kNoCode)) check_whole('$', -1, 0);
-  check_dwell_words();
   const int spindle_code = words_.m(MGroup::spindle);
   const int state_code = words_.m(MGroup::modal_state);
   if (spindle_code == kNoCode || state_code == kNoCode) return;
   error(problem(Code::modal_conflict, words_.span(*line_, MGroup::modal_state),
                 fmt::format("M{} and M{} exclude each other on one line", spindle_code, state_code)));
-}
-
-void Interpreter::check_dwell_words() {
-  if (words_.g(GGroup::nonmodal) != 40) return;
-  const std::string_view seconds = options_.dialect == Dialect::marlin  ? "S"
-                                   : options_.dialect == Dialect::fanuc ? "XU"
-                                                                        : "";
-  for (const char letter : seconds) {
-    if (!words_.has(letter)) continue;
-    error(problem(Code::word_not_run, words_.span(*line_, letter),
-                  fmt::format("kadr does not run G4 {}", letter), "write G4 P and the milliseconds"));
-  }
 }
 
 void Interpreter::check_inputs() {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace kadr::gcode {
@@ -12,5 +13,27 @@ enum class Dialect : std::uint8_t { linuxcnc, grbl, marlin, fanuc };
 std::string_view dialect_name(Dialect dialect);
 /// The dialect of a name, nothing if there is none.
 std::optional<Dialect> dialect_of(std::string_view name);
+
+// what differs, and nothing else; Marlin's G5 stands with the other splines
+
+/// A word of G4 and the seconds that 1 of it means.
+struct DwellWord {
+  char letter;
+  double unit_s;
+};
+/// Of several words on a line the first of these holds.
+std::span<const DwellWord> dwell_words(Dialect dialect);
+
+/// What a G code means in RS-274/NGC, both as ten times their numbers: G70 and G71 of fanuc are G20 and G21.
+int meant_g_code(Dialect dialect, int tenths);
+
+/// What P of M98 calls.
+struct SubprogramCall {
+  std::int64_t number = 0;
+  std::uint64_t repeats = 1;
+};
+/// fanuc: the last four digits of P are the program, those before them the repeats: P30004 runs O4 three
+/// times.
+SubprogramCall subprogram_call(Dialect dialect, std::int64_t p);
 
 }  // namespace kadr::gcode

@@ -51,12 +51,25 @@ void Interpreter::override_block(BlockKind kind, bool enabled) {
   emit(block);
 }
 
+void Interpreter::take_dwell_words() {
+  const DwellWord* taken = nullptr;
+  double dwell_s = 0;
+  for (const DwellWord& word : dwell_words(options_.dialect)) {
+    if (!words_.has(word.letter)) continue;
+    if (taken == nullptr) {
+      taken = &word;
+      dwell_s = words_.value(word.letter) * word.unit_s;
+      words_.stand_in('P', word.letter);
+    }
+    if (word.letter != 'P') words_.remove(word.letter);
+  }
+  if (taken != nullptr) words_.set('P', dwell_s);
+}
+
 void Interpreter::dwell() {
   if (words_.g(GGroup::nonmodal) != 40) return;
   Block block = make_block(BlockKind::dwell, g_span(GGroup::nonmodal));
-  // Marlin and Fanuc controls count P in milliseconds
-  const bool milliseconds = options_.dialect == Dialect::marlin || options_.dialect == Dialect::fanuc;
-  block.dwell_s = words_.value('P') * (milliseconds ? 1e-3 : 1.0);
+  block.dwell_s = words_.value('P');
   emit(block);
 }
 
@@ -67,16 +80,15 @@ void Interpreter::call() {
   request.returns = code == 99;
   request.place = words_.span(*line_, MGroup::call);
   int whole = 0;
-  if (words_.has('P') && near_integer(words_.value('P'), whole)) request.number = whole;
+  if (words_.has('P') && near_integer(words_.value('P'), whole)) {
+    // beside L, all of P is the number
+    const SubprogramCall meant =
+        words_.has('L') ? SubprogramCall{whole} : subprogram_call(options_.dialect, whole);
+    request.number = meant.number;
+    request.repeats = meant.repeats;
+  }
   if (words_.has('L') && near_integer(words_.value('L'), whole))
     request.repeats = static_cast<std::uint64_t>(whole);
-  if (options_.dialect == Dialect::fanuc && !words_.has('L')) {
-    // P30004 calls O4 three times
-    constexpr std::int64_t kProgramNumbers = 10'000;
-    const std::int64_t repeats = request.number / kProgramNumbers;
-    request.number %= kProgramNumbers;
-    if (repeats > 0) request.repeats = static_cast<std::uint64_t>(repeats);
-  }
   call_ = request;
 }
 

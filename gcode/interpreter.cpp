@@ -11,6 +11,7 @@ Interpreter::Interpreter(const InterpretOptions& options, Report& report, const 
       report_(report),
       sink_(sink),
       advice_(state_, options, report),
+      words_(options.dialect),
       compensation_([this](Block& block) { hand_out(block); }) {
   state_.position = options.home;
   write_axis_parameters(state_, parameter::kG28, options.g28);
@@ -33,6 +34,7 @@ void Interpreter::run(const Line& line) {
   started_ = started_ || words_.any;
   if (line.failed) return recover(true);
   if (state_.diameter_mode || words_.g(GGroup::diameter) != kNoCode) take_diameters();
+  if (words_.g(GGroup::nonmodal) == 40 && options_.dialect != Dialect::linuxcnc) take_dwell_words();
   if (readable && plain_move()) return motion();
   if (!readable || !polar_words() || !check()) return recover(false);
   if (compensation_.active()) return execute_compensated();

@@ -236,12 +236,12 @@ class Interpreter {
   void check_functions();
   void check_inputs();
   void check_wait();
-  void check_dwell_words();
 
   // polar.cpp: @ and ^, X as a diameter
   bool polar_words();
   bool resolve_polar();
   void take_diameters();
+  void take_dwell_words();  ///< those of the dialect become P in seconds
 
   // modal_state.cpp: M70 to M73, G7 G8
   void modal_state();

@@ -139,6 +139,7 @@ bool Words::read_g(const Line& line, std::uint32_t at, double value, Report* rep
     const auto nearest = static_cast<int>(tenths_value + 0.5);
     if (std::fabs(tenths_value - nearest) <= kCodeTolerance) tenths = nearest;
   }
+  if (dialect_ != Dialect::linuxcnc) tenths = meant_g_code(dialect_, tenths);
   const GCode code = g_code(tenths);
   if (code.standing != Standing::runs) {
     refused_motion = true;

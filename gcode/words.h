@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gcode/codes.h"
+#include "gcode/dialect.h"
 #include "gcode/evaluate.h"
 #include "gcode/report.h"
 #include "gcode/state.h"
@@ -34,6 +35,8 @@ inline constexpr int kNoCode = -1;
 /// comments.
 class Words {
  public:
+  explicit Words(Dialect dialect) : dialect_(dialect) {}
+
   /// Evaluates every word with the parameters as they stand and sorts it in.
   /// @param report  null: only sort in what can be read, as after a syntax error
   /// @return false if an error was told, or found in a value that depends on an earlier error
@@ -49,6 +52,7 @@ class Words {
     items_[index(letter)] = items_[index(other)];
     values_[index(letter)] = 0;
   }
+  void remove(char letter) { present &= ~letter_bit(letter); }
   const Item& item(const Line& line, char letter) const { return line.items[items_[index(letter)]]; }
   Span span(const Line& line, char letter) const { return line.span(item(line, letter).bytes); }
 
@@ -101,6 +105,7 @@ class Words {
   std::array<std::uint32_t, kGGroups> g_items_{};
   std::array<std::uint32_t, kMGroups> m_items_{};
   Bytes motion_;
+  Dialect dialect_;
   bool other_codes_ = false;  ///< an M code, or a G code that is no motion
   Evaluator evaluator_;
 };
