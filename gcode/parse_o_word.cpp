@@ -149,7 +149,8 @@ bool Parser::parse_arguments(FlowStatement& flow) {
     if (flow.arguments.size() == most) {
       return fail(Code::o_arguments, {at, static_cast<std::uint32_t>(line_->text.size())},
                   most == 0 ? "this O word takes no value"
-                            : fmt::format("value {} of this O word, allowed {}", most + 1, most));
+                            : fmt::format("value {} of this O word, allowed {}", most + 1, most),
+                  flow.word == FlowWord::sub ? "the values of its call are #1, #2, ..." : "");
     }
     const std::int32_t root = expression.group();
     if (root < 0) return false;

@@ -13,20 +13,7 @@
 /// Scenarios: a program, a machine and what must come out. The same cases serve tests, benchmarks, demos and
 /// documents.
 ///
-/// A scenario is a folder with a scenario.toml (docs in scenarios/README.md):
-///
-///   format = 1
-///   name = "pocket"
-///   summary = "a pocket with arcs and rounded corners"
-///   program = "program.ngc"                 # beside this file; or { wind = "hoop", radius_mm = 50, ... }
-///   machine = "mill3"                       # a machine that ships with kadr, or a .toml file beside this
-///   one tools = "tools.tbl"                     # tool table beside this one; without: tools have no length
-///   dialect = "linuxcnc"                    # or grbl, marlin, fanuc: codes that controllers read
-///   differently [settings]                              # as --set on the command line planner.whole_ticks =
-///   true [expect] time_s = 4.211 within_s = 0.001 steps_hash = "9f1c07ab5d2e4431" alarms = { K5001 = 2 } #
-///   code = count; no alarm may come that is not named here diagnostics = ["K1203", "K2107"]        # of a
-///   program that must be refused, in order [expect.axis.X] pulses = 24000 residual_um = [0.0, 5.0] # least
-///   and most
+/// A scenario is a folder with a scenario.toml; scenarios/README.md has its keys.
 namespace kadr::emulator {
 
 /// Least and most of a measured value, axis units (mm or deg).
