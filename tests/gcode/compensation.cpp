@@ -38,6 +38,49 @@ std::vector<std::string> outline(const std::string& program, const InterpretOpti
 }
 using Lines = std::vector<std::string>;
 
+/// The contour or its path seen in the mirror: Y and J change sign, left is right, clockwise is
+/// counter-clockwise.
+std::string mirrored(const std::string& text, std::string_view across) {
+  std::string other;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool code = i > 0 && text[i - 1] == 'G';
+    other += c == 'A' ? 'C' : c == 'C' ? 'A' : code && c == '2' ? '3' : code && c == '3' ? '2' : c;
+    if (across.find(c) == std::string_view::npos) continue;
+    if (text[i + 1] == '-') {
+      ++i;
+    } else if (text[i + 1] != '0') {
+      other += '-';
+    }
+  }
+  return other;
+}
+
+/// The compensated path along a contour with a tool of 4 mm left of it, and right of it in the mirror.
+/// @param path  without the move to the start and the one away from the contour
+void check_corner(const std::string& start, const std::string& contour, const Lines& path) {
+  CAPTURE(contour);
+  const auto compensated = [](const std::string& from, const char* code, const std::string& moves) {
+    Lines lines = outline(fmt::format("G21 F100\nG0 {}\n{} D4\n{}\nG40\nG0 Y200\nM2\n", from, code, moves));
+    REQUIRE(lines.size() > 2);
+    return Lines(lines.begin() + 1, lines.end() - 1);
+  };
+  CHECK(compensated(start, "G41.1", contour) == path);
+  Lines other;
+  for (const std::string& line : path) {
+    std::string marked = line;
+    // "L x y", "A x y about x y": every second number
+    std::size_t numbers = 0;
+    for (std::size_t i = 1; i < marked.size(); ++i) {
+      if (marked[i] == ' ' && marked[i + 1] != 'a' && ++numbers % 2 == 0) marked[i] = '|';
+    }
+    marked = mirrored(marked, "|");
+    std::replace(marked.begin(), marked.end(), '|', ' ');
+    other.push_back(marked);
+  }
+  CHECK(compensated(mirrored(start, "Y"), "G42.1", mirrored(contour, "YJ")) == other);
+}
+
 /// A piece of a path in the plane XY.
 struct Piece {
   PlanePoint start, end, center;
@@ -186,6 +229,48 @@ TEST_CASE("an entry arc begins at the bare point and ends beside the contour in 
         Lines{"A 8 10 about -2.25 10", "L 8 20", "R 50 20"});
 }
 
+TEST_CASE("at an inside corner moves end where their offsets cross") {
+  // tool of 4 mm left of the contour: offsets lie 2 mm to the left, circles have a radius of 8 mm where the
+  // tool runs inside the arc of 10 mm, and of 12 mm where it runs outside.
+  // Line and line, 120 degrees to the left: 2·tan(60) before the corner.
+  check_corner("X-20 Y0", "G1 X0\nX20\nX10 Y17.32050808", {"L 0 2", "L 16.5359 2", "L 8.2679 16.3205"});
+  // Line and arc inside: y = 2 on the circle of 8 about X10: 10 + sqrt(64 - 4)
+  check_corner("X-20 Y0", "G1 X0\nX20\nG3 X10 Y10 I-10", {"L 0 2", "L 17.746 2", "A 10 8 about 10 0"});
+  // Line and arc outside: y = 2 on the circle of 12 about X30: 30 - sqrt(144 - 4)
+  check_corner("X-20 Y0", "G1 X0\nX20\nG2 X30 Y10 I10", {"L 0 2", "L 18.1678 2", "C 30 12 about 30 0"});
+  // Arc inside and line: y = -2 on the circle of 8 about X10
+  check_corner("X-20 Y-10", "G1 X10\nG3 X20 Y0 J10\nG1 X0", {"L 10 -8", "A 17.746 -2 about 10 0", "L 0 -2"});
+  // Arc outside and line: y = 2 on the circle of 12: sqrt(144 - 4)
+  check_corner("X-20 Y10", "G1 X0\nG2 X10 Y0 J-10\nG1 X30", {"L 0 12", "C 11.8322 2 about 0 0", "L 30 2"});
+  // Two arcs about X-6 and X6 that meet at X0 Y8. Inside both: sqrt(64 - 36); outside both: sqrt(144 - 36)
+  check_corner("X-16 Y-20", "G1 X0 Y-8\nG3 Y8 I-6 J8\nG3 Y-8 I6 J-8",
+               {"L -1.2 -6.4", "A 0 5.2915 about -6 0", "A 1.2 -6.4 about 6 0"});
+  check_corner("X-16 Y-20", "G1 Y0\nG2 X0 Y8 I10\nG2 X16 Y0 I6 J-8",
+               {"L -18 0", "C 0 10.3923 about -6 0", "C 18 0 about 6 0"});
+  // Inside the first, outside the second about X-8 Y14: of sqrt(200) between the centres,
+  // (64 + 200 - 144)/(2·sqrt(200)) = 3·sqrt(2) lie before the foot of the crossing, sqrt(64 - 18) across.
+  // X -6 - 0.6 + 0.98995·6.78233, Y 4.2 + 0.14142·6.78233
+  check_corner("X-16 Y-20", "G1 X0 Y-8\nG3 Y8 I-6 J8\nG2 X-8 Y4 I-8 J6",
+               {"L -1.2 -6.4", "A 0.1142 5.1592 about -6 0", "C -8 2 about -8 14"});
+}
+
+TEST_CASE("at an outside corner an arc about it joins the offsets of lines and arcs") {
+  // tool of 4 mm; it stands 2 mm off the end of one move and goes round to 2 mm off the beginning of the next
+  check_corner("X-20 Y0", "G1 X0\nX20\nX30 Y-17.32050808",
+               {"L 0 2", "L 20 2", "C 21.7321 1 about 20 0", "L 31.7321 -16.3205"});
+  check_corner("X-20 Y0", "G1 X0\nX20\nG2 X10 Y-10 I-10",
+               {"L 0 2", "L 20 2", "C 22 0 about 20 0", "C 10 -12 about 10 0"});
+  check_corner("X-20 Y0", "G1 X0\nX20\nG3 X30 Y-10 I10",
+               {"L 0 2", "L 20 2", "C 22 0 about 20 0", "A 30 -8 about 30 0"});
+  check_corner("X-20 Y0", "G1 X10\nG3 X20 Y10 J10\nG1 X40",
+               {"L 10 2", "A 18 10 about 10 10", "C 20 12 about 20 10", "L 40 12"});
+  check_corner("X-20 Y10", "G1 X0\nG2 X10 Y0 J-10\nG1 X-10",
+               {"L 0 12", "C 12 0 about 0 0", "C 10 -2 about 10 0", "L -10 -2"});
+  // two arcs about X6 and X-6 that meet at X0 Y8
+  check_corner("X16 Y-20", "G1 X0 Y-8\nG2 Y8 I6 J8\nG2 Y-8 I-6 J-8",
+               {"L -1.2 -9.6", "C -1.2 9.6 about 6 0", "C 1.2 9.6 about 0 8", "C 1.2 -9.6 about -6 0"});
+}
+
 TEST_CASE("moves without motion in the plane wait with the move before them") {
   // down and up again in an inside corner: all stand where the trimmed move ends
   const Outcome outcome =
@@ -249,12 +334,13 @@ TEST_CASE("inverse time holds for the programmed length: a longer path takes lon
 }
 
 TEST_CASE("the first move after G40 is as long as the way back to the contour makes it") {
-  // beside X20 by 2 mm: a move that names A only still moves the tool 2 mm, at the feed of lengths
+  // half an inch beside X2: a move that names A only moves the tool by that, at F1 in inches
   const std::vector<Block> moves =
-      run("G20 F1\nG0 X-1\nG41.1 D1\nG1 X0\nX2\nG40\nG1 A90\nG1 A0\nM2\n").moves();
+      run("G20\nF1\nG0 X-1\nG41.1 D1\nG1 X0\nX2\nG40\nG1 A90\nG1 A0\nM2\n").moves();
   REQUIRE(moves.size() == 5);
   CHECK(moves[3].feed_length == FeedLength::xyz);
   CHECK(moves[3].length_u == doctest::Approx(12.7));
+  CHECK(moves[3].feed_u_s == doctest::Approx(25.4 / 60));
   CHECK(moves[4].feed_length == FeedLength::rotary);
   CHECK(moves[4].feed_u_s == doctest::Approx(1.0 / 60));
 }
@@ -304,9 +390,11 @@ TEST_CASE("after another mistake in a contour its corners are not judged") {
 TEST_CASE("every corner that the tool does not fit into is told") {
   const Outcome outcome =
       run("G21 F100\nG0 X-20\nG41.1 D6\nG1 X0\nX40\nY4\nX0\nY40\nX90\nY42\nX0\nG40\nG0 X0 Y90\nM2\n");
-  const std::vector<Code> codes = outcome.codes();
-  CHECK(std::count(codes.begin(), codes.end(), Code::compensation_gouge) >= 1);
-  CHECK(outcome.diagnostics.list().front().span.line == 7);
+  // between lines 3 mm inside, Y4 would be 4 - 2·3 = -2 mm long, and Y42 2 - 2·3 = -4 mm
+  CHECK(outcome.codes() == std::vector<Code>(2, Code::compensation_gouge));
+  std::vector<std::uint32_t> lines;
+  for (const Diagnostic& d : outcome.diagnostics.list()) lines.push_back(d.span.line);
+  CHECK(lines == std::vector<std::uint32_t>{7, 11});
 }
 
 TEST_CASE("the tool's centre stays one radius beside a random contour, length and feed fit the path") {
