@@ -13,8 +13,6 @@ using Kind = CompensationFault::Kind;
 
 // an entry arc whose chord is that close to a right angle with its radius would be a straight line
 constexpr double kLeastEntryCosine = 1e-4;
-// a trimmed arc may sweep that much more than programmed: rounding
-constexpr double kSweepTolerance_rad = 1e-3;
 // ends of a full circle coincide up to rounding
 constexpr double kSamePoint_mm = 1e-9;
 constexpr double kDegreesPerRadian = 180 / kPi;
@@ -261,7 +259,10 @@ CompensationFault Compensation::meet_line(PlaneVector next, PlanePoint& meeting)
   }
   const OffsetCircle circle = circle_of(first_held_);
   const PlaneVector across = turned(next, side_);
-  const double height = dot(circle.center - in_plane(programmed_), across) - tool_.radius_mm;
+  // so far from the contour as radius and tool say: an entry arc may have got its centre on the other side
+  const double radius_mm = circle.radius_mm + (circle.inside ? tool_.radius_mm : -tool_.radius_mm);
+  const double height =
+      radius_mm * dot(unit(circle.center - in_plane(programmed_)), across) - tool_.radius_mm;
   const auto crossing = cross(next, side_ * height, circle, !circle.inside);
   if (!crossing) {
     return {Kind::no_meeting, std::fabs(height) - circle.radius_mm, 0, first_held_.span};
@@ -361,7 +362,7 @@ CompensationFault Compensation::check_trimmed(const Held& held, PlanePoint end) 
     return {};
   }
   const double sweep = sweep_rad(held.block, held_start_, end);
-  if (held.sweep_rad == 0 || sweep <= held.sweep_rad + kSweepTolerance_rad) return {};
+  if (held.sweep_rad == 0 || sweep <= held.sweep_rad + sweep_tolerance_rad_) return {};
   return {Kind::arc_reversed, sweep * kDegreesPerRadian, held.sweep_rad * kDegreesPerRadian, held.block.span};
 }
 

@@ -68,6 +68,8 @@ class Compensation {
   CompensationFault take(const Block& block, const FeedRates& feeds);
   /// G40: the last move ends beside its programmed end; the next one starts there.
   CompensationFault end();
+  /// An arc may sweep that much more than programmed: where it joins a nearly straight corner untrimmed.
+  void set_sweep_tolerance(double tolerance_rad) { sweep_tolerance_rad_ = tolerance_rad; }
   /// The contour can't be known after an error in the program: moves go through as programmed until G40.
   void lose();
 
@@ -119,6 +121,7 @@ class Compensation {
   CompensationTool tool_;
   double side_ = 1;  ///< +1 left, -1 right
   PlaneAxes axes_{0, 1, 2};
+  double sweep_tolerance_rad_ = 0;
 
   Phase phase_ = Phase::off;
   AxisValues programmed_{};  ///< end of the last programmed move

@@ -9,9 +9,15 @@ namespace kadr::gcode {
 namespace {
 
 constexpr double kSecondsPerMinute = 60.0;
+/// LinuxCNC takes this angle for a length: under G21 it is 25.4 times as large.
+constexpr double kSweepTolerance_rad = 1e-3;
 
 bool is_one_of(int value, std::initializer_list<int> values) {
   return std::find(values.begin(), values.end(), value) != values.end();
+}
+
+double sweep_tolerance_rad(bool inches) {
+  return inches ? kSweepTolerance_rad : kMillimetresPerInch * kSweepTolerance_rad;
 }
 
 /// The controlled point of a lathe tool seen from the centre of its nose, program coordinates: LinuxCNC's
@@ -47,6 +53,7 @@ void Interpreter::compensation() {
 void Interpreter::compensation_off() {
   if (state_.compensating() && compensation_.active()) {
     if (compensation_.entered()) state_.straight_move_due = true;
+    compensation_.set_sweep_tolerance(sweep_tolerance_rad(state_.inches));
     report_compensation_fault(compensation_.end(), g_span(GGroup::compensation));
     state_.tool_shift = {};
   }
@@ -114,6 +121,7 @@ void Interpreter::execute_compensated() {
 void Interpreter::compensate(const Block& block) {
   const FeedRates feeds{state_.feed_linear_mm_min / kSecondsPerMinute,
                         state_.feed_rotary_deg_min / kSecondsPerMinute};
+  compensation_.set_sweep_tolerance(sweep_tolerance_rad(state_.inches));
   report_compensation_fault(compensation_.take(block, feeds), block.span);
   state_.tool_shift = compensation_.shift();
 }

@@ -19,14 +19,12 @@ constexpr double kFastestSpindle_rpm = 100'000.0;
 double mean_of_bent_line(double a, double b, double slope, double floor) {
   if (a > b) std::swap(a, b);
   if (!(b > a)) return std::max(slope * std::fabs(a), floor);
-  // integral from 0: the floor up to the bend, then the triangle above it
-  const auto integral = [&](double x) {
-    const double far = std::fabs(x);
-    const double bend = slope > 0 ? floor / slope : far;
-    const double area = far <= bend ? floor * far : floor * bend + slope * (far - bend) * (far + bend) / 2;
-    return x < 0 ? -area : area;
-  };
-  return (integral(b) - integral(a)) / (b - a);
+  // areas of the flat part and of the slopes to both sides: only sums, so that near ends lose no digits
+  const double bend = slope > 0 ? floor / slope : std::fmax(std::fabs(a), std::fabs(b));
+  const double left = std::clamp(-bend, a, b), right = std::clamp(bend, a, b);
+  const double area = slope * (left - a) * std::fabs(left + a) / 2 + floor * (right - left) +
+                      slope * (b - right) * (b + right) / 2;
+  return std::max(area / (b - a), floor);
 }
 
 }  // namespace
@@ -70,7 +68,8 @@ double Interpreter::mean_spindle_rpm(const AxisValues& from, const AxisValues& t
   const SurfaceSpeed& surface = state_.surface;
   if (!(surface.speed_m_min > 0)) return 0;
   const double minutes_per_turn_mm = 2 * kPi / (surface.speed_m_min * kMillimetresPerMetre);
-  const double fastest_rpm = surface.maximum_rpm > 0 ? surface.maximum_rpm : kFastestSpindle_rpm;
+  const double fastest_rpm =
+      surface.maximum_rpm > 0 ? std::min(surface.maximum_rpm, kFastestSpindle_rpm) : kFastestSpindle_rpm;
   return 1 / mean_of_bent_line(state_.to_program(from)[0], state_.to_program(to)[0], minutes_per_turn_mm,
                                1 / fastest_rpm);
 }

@@ -214,6 +214,9 @@ TEST_CASE("under G96 the spindle follows the surface speed at the tool's distanc
   // stays at 100000 rpm, which is less than 1e-4 of the turns
   const auto through = moves_of(head + "G0 X-20\nG1 X20\n").back();
   CHECK(through.feed_u_s == doctest::Approx(0.1 * 100000 / (2 * pi * 10) / 60).epsilon(1e-4));
+  // far out a move of a few last digits has the speed of its place
+  const auto tiny = moves_of(head + "G0 X100000000\nG1 X100000000.00000003 Z-10\n").back();
+  CHECK(tiny.feed_u_s == doctest::Approx(0.1 * 100000 / (2 * pi * 1e8) / 60).epsilon(1e-12));
   // D keeps the spindle at 200 rpm inside radius 79.6: at 50 it turns at 200
   const auto held = moves_of("G21 G95 F0.1 G96 D200 S100 M3\nG0 X50\nG1 Z-10\n").back();
   CHECK(held.feed_u_s == doctest::Approx(0.1 * 200 / 60).epsilon(1e-12));
