@@ -58,9 +58,10 @@ void Interpreter::arc(Motion motion) {
   AxisValues center = to;
   center[static_cast<std::size_t>(axes.first)] = found.center.first_mm;
   center[static_cast<std::size_t>(axes.second)] = found.center.second_mm;
-  const PlanePoint machine_center = in_plane(arc_frame_to_machine(center), axes);
-  block.center_first_mm = machine_center.first_mm;
-  block.center_second_mm = machine_center.second_mm;
+  const PlanePoint handed_center =
+      compensation_tilted_ ? found.center : in_plane(arc_frame_to_machine(center), axes);
+  block.center_first_mm = handed_center.first_mm;
+  block.center_second_mm = handed_center.second_mm;
   block.plane_rotation_deg = state_.plane == Plane::xy ? 0 : state_.rotation_deg;
   block.turns = clockwise ? -turns : turns;
   const double sweep =

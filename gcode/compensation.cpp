@@ -17,20 +17,6 @@ constexpr double kLeastEntryCosine = 1e-4;
 constexpr double kSamePoint_mm = 1e-9;
 constexpr double kDegreesPerRadian = 180 / kPi;
 
-bool is_move(const Block& block) {
-  switch (block.kind) {
-    case BlockKind::traverse:
-    case BlockKind::feed:
-    case BlockKind::arc:
-    case BlockKind::spline:
-    case BlockKind::probe:
-    case BlockKind::rigid_tap:
-      return true;
-    default:
-      return false;
-  }
-}
-
 /// Said at once, though a move waits.
 bool overtakes(const Block& block) {
   return block.kind == BlockKind::message || block.kind == BlockKind::comment ||
@@ -54,6 +40,20 @@ PlaneVector start_direction(const Block& arc, PlanePoint start) {
 }
 
 }  // namespace
+
+bool is_move(const Block& block) {
+  switch (block.kind) {
+    case BlockKind::traverse:
+    case BlockKind::feed:
+    case BlockKind::arc:
+    case BlockKind::spline:
+    case BlockKind::probe:
+    case BlockKind::rigid_tap:
+      return true;
+    default:
+      return false;
+  }
+}
 
 void Compensation::begin(const CompensationTool& tool, const AxisValues& at) {
   tool_ = tool;

@@ -7,6 +7,9 @@
 
 namespace kadr::gcode {
 
+/// True for blocks that move to `end`.
+bool is_move(const Block& block);
+
 /// What G41 or G42 fixes until G40.
 struct CompensationTool {
   bool left = true;      ///< of the contour, seen in the direction of motion
@@ -44,9 +47,10 @@ struct CompensationFault {
 /// Turns a contour into the path of the tool's centre, one radius beside it.
 ///
 /// Stands between the interpreter and the receiver of Blocks from G41 to the first move after G40. Takes the
-/// programmed moves in machine coordinates; hands out moves of the tool's centre: lines and arcs shifted by
-/// the radius, an arc about each outside corner, moves trimmed to where they meet at each inside corner. So a
-/// move waits for the next one that moves in the plane, and what was called for in between waits behind it.
+/// programmed moves in coordinates in which the contour's plane is one of two axes; hands out moves of the
+/// tool's centre: lines and arcs shifted by the radius, an arc about each outside corner, moves trimmed to
+/// where they meet at each inside corner. So a move waits for the next one that moves in the plane, and what
+/// was called for in between waits behind it.
 ///
 ///     outside:            ___           inside:      | contour
 ///                   tool /   \                  ____ |
@@ -70,6 +74,8 @@ class Compensation {
   CompensationFault end();
   /// An arc may sweep that much more than programmed: where it joins a nearly straight corner untrimmed.
   void set_sweep_tolerance(double tolerance_rad) { sweep_tolerance_rad_ = tolerance_rad; }
+  /// No move led away after G40: the next one begins where the tool stands.
+  void leave() { phase_ = Phase::off; }
   /// The contour can't be known after an error in the program: moves go through as programmed until G40.
   void lose();
 
@@ -77,8 +83,14 @@ class Compensation {
   bool active() const { return phase_ != Phase::off; }
   /// Whether a move has been made beside the contour.
   bool entered() const { return phase_ == Phase::contour || phase_ == Phase::lost; }
-  /// Tool's centre as seen from the programmed point, machine coordinates.
+  /// Tool's centre as seen from the programmed point.
   AxisValues shift() const;
+  /// End of the last programmed move.
+  const AxisValues& programmed() const { return programmed_; }
+  /// End of the last move handed out: what the next one is measured from.
+  const AxisValues& last_end() const { return handed_out_; }
+  /// The same point in the coordinates of the next moves.
+  void set_last_end(const AxisValues& end) { handed_out_ = end; }
 
  private:
   enum class Phase : std::uint8_t { off, entry, contour, lost, exit };

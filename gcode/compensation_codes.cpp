@@ -9,6 +9,7 @@ namespace kadr::gcode {
 namespace {
 
 constexpr double kSecondsPerMinute = 60.0;
+constexpr double kSamePoint_u = 1e-9;
 /// LinuxCNC takes this angle for a length: under G21 it is 25.4 times as large.
 constexpr double kSweepTolerance_rad = 1e-3;
 
@@ -18,6 +19,14 @@ bool is_one_of(int value, std::initializer_list<int> values) {
 
 double sweep_tolerance_rad(bool inches) {
   return inches ? kSweepTolerance_rad : kMillimetresPerInch * kSweepTolerance_rad;
+}
+
+/// A point turned there and back differs in its last digits: what does not move must stay exactly.
+AxisValues near(const AxisValues& from, AxisValues to) {
+  for (std::size_t a = 0; a < to.size(); ++a) {
+    if (std::fabs(to[a] - from[a]) <= kSamePoint_u) to[a] = from[a];
+  }
+  return to;
 }
 
 /// The controlled point of a lathe tool seen from the centre of its nose, program coordinates: LinuxCNC's
@@ -44,7 +53,9 @@ void Interpreter::compensation() {
   const bool found = !silent_ && find_compensation_tool(tool);
   state_.compensation_code = tool.left ? 410 : 420;
   if (found && tool.radius_mm == 0) return;
-  compensation_.begin(tool, state_.position);
+  compensation_tilted_ = state_.rotation_deg != 0 && state_.plane != Plane::xy;
+  if (compensation_tilted_) compensation_.set_last_end(state_.to_program(compensation_.last_end()));
+  compensation_.begin(tool, compensation_tilted_ ? state_.to_program(state_.position) : state_.position);
   // without a radius, or from an unknown point, nothing can be said of the contour
   const bool doubtful = state_.uncertain.axes != 0 || (words_.doubtful & letter_bit('D')) != 0;
   if (!found || doubtful) compensation_.lose();
@@ -53,9 +64,7 @@ void Interpreter::compensation() {
 void Interpreter::compensation_off() {
   if (state_.compensating() && compensation_.active()) {
     if (compensation_.entered()) state_.straight_move_due = true;
-    compensation_.set_sweep_tolerance(sweep_tolerance_rad(state_.inches));
-    report_compensation_fault(compensation_.end(), g_span(GGroup::compensation));
-    state_.tool_shift = {};
+    end_compensation(g_span(GGroup::compensation));
   }
   state_.compensation_code = 400;
 }
@@ -122,8 +131,50 @@ void Interpreter::compensate(const Block& block) {
   const FeedRates feeds{state_.feed_linear_mm_min / kSecondsPerMinute,
                         state_.feed_rotary_deg_min / kSecondsPerMinute};
   compensation_.set_sweep_tolerance(sweep_tolerance_rad(state_.inches));
-  report_compensation_fault(compensation_.take(block, feeds), block.span);
-  state_.tool_shift = compensation_.shift();
+  CompensationFault fault;
+  if (compensation_tilted_ && is_move(block)) {
+    Block programmed = block;
+    programmed.end = near(compensation_.programmed(), state_.to_program(block.end));
+    fault = compensation_.take(programmed, feeds);
+  } else {
+    fault = compensation_.take(block, feeds);
+  }
+  report_compensation_fault(fault, block.span);
+  state_.tool_shift = compensation_tilted_ ? state_.rotated(compensation_.shift()) : compensation_.shift();
+}
+
+void Interpreter::hand_out_compensated(Block& block) {
+  if (compensation_tilted_ && is_move(block)) {
+    block.plane_rotation_deg = 0;
+    if (block.kind == BlockKind::arc) {
+      const PlaneAxes axes = plane_axes(block.plane);
+      const auto first = static_cast<std::size_t>(axes.first), second = static_cast<std::size_t>(axes.second);
+      AxisValues center = block.end;
+      center[first] = block.center_first_mm;
+      center[second] = block.center_second_mm;
+      center = state_.to_machine(center);
+      block.center_first_mm = center[first];
+      block.center_second_mm = center[second];
+      block.plane_rotation_deg = state_.rotation_deg;
+    }
+    block.end = state_.to_machine(block.end);
+  }
+  hand_out(block);
+}
+
+void Interpreter::end_compensation(Span place) {
+  compensation_.set_sweep_tolerance(sweep_tolerance_rad(state_.inches));
+  report_compensation_fault(compensation_.end(), place);
+  if (compensation_tilted_) compensation_.set_last_end(state_.to_machine(compensation_.last_end()));
+  compensation_tilted_ = false;
+  state_.tool_shift = {};
+}
+
+/// At a tool change behind G40 the controller asks the machine where it stands: beside the contour.
+void Interpreter::stand_beside_contour() {
+  if (state_.compensating() || !compensation_.active()) return;
+  state_.position = compensation_.last_end();
+  compensation_.leave();
 }
 
 void Interpreter::report_compensation_fault(const CompensationFault& fault, Span span) {

@@ -12,7 +12,7 @@ Interpreter::Interpreter(const InterpretOptions& options, Report& report, const 
       sink_(sink),
       advice_(state_, options, report),
       words_(options.dialect),
-      compensation_([this](Block& block) { hand_out(block); }) {
+      compensation_([this](Block& block) { hand_out_compensated(block); }) {
   state_.position = options.home;
   write_axis_parameters(state_, parameter::kG28, options.g28);
   write_axis_parameters(state_, parameter::kG30, options.g30);

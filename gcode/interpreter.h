@@ -222,6 +222,9 @@ class Interpreter {
   const Tool* compensation_table_entry();
   void execute_compensated();
   void compensate(const Block& block);
+  void hand_out_compensated(Block& block);
+  void end_compensation(Span place);
+  void stand_beside_contour();
   void report_compensation_fault(const CompensationFault& fault, Span span);
 
   // compensation_checks.cpp: what may not stand while compensation is on
@@ -274,6 +277,7 @@ class Interpreter {
   std::optional<CallRequest> call_;
   std::optional<Span> place_;  ///< of blocks while modes are restored
   Compensation compensation_;
+  bool compensation_tilted_ = false;     ///< it runs in program coordinates: G18 in a rotated work system
   Span compensation_span_;               ///< the G41 or G42 in force
   std::size_t compensation_faults_ = 0;  ///< told on this line
   const Line* line_ = nullptr;

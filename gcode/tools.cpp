@@ -27,6 +27,7 @@ void Interpreter::change_tool() {
   } else {
     turn_spindle(Turning::stopped, span);
     state_.tool_in_spindle = state_.tool_selected;
+    stand_beside_contour();
   }
   Block block = make_block(code == 61 ? BlockKind::set_tool_number : BlockKind::change_tool, span);
   block.number = state_.tool_in_spindle;

@@ -380,6 +380,47 @@ TEST_CASE("tool radius and orientation come from the table, of the tool in the s
   CHECK(moves[1].end == AxisValues{9, 0, 20});
 }
 
+TEST_CASE("in G18 the plane of compensation turns with the work system") {
+  // turned by 90 degrees the program's X is the machine's Y: left of the way along Z is Y2, and a move along
+  // X goes on along Y
+  const std::vector<Block> moves =
+      run("G21 G18 F100\nG10 L2 P1 R90\nG41.1 D4\nG1 Z20\nG1 Y-3\nG2 Z22 X-2 K0 I-2\nG40\nG0 X9\nM2\n")
+          .moves();
+  REQUIRE(moves.size() == 4);
+  const auto at = [](const Block& b, double x, double y, double z) {
+    return std::fabs(b.end[0] - x) < kExact_mm && std::fabs(b.end[1] - y) < kExact_mm &&
+           std::fabs(b.end[2] - z) < kExact_mm;
+  };
+  CHECK(at(moves[0], 0, 2, 20));
+  CHECK(at(moves[1], 3, 2, 20));
+  // clockwise about program X-2 Z20, tool outside: 4 mm off the centre
+  CHECK(at(moves[2], 3, -2, 24));
+  CHECK(moves[2].plane_rotation_deg == 90);
+  CHECK(moves[2].length_u == doctest::Approx(kPi / 2 * 4).epsilon(1e-12));
+  CHECK(at(moves[3], 3, 9, 22));
+}
+
+TEST_CASE("at a tool change behind G40 the program goes on where the tool stands") {
+  const std::string head = "G21 F100\nG41.1 D4\nG1 X20\nG40\n";
+  CHECK(outline(head + "G91 G0 X5\nM2\n") == Lines{"L 20 2", "R 25 0"});
+  CHECK(outline(head + "T1 M6\nG91 G0 X5\nM2\n") == Lines{"L 20 2", "R 25 2"});
+}
+
+TEST_CASE("an arc behind a nearly straight corner may sweep a little more than programmed") {
+  // atan(0.8/20) = 0.03998 rad before the arc, the tool of 2 mm inside: the sweep grows by
+  // 0.08/(r - 2) rad, allowed are 0.0254 under G21 and 0.001 under G20
+  const auto told = [](const char* units, const char* radius) {
+    return run(fmt::format(
+                   "{0}\nF100\nG0 X-20 Y-0.8\nG41.1 D4\nG1 X0 Y0\nG3 X{1} Y{1} J{1}\nG40\nG0 X90\nM2\n",
+                   units, radius))
+        .codes();
+  };
+  CHECK(told("G21", "5.15").empty());
+  CHECK(told("G21", "5.12") == std::vector<Code>{Code::compensation_gouge});
+  CHECK(told("G20", "83").empty());
+  CHECK(told("G20", "80") == std::vector<Code>{Code::compensation_gouge});
+}
+
 TEST_CASE("after another mistake in a contour its corners are not judged") {
   // without the misread line the corner at X40 would be refused
   const std::string corner = "G21 F100\nG0 X-20\nG41.1 D6\nG1 X0\nX40\n{}Y4\nX0\nG40\nG0 Y30\nM2\n";
