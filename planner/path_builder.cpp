@@ -216,6 +216,12 @@ PathBuilder::Point PathBuilder::last_point() const {
 }
 
 bool PathBuilder::plane_axes(const gcode::Block& block, ArcShape& arc) {
+  if (block.plane_rotation_deg != 0) {
+    fault(Code::arc_plane_turned, block,
+          fmt::format("G10 L2 R turns this plane by {:.6g} degrees about Z", block.plane_rotation_deg),
+          "turn the work system back by R0, or write the arc as short lines");
+    return false;
+  }
   const gcode::PlaneAxes plane = gcode::plane_axes(block.plane);
   const auto machine_axis = [&](int program_axis) {
     const auto it = std::find(program_axis_.begin(), program_axis_.end(), program_axis);

@@ -80,6 +80,24 @@ TEST_CASE("an arc in a plane the machine does not have is K4004") {
   check_text(plan.error().diagnostic);
 }
 
+TEST_CASE("an arc in a plane that a rotation turns is K4006") {
+  const auto machine = plain_machine("XYZ");
+  planner::PathBuilder builder(machine, {});
+  gcode::Block b;
+  b.kind = gcode::BlockKind::arc;
+  b.plane = gcode::Plane::zx;
+  b.end = xyz(8.660254, 5);  // 10 along X, turned by 30 degrees
+  b.center_second_mm = 4.330127;
+  b.turns = 1;
+  b.plane_rotation_deg = 30;
+  b.feed_u_s = 5.0;
+  b.span = {0, 3, 5, 9};
+  builder.add(b);
+  const auto plan = planner::plan(builder.path(), machine);
+  REQUIRE_FALSE(plan);
+  check_text(plan.error().diagnostic);
+}
+
 TEST_CASE("a move that follows a standing spindle is K4005") {
   const auto machine = plain_machine();
   planner::PathBuilder builder(machine, {});
