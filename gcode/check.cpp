@@ -53,9 +53,9 @@ std::uint32_t letters_of_motion(Motion motion, int code) {
     case Motion::nurbs:
       return letter_bits("PL");
     case Motion::thread:
-      return letter_bits("K$");
+      return letter_bits("KE$");
     case Motion::rigid_tap:
-      return letter_bits("KI$");
+      return letter_bits("KIE$");
     case Motion::thread_cycle:
       return letter_bits("PIJRKQHEL$");
     case Motion::cycle:

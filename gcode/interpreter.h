@@ -210,6 +210,7 @@ class Interpreter {
   // probe.cpp: G38.2 to G38.5
   void probe();
   bool probe_allowed();
+  double probe_feed_under_inverse_time();
   bool find_contact(Block& block, double& travelled);
   bool refuse_probe_start(const Block& block, double beyond_mm);
   std::string stock_text() const;

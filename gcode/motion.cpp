@@ -234,6 +234,8 @@ void Interpreter::set_feed(Block& block) {
   if (state_.feed_mode == FeedMode::inverse_time) {
     block.duration_s = kSecondsPerMinute / words_.value('F');
     block.feed_u_s = block.length_u / block.duration_s;
+    // a probing move, which has no time of its own, goes on at this feed
+    state_.feed_linear_mm_min = state_.feed_rotary_deg_min = block.feed_u_s * kSecondsPerMinute;
     return;
   }
   const double per_minute = rotary ? state_.feed_rotary_deg_min : state_.feed_linear_mm_min;

@@ -9,6 +9,7 @@ namespace kadr::gcode {
 namespace {
 
 constexpr double kSamePoint_u = 1e-9;
+constexpr double kSecondsPerMinute = 60.0;
 constexpr int kAway = 384;  // G38.4 G38.5
 
 bool same_point(const AxisValues& a, const AxisValues& b) {
@@ -20,7 +21,8 @@ bool same_point(const AxisValues& a, const AxisValues& b) {
 }  // namespace
 
 void Interpreter::probe() {
-  const bool allowed = probe_allowed() && feed_ready();
+  const bool inverse = state_.feed_mode == FeedMode::inverse_time;
+  const bool allowed = probe_allowed() && (inverse ? probe_feed_under_inverse_time() > 0 : feed_ready());
   const AxisValues end = target();
   const bool known = state_.uncertain.axes == 0 && words_.doubtful == 0;
   if (!allowed || !known) return move_to(end);
@@ -36,13 +38,27 @@ void Interpreter::probe() {
   double travelled = 1;
   if (!find_contact(block, travelled)) return move_to(end);
   measure_straight(state_.position, block);
-  set_feed(block);
-  // under G93 the time is that of the whole move
+  if (inverse) {
+    block.feed_mode = FeedMode::units_per_minute;
+    block.feed_u_s = probe_feed_under_inverse_time() / kSecondsPerMinute;
+  } else {
+    set_feed(block);
+  }
   block.length_u *= travelled;
-  block.duration_s *= travelled;
   keep_probe_result(block);
   move_to(block.contact);
   emit(block);
+}
+
+/// As in LinuxCNC a probing move has no time of its own: it goes on at the feed of the move before it, or at
+/// the last F before G93.
+/// @return mm/min, 0 if there is none: an error was told
+double Interpreter::probe_feed_under_inverse_time() {
+  if (state_.feed_linear_mm_min > 0) return state_.feed_linear_mm_min;
+  if (state_.feed_linear_mm_rev > 0) return state_.feed_linear_mm_rev;
+  error(problem(Code::feed_missing, action_span(),
+                "under G93 a probing move has the feed of the move before it", "write G94 and F before it"));
+  return 0;
 }
 
 bool Interpreter::probe_allowed() {

@@ -224,14 +224,19 @@ void Interpreter::emit_nurbs(const Nurbs& nurbs) {
     return;
   }
   const double f = words_.has('F') ? words_.value('F') : nurbs.inverse_f;
-  if (!(f > 0)) {
+  block.length_u = length_mm(block);
+  if (f > 0) {
+    block.duration_s = kSecondsPerMinute / f;
+    block.feed_u_s = block.length_u / block.duration_s;
+  } else if (state_.feed_linear_mm_min > 0) {
+    // without F the controller goes on at the feed that it has
+    block.feed_mode = FeedMode::units_per_minute;
+    block.feed_u_s = state_.feed_linear_mm_min / kSecondsPerMinute;
+  } else {
     error(problem(Code::inverse_feed_missing, block.span, "no F between G5.2 and here",
                   "under G93 the curve needs its own F: 60 divided by its seconds"));
     return move_to(block.end);
   }
-  block.length_u = length_mm(block);
-  block.duration_s = kSecondsPerMinute / f;
-  block.feed_u_s = block.length_u / block.duration_s;
   move_to(block.end);
   emit(block);
 }

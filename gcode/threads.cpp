@@ -20,6 +20,11 @@ void Interpreter::check_thread(int code) {
                   "write F on a line of its own"));
   }
   check_whole('$', 0, 0);
+  if (words_.has('E')) {
+    report_.warning(problem(Code::thread_unusual, words_.span(*line_, 'E'),
+                            fmt::format("{} takes E, but nothing comes of it", name),
+                            "E is the taper of G76"));
+  }
 }
 
 bool Interpreter::spindle_turns(int code) {

@@ -94,10 +94,15 @@ TEST_CASE("material above a plane is met from below") {
   CHECK(probe.contact[0] == 20);
 }
 
-TEST_CASE("under G93 the time is that of the whole move") {
-  const Block probe = probe_of(run("G93\nG0 Z5\nG38.2 Z-15 F6\n", with_stock()));
-  CHECK(probe.duration_s == doctest::Approx(5));  // half of the way in half of 10 s
-  CHECK(probe.feed_u_s == doctest::Approx(2));
+TEST_CASE("under G93 a probing move goes on at the feed of the move before it") {
+  // 10 mm in 60/6 s; the probe ignores its own F, half of its way is 10 mm
+  const Block probe = probe_of(run("G93\nG0 Z15\nG1 Z5 F6\nG38.2 Z-15 F2\n", with_stock()));
+  CHECK(probe.feed_u_s == doctest::Approx(1));
+  CHECK(probe.duration_s == 0);
+  CHECK(probe.length_u == doctest::Approx(10));
+  // or at the last F before G93
+  CHECK(probe_of(run("F120\nG93\nG0 Z5\nG38.2 Z-15\n", with_stock())).feed_u_s == doctest::Approx(2));
+  CHECK(only_code("G93\nG38.2 Z-15 F6\n", with_stock()) == Code::feed_missing);
 }
 
 TEST_CASE("G38.2 is modal, and a repeated line without retracting is an error") {

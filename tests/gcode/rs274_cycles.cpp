@@ -67,7 +67,8 @@ class CyclePrograms {
         "G10 L2 P1 R0",
         "G92 X1 Z0.5",
         "G92.1",
-        "G43.1 Z2",
+        // not where a level may then be R but for its last bit
+        "G43.1 Z2.0173",
         "G49",
         "G55",
         "G54",

@@ -118,13 +118,20 @@ TEST_CASE("words beside splines and probing moves are accepted or refused as rs2
                                           "G5 X3 P1 Q1 ",
                                           "G5.1 X4 I1 J1 ",
                                           "G5.2 P1\nX1 Y1 P1\nX2 Y2 P1\nG5.3 ",
-                                          "G38.2 Z-5 ",
-                                          "G38.5 X1 ",
+                                          "G38.2 ",
+                                          "G38.5 ",
                                           ""};
     for (int lines = 0; lines < 2; ++lines) {
-      text += kStarts[random.below(std::size(kStarts))];
-      for (std::uint64_t k = random.chance(0.5) ? 1 + random.below(2) : 0; k > 0; --k)
-        text += std::string(kWords[random.below(std::size(kWords))]) + " ";
+      const std::string start = kStarts[random.below(std::size(kStarts))];
+      text += start;
+      // rs274 stands before the contact, so the same point would be no error there
+      if (start.size() == 6) text += fmt::format("Z-{} ", lines + 5);
+      const bool ends_nurbs = start.find("G5.3") != std::string::npos;
+      for (std::uint64_t k = random.chance(0.5) ? 1 + random.below(2) : 0; k > 0; --k) {
+        const std::string word = kWords[random.below(std::size(kWords))];
+        // rs274 does something with some axis words behind G5.3 that makes no sense; kadr refuses them
+        if (!ends_nurbs || std::string("XYZA").find(word[0]) == std::string::npos) text += word + " ";
+      }
       text += "\n";
     }
     text += "G1 X1 F10\nM2\n";

@@ -115,6 +115,10 @@ TEST_CASE("a spline under G93 lasts 60 / F seconds") {
   const Block nurbs = spline_of("G93\nG5.2 P1 F15\nX1 Y1 P1\nX2 Y0 P1\nG5.3\n");
   CHECK(nurbs.duration_s == 4);
   CHECK(only_code("G93\nG5.2 P1\nX1 Y1 P1\nX2 Y0 P1\nG5.3\n") == Code::inverse_feed_missing);
+  // without F at the feed in force: 90 mm/min
+  const Block slow = spline_of("F90\nG93\nG5.2 P1\nX1 Y1 P1\nX2 Y0 P1\nG5.3\n");
+  CHECK(slow.feed_u_s == doctest::Approx(1.5));
+  CHECK(slow.duration_s == 0);
 }
 
 TEST_CASE("G5 of Marlin takes missing offsets as zero, without looking back") {

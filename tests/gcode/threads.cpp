@@ -228,6 +228,11 @@ TEST_CASE("under G96 the spindle follows the surface speed at the tool's distanc
   CHECK(rpm.feed_u_s == doctest::Approx(0.1).epsilon(1e-12));
 }
 
+TEST_CASE("G33 and G33.1 take an E that does nothing, with a warning") {
+  CHECK(only_code("M3 S100\nG33 Z-5 K1 E1\nM2\n") == Code::thread_unusual);
+  CHECK(only_code("M3 S100\nG33.1 Z-5 K1 E1\nM2\n") == Code::thread_unusual);
+}
+
 TEST_CASE("G96 needs S, and tells it as it was written") {
   CHECK(only_code("G96\n") == Code::word_missing);
   CHECK(only_code("G97 D100\n") == Code::word_unused);
