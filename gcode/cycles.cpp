@@ -173,6 +173,9 @@ void Interpreter::cycle_holes(Hole hole) {
   int repeats = 1;
   if (words_.has('L')) near_integer(words_.value('L'), repeats);
   for (int i = 0; i < repeats && !ended_; ++i) {
+    // an incremental angle goes on from the hole before
+    const bool polar = (words_.present & letter_bits("@^")) != 0;
+    if (i > 0 && polar && state_.incremental && !resolve_polar()) return;
     if (state_.incremental) {
       hole.first += word(hole.axes.first, 0);
       hole.second += word(hole.axes.second, 0);

@@ -14,6 +14,7 @@ Interpreter::Interpreter(const InterpretOptions& options, Report& report, const 
       words_(options.dialect),
       compensation_([this](Block& block) { hand_out_compensated(block); }) {
   state_.position = options.home;
+  state_.parameters[parameter::kDebug] = 1;
   write_axis_parameters(state_, parameter::kG28, options.g28);
   write_axis_parameters(state_, parameter::kG30, options.g30);
   if (options.tools) state_.tools = *options.tools;

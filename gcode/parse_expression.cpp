@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gcode/parser.h"
+#include "gcode/words.h"
 
 namespace kadr::gcode {
 namespace {
@@ -133,6 +134,11 @@ std::int32_t ExpressionParser::name(std::uint32_t sign) {
     const bool good = is_letter(c) || is_digit(c) || c == '_' || c == '-' || c == '.' || is_blank(c) ||
                       static_cast<unsigned char>(c) >= 0x80;
     if (!good) {
+      const std::string_view head = written.substr(0, std::min<std::size_t>(written.size(), 5));
+      if (c == '[' && (same_letters(head, "_INI[") || same_letters(head, "_HAL["))) {
+        return fail(Code::name_bad, {sign, end}, "kadr has no INI file and no HAL",
+                    "set a named parameter at the head of the program and use it here");
+      }
       return fail(Code::name_bad, {sign, end}, fmt::format("{} can't stand in a name", c),
                   "names are made of letters, digits, _ - and .");
     }

@@ -16,8 +16,8 @@ class Parser {
   Parser(Names& names, Report& report) : names_(names), report_(report) {}
   /// Takes the whole line as one item that was not read, without a message.
   void leave_unread(Line& line);
-  /// Mistakes are told no more: a line that is read again was told the first time.
-  void mute() { muted_ = true; }
+  /// Mistakes are not told: of a line that was told before, or that nothing leads to.
+  void mute(bool muted) { muted_ = muted; }
 
   /// Fills line.items and line.nodes from line.text, from byte `begin` on.
   void parse(Line& line, std::size_t begin = 0);

@@ -64,7 +64,7 @@ const Line* Program::next() {
 
 void Program::rewind() {
   at_ = {};
-  parser_.mute();
+  parser_.mute(true);
   if (text_.size() > kKeptBytes) return;
   while (read(line_)) kept_.push_back(line_);
   at_ = {};

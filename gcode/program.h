@@ -23,6 +23,8 @@ class Program {
 
   /// Parses the next line; it holds until the next call. Null at the end of the text.
   const Line* next();
+  /// Whether mistakes of the lines that follow are told.
+  void mute(bool muted) { parser_.mute(muted); }
   Position position() const { return at_; }
   void go_to(Position position) { at_ = position; }
   std::uint32_t file() const { return file_; }

@@ -23,6 +23,7 @@ void Interpreter::comment() {
   const bool message = same_letters(active.command, "MSG");
   const bool debug = same_letters(active.command, "DEBUG");
   if (!message && !debug && !same_letters(active.command, "PRINT")) return;
+  if (debug && state_.parameters[parameter::kDebug] == 0) return;
   Block block =
       make_block(message || debug ? BlockKind::message : BlockKind::comment, line_->span(item.bytes));
   block.text = message ? valid_text(active.text) : expanded_text(active.text, state_, line_->number);

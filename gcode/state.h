@@ -45,6 +45,7 @@ inline constexpr int kG28 = 5161;  ///< .. 5169
 inline constexpr int kG30 = 5181;  ///< .. 5189
 inline constexpr int kProbe =
     5061;  ///< .. 5069, where the last probing tripped, program coordinates and units of then
+inline constexpr int kDebug = 5599;  ///< 0: (DEBUG, ...) is silent; 1 at start
 inline constexpr int kProbeTripped = 5070;
 inline constexpr int kInput = 5399;       ///< what the last M66 read
 inline constexpr int kG92Active = 5210;   ///< 1 while the G92 offset holds

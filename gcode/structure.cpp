@@ -294,16 +294,36 @@ struct Structure::Reader {
   }
 };
 
+namespace {
+
+bool begins_subroutine(const Line& line) {
+  return line.has_flow && (line.flow.word == FlowWord::sub || line.flow.word == FlowWord::label);
+}
+
+bool ends_program(const Line& line) {
+  return std::any_of(line.items.begin(), line.items.end(), [](const Item& item) {
+    return item.kind == ItemKind::word && item.letter == 'M' && item.value < 0 &&
+           (item.number == 2 || item.number == 30);
+  });
+}
+
+}  // namespace
+
 bool Structure::read(Program& program, bool block_delete, Names& names, Report& report) {
   Reader reader{*this, names};
   bool words = false;
   bool unread = false;
+  bool behind_end = false;
   for (;;) {
+    program.mute(behind_end);
     const Program::Position at = program.position();
     const Line* line = program.next();
     if (line == nullptr) break;
     if (line->items.empty()) continue;
     if (block_delete && line->items.front().kind == ItemKind::block_delete) continue;
+    // what can't be read behind M2 is a remark, until a subroutine begins
+    if (behind_end && (line->failed || !begins_subroutine(*line))) continue;
+    behind_end = reader.open.empty() && ends_program(*line);
     if (line->has_flow && line->failed) unread = true;
     if (line->has_flow && !line->failed) {
       reader.add(*line, at, program.position());

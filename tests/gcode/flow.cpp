@@ -310,3 +310,10 @@ TEST_CASE("a byte order mark and comments may stand before the first O word") {
     CHECK(outcome.moves().size() == 1);
   }
 }
+
+TEST_CASE("what can't be read behind M2 is a remark, until a subroutine begins") {
+  const std::string sub = "o1 sub\nG0 X#1\no1 endsub\n";
+  CHECK(last_point(sub + "o1 call [5]\nM2\nThese are notes, no words:\n 1 = 2\n")[0] == 5);
+  CHECK(only_code("M98 P2\nM2\nnotes, no words\nO2\nG0 Y[\nM99\n") == Code::number_missing);
+  CHECK(only_code(sub + "o1 call [5]\nnotes, no words\nM2\n") == Code::unknown_name);
+}

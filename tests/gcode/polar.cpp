@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "support.h"
 
@@ -97,4 +98,19 @@ TEST_CASE("what goes wrong while modes are restored is told at the word that res
   CAPTURE(refused.rendered);
   REQUIRE(refused.diagnostics.has_errors());
   CHECK(refused.diagnostics.list().front().span == Span{0, 9, 3, 3});
+}
+
+TEST_CASE("an incremental angle of a repeated cycle goes on from hole to hole") {
+  // six holes on a circle of radius 10
+  const Outcome outcome = run("G0 X10 Y0 Z5 F100\nG91 G81 R-1 Z-2 ^60 L6\nM2\n");
+  std::vector<AxisValues> holes;
+  for (const Block& block : outcome.blocks) {
+    if (block.kind == BlockKind::feed) holes.push_back(block.end);
+  }
+  REQUIRE(holes.size() == 6);
+  CHECK(holes[0][0] == doctest::Approx(5));
+  CHECK(holes[0][1] == doctest::Approx(8.660254037844386));
+  CHECK(holes[2][0] == doctest::Approx(-10));
+  CHECK(holes[5][0] == doctest::Approx(10));
+  CHECK(std::fabs(holes[5][1]) < 1e-12);
 }

@@ -101,6 +101,11 @@ TEST_CASE("a format in a message holds for the values behind it, what is no form
   CHECK(outcome.trace[0] == "MESSAGE \"2 2 2.2500 2.2 %lf2.2 100% %5d\"");
 }
 
+TEST_CASE("DEBUG is silent while #5599 is 0, MSG and PRINT are not") {
+  const Outcome outcome = run("#5599=0\n(DEBUG,a)\n(MSG,b)\n(PRINT,c)\n#5599=1\n(DEBUG,d)\n");
+  CHECK(outcome.trace == std::vector<std::string>{"MESSAGE \"b\"", "# c", "MESSAGE \"d\"", "PROGRAM_END"});
+}
+
 TEST_CASE("a byte order mark and CR LF line ends are accepted") {
   CHECK(last_point("\xEF\xBB\xBFG0 X1\r\nX2\r\n")[0] == 2);
 }
