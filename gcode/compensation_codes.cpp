@@ -170,13 +170,6 @@ void Interpreter::end_compensation(Span place) {
   state_.tool_shift = {};
 }
 
-/// At a tool change behind G40 the controller asks the machine where it stands: beside the contour.
-void Interpreter::stand_beside_contour() {
-  if (state_.compensating() || !compensation_.active()) return;
-  state_.position = compensation_.last_end();
-  compensation_.leave();
-}
-
 void Interpreter::report_compensation_fault(const CompensationFault& fault, Span span) {
   using Kind = CompensationFault::Kind;
   Diagnostic d = problem(Code::compensation_gouge, span, {});

@@ -251,6 +251,7 @@ void Interpreter::tap(const Hole& hole) {
   turn_spindle(in, span);
   // after exchanged axes the program goes on as if the tool were over the hole
   state_.position = near_position(state_.to_machine(place_at(hole, hole.clear)));
+  tapped_at_ = state_.position;
   if (feed_override) override_block(BlockKind::feed_override, true);
   if (speed_override) override_block(BlockKind::speed_override, true);
 }

@@ -101,6 +101,7 @@ class Interpreter {
   // tools.cpp: T, M6 M61, G43 G43.1 G43.2 G49, G10 L1 L10 L11
   void select_tool();
   void change_tool();
+  void take_real_position();
   void tool_length();
   const Tool* length_of_tool(int number);
   void set_tool_table();
@@ -225,7 +226,6 @@ class Interpreter {
   void compensate(const Block& block);
   void hand_out_compensated(Block& block);
   void end_compensation(Span place);
-  void stand_beside_contour();
   void report_compensation_fault(const CompensationFault& fault, Span span);
 
   // compensation_checks.cpp: what may not stand while compensation is on
@@ -286,6 +286,7 @@ class Interpreter {
   double spline_i_mm_ = 0;  ///< from the start to the first control point of a G5 without I and J
   double spline_j_mm_ = 0;
   std::optional<AxisValues> spline_end_;  ///< of the last G5
+  std::optional<AxisValues> tapped_at_;   ///< where the last tap ended for the program: not where the tool is
   std::optional<AxisValues> probe_left_;  ///< where the last G38.4 or G38.5 lost contact
   bool probe_stock_told_ = false;
   std::uint32_t axes_on_machine_ = 0;

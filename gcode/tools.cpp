@@ -27,11 +27,23 @@ void Interpreter::change_tool() {
   } else {
     turn_spindle(Turning::stopped, span);
     state_.tool_in_spindle = state_.tool_selected;
-    stand_beside_contour();
+    take_real_position();
   }
   Block block = make_block(code == 61 ? BlockKind::set_tool_number : BlockKind::change_tool, span);
   block.number = state_.tool_in_spindle;
   emit(block);
+}
+
+/// At a tool change the controller asks the machine where it stands: beside the contour if no move came since
+/// G40, and where a tap outside G17 has led it.
+void Interpreter::take_real_position() {
+  if (state_.compensating()) return;
+  if (compensation_.active()) {
+    state_.position = compensation_.last_end();
+    compensation_.leave();
+  } else if (tapped_at_ && *tapped_at_ == state_.position) {
+    state_.position = motion_block_.end;
+  }
 }
 
 void Interpreter::tool_length() {

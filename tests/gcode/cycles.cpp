@@ -216,3 +216,10 @@ TEST_CASE("a mistake in the first line of a cycle is not told again on the lines
   CHECK(only_code("F100\nG81 X1 Z-5\nX2\nX3\n") == Code::word_missing);
   CHECK(only_code("F100\nG83 X1 Z-5 R2\nX2\nX3\n") == Code::word_missing);
 }
+
+TEST_CASE("a tool change behind a tap outside G17 goes on where the tool stands") {
+  // the tap in G18 ends at X2 Y5 Z7 (exchanged axes) where the program takes it for X7 Y2 Z5
+  const std::string tap = "F100 S100 M3 G18\nG84 X7 Z5 Y-3 R2\nG80\n";
+  CHECK(run(tap + "G0 A1\nM2\n").moves().back().end == AxisValues{7, 2, 5, 1});
+  CHECK(run(tap + "T1 M6\nG0 A1\nM2\n").moves().back().end == AxisValues{2, 5, 7, 1});
+}

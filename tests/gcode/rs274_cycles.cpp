@@ -24,6 +24,12 @@ class CyclePrograms {
       cycles();
     }
     TestProgram program;
+    for (const int number : {1, 2}) {
+      Tool tool;
+      tool.number = tool.pocket = number;
+      tool.offset[2] = 3.0173 * number;
+      program.tools.tools.push_back(tool);
+    }
     program.text = text + text_ + "M2\n";
     return program;
   }
@@ -78,6 +84,26 @@ class CyclePrograms {
         "G94 F300",
         "G30 Z1",
         "G10 L20 P2 X5 Y1",
+        "G0 A30 C-5",
+        "G90 G53 G0 Z20",
+        "G59.1",
+        "G59.3",
+        "G52 X1 Y2",
+        "G1 X2 Y1",
+        // at M6 the stand-alone rs274 forgets a rotation that no move has followed
+        "G0 X1 Y1\nT1 M6",
+        "G43 H2",
+        "M0",
+        "M7",
+        "(MSG, drill)",
+        "G90.1",
+        "G91.1",
+        "G10 L20 P1 Z3.0171",
+        "G28.1",
+        "S800 M3",
+        "G64 P0.1 Q0.05",
+        "M62 P1",
+        "M65 P2",
     };
     for (std::uint64_t n = random_.below(4); n > 0; --n) line(kLines[random_.below(std::size(kLines))]);
     if (random_.chance(0.3)) line(random_.chance(0.5) ? "G91" : "G90 G0 X" + number(-9, 9));
@@ -109,9 +135,12 @@ class CyclePrograms {
     const bool pecks = code == "G73" || code == "G83";
     const bool dwells = code != "G81" && code != "G85" && !pecks;
     const std::uint64_t lines = 1 + random_.below(4);
+    const bool loops = random_.chance(0.1);
     for (std::uint64_t i = 0; i < lines; ++i) {
       std::string text = i == 0 || random_.chance(0.2) ? code : "";
       bool axis = false;
+      if (loops && i + 1 == lines) line(fmt::format("o{} repeat [{}]", ++labels_, 2 + random_.below(2)));
+      if (random_.chance(0.1)) text = "N" + std::to_string(10 * (i + 1)) + " " + text;
       for (const char letter : {'X', 'Y', 'Z'}) {
         if (letter == along || (random_.chance(0.5) && (axis || i == 0 || letter != first_of_plane())))
           continue;
@@ -129,9 +158,37 @@ class CyclePrograms {
       if (code != "G74" && random_.chance(0.25)) text += fmt::format(" L{}", 1 + random_.below(4));
       if (random_.chance(0.1)) text += " F" + number(50, 900);
       if (random_.chance(0.1)) text += random_.chance(0.5) ? " G98" : " G99";
+      if (random_.chance(0.05)) text += " S700";
+      if (random_.chance(0.05)) text += " M8 (cool)";
       line(text);
+      if (i + 1 < lines && random_.chance(0.15)) interruption();
     }
+    if (loops) line(fmt::format("o{} endrepeat", labels_));
     if (random_.chance(0.5)) line("G80");
+  }
+  /// Between the lines of a sequence, which goes on behind it.
+  void interruption() {
+    static const char* const kLines[] = {"G4 P0.1",
+                                         "F300",
+                                         "S600",
+                                         "M8",
+                                         "M9",
+                                         "(comment)",
+                                         "#5=1",
+                                         "G98",
+                                         "G99",
+                                         "M49",
+                                         "M48",
+                                         "G28.1",
+                                         "G61",
+                                         "G64",
+                                         "G92.2",
+                                         "G10 L2 P5 X1",
+                                         "G90.1",
+                                         "G91.1",
+                                         "(DEBUG,#5420 #5422)",
+                                         "G94 F90"};
+    line(kLines[random_.below(std::size(kLines))]);
   }
   char first_of_plane() const { return "XZY"[plane_]; }
 
@@ -139,6 +196,7 @@ class CyclePrograms {
   std::string text_;
   std::uint64_t plane_ = 0;
   bool incremental_ = false;
+  int labels_ = 100;
 };
 
 }  // namespace
