@@ -139,6 +139,7 @@ bool Flow::enter(Target target, bool by_code, Span place, const std::vector<doub
   }
   state_.levels.push_back(std::move(level));
   unit_ = target.unit;
+  unit_->defined[static_cast<std::size_t>(target.statement)] = true;
   unit_->program.go_to(unit_->structure[target.statement].after);
   return true;
 }
@@ -174,7 +175,6 @@ void Flow::return_code(Span place) {
 }
 
 void Flow::leave_call() {
-  while (!repeats_.empty() && repeats_.back().level == calls_.size()) repeats_.pop_back();
   const CallLevel& level = state_.levels.back();
   if (level.own_numbered) {
     std::copy(level.numbered.begin(), level.numbered.end(), state_.parameters.begin() + parameter::kFirst);

@@ -90,7 +90,10 @@ bool Flow::add_unit(std::uint32_t file, std::string name) {
   const bool is_main = unit.name.empty();
   straight_ = is_main && !unit.program.has_o_words();
   if (straight_) return true;
-  return unit.structure.read(unit.program, options_.block_delete, state_.names, report_);
+  if (!unit.structure.read(unit.program, options_.block_delete, state_.names, report_)) return false;
+  unit.passes_left.assign(unit.structure.size(), kNoPasses);
+  unit.defined.assign(unit.structure.size(), false);
+  return true;
 }
 
 void Flow::statement(const Line& line) {
@@ -102,7 +105,7 @@ void Flow::statement(const Line& line) {
   const Statement& s = at(index);
   switch (line.flow.word) {
     case FlowWord::sub:
-      return unit_->program.go_to(at(s.end).after);
+      return pass_definition(index);
     case FlowWord::end_sub:
     case FlowWord::return_from:
       return give_back(line);
@@ -124,13 +127,32 @@ void Flow::statement(const Line& line) {
     case FlowWord::end_repeat:
       return repeat_end(index);
     case FlowWord::break_loop:
-      return leave_loop(s.begin);
+      return break_loop(index);
     case FlowWord::continue_loop:
-      drop_repeats(s.begin, at(s.begin).end);
-      return next_pass(s.begin);
+      return continue_loop(index);
     default:
       return;
   }
+}
+
+/// The value behind endsub counts here, too, with the parameters of the one who passes.
+void Flow::pass_definition(int index) {
+  const Statement& s = at(index);
+  if (unit_->defined[static_cast<std::size_t>(index)]) {
+    unit_->program.go_to(at(s.end).after);
+    return error(problem(Code::o_misplaced, s.span,
+                         fmt::format("{} is known here already", label_text(s.name)),
+                         "write a subroutine above the lines that call it, or behind the program's end"));
+  }
+  unit_->defined[static_cast<std::size_t>(index)] = true;
+  unit_->program.go_to(at(s.end).at);
+  const Line& end = *unit_->program.next();
+  double returned = 0;
+  state_.value_returned = !end.flow.arguments.empty();
+  const bool known =
+      state_.value_returned &&
+      evaluator_.evaluate(end, end.flow.first, end.flow.arguments.front(), state_, nullptr, returned);
+  state_.returned_value = known ? returned : 0;
 }
 
 bool Flow::value(const Line& line, std::int32_t first, std::int32_t root, double& result) {
@@ -150,72 +172,6 @@ void Flow::branch(const Line& line, int index) {
     known = argument(*unit_->program.next(), condition);
   }
   unit_->program.go_to(known ? at(at_branch).after : at(at(index).end).after);
-}
-
-bool Flow::count_pass(int beginning) {
-  const std::uint64_t most = options_.bounds.loop_passes;
-  if (++passes_ <= most || most == 0) return true;
-  Diagnostic d =
-      problem(Code::loop_too_long, at(beginning).span, fmt::format("pass {} of the program's loops", passes_),
-              "look at the condition and at what changes it");
-  d.notes.push_back(fmt::format("allowed are {} in all (--limit loop_passes=N)", most));
-  error(std::move(d));
-  stopped_ = true;
-  return false;
-}
-
-void Flow::while_head(const Line& line, int index) {
-  double condition = 0;
-  const bool known = argument(line, condition);
-  if (known && condition != 0) {
-    count_pass(index);
-  } else {
-    unit_->program.go_to(at(at(index).end).after);
-  }
-}
-
-void Flow::do_foot(const Line& line, int index) {
-  double condition = 0;
-  const bool again = argument(line, condition) && condition != 0 && report_.errors() == 0;
-  if (again) unit_->program.go_to(at(at(index).begin).at);
-}
-
-void Flow::next_pass(int index) {
-  // after an error nothing moves any more: one pass tells what there is to tell
-  if (report_.errors() > 0) return leave_loop(index);
-  const Statement& s = at(index);
-  unit_->program.go_to(s.word == FlowWord::do_once ? at(s.end).at : s.at);
-}
-
-void Flow::leave_loop(int index) {
-  drop_repeats(index, at(index).end);
-  unit_->program.go_to(at(at(index).end).after);
-}
-
-void Flow::repeat(const Line& line, int index) {
-  double wanted = 0;
-  const bool known = argument(line, wanted);
-  const double rounded = std::nearbyint(wanted);  // 0.5 is no pass, 1.5 are two: to the even number
-  if (!known || !(rounded >= 1)) return unit_->program.go_to(at(at(index).end).after);
-  const double most = 9e18;
-  repeats_.push_back({index, static_cast<std::uint64_t>(std::min(rounded, most)), calls_.size()});
-  count_pass(index);
-}
-
-void Flow::repeat_end(int index) {
-  Repeat& repeat = repeats_.back();
-  if (--repeat.passes_left == 0 || report_.errors() > 0) {
-    repeats_.pop_back();
-    return;
-  }
-  const int first = at(index).begin;
-  if (count_pass(first)) unit_->program.go_to(at(first).after);
-}
-
-void Flow::drop_repeats(int first, int last) {
-  while (!repeats_.empty() && repeats_.back().level == calls_.size() && repeats_.back().statement > first &&
-         repeats_.back().statement < last)
-    repeats_.pop_back();
 }
 
 }  // namespace kadr::gcode

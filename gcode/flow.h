@@ -23,6 +23,8 @@ class Flow {
     Program program;
     Structure structure;
     std::string name;  ///< file name without folder and ending; empty for the main program
+    std::vector<std::int64_t> passes_left = {};  ///< [statements] of a repeat; kNoPasses: it is not under way
+    std::vector<bool> defined = {};              ///< [statements] subs that were called or passed over
   };
   /// A subroutine in a unit.
   struct Target {
@@ -37,26 +39,26 @@ class Flow {
     bool by_code = false;            ///< M98
     std::uint64_t repeats_left = 0;  ///< M98 L
   };
-  struct Repeat {
-    int statement = -1;
-    std::uint64_t passes_left = 0;
-    std::size_t level = 0;  ///< number of calls when it began
-  };
-
   bool add_unit(std::uint32_t file, std::string name);
   bool size_allowed(std::uint32_t file);
   void tell_words_behind_end();
   void step(const Line& line);
   void statement(const Line& line);
   void branch(const Line& line, int index);
+  void pass_definition(int index);
+
+  // loops.cpp
   void while_head(const Line& line, int index);
   void do_foot(const Line& line, int index);
   void repeat(const Line& line, int index);
   void repeat_end(int index);
-  void leave_loop(int index);
-  void next_pass(int index);
+  void break_loop(int index);
+  void continue_loop(int index);
+  void pass_over_breaks(int from, int loop);
+  void leave_loop(int loop);
+  void next_pass(int loop);
   bool count_pass(int beginning);
-  void drop_repeats(int first, int last);
+  void warn_kept(int index, std::string label, std::string cause);
 
   void call_statement(const Line& line);
   void call_code(const CallRequest& request);
@@ -88,7 +90,10 @@ class Flow {
   Unit* unit_ = nullptr;
   std::vector<Call> calls_;
   std::vector<Span> places_;  ///< [calls], where each was made
-  std::vector<Repeat> repeats_;
+  static constexpr std::int64_t kNoPasses = -1;
+  int repeat_gone_back_to_ = -1;  ///< the repeat whose endrepeat was just reached
+  bool break_kept_ = false;       ///< a break was met, and no foot of a do since
+  bool continue_kept_ = false;  ///< a continue was met, and no end of a while or repeat was passed over since
   std::uint64_t passes_ = 0;
   Span end_;
   bool straight_ = false;  ///< no O words: nothing leads behind the program's end

@@ -28,6 +28,7 @@ class Structure {
 
   /// The statement on a line. @pre the line holds an O word
   int at_line(std::uint32_t line) const;
+  std::size_t size() const { return statements_.size(); }
   const Statement& operator[](int index) const { return statements_[static_cast<std::size_t>(index)]; }
   /// The `sub` of that name, -1 if there is none.
   int sub(std::int32_t name) const { return find(subs_, name); }

@@ -98,11 +98,42 @@ TEST_CASE("while, do and repeat, left by break, shortened by continue") {
   CHECK(printed("O1 repeat [2.6]\n(PRINT,a)\nO1 endrepeat\nO2 repeat [0]\n(PRINT,b)\nO2 endrepeat\n"
                 "O3 repeat [1.4]\n(PRINT,c)\nO3 endrepeat\nO4 repeat [-3]\n(PRINT,d)\nO4 endrepeat\nM2\n") ==
         Texts{"a", "a", "a", "c"});
-  // a repeat inside a loop that is left begins anew at the next pass
+}
+
+TEST_CASE("what loops leave behind acts on later loops, as in rs274") {
+  // a repeat that is left goes on with the passes that were left
   CHECK(
       printed(
           "O1 while [#1 LT 2]\n#1=[#1+1]\nO2 repeat [2]\n(PRINT,#1)\nO3 if [#1 EQ 1]\nO1 continue\nO3 endif\n"
-          "O2 endrepeat\nO1 endwhile\nM2\n") == Texts{"1.000000", "2.000000", "2.000000"});
+          "O2 endrepeat\nO1 endwhile\nM2\n") == Texts{"1.000000", "2.000000"});
+  // a while with a break in it, though it never ran: the do loop behind it makes one pass
+  const std::string do_loop = "O3 do\n#1=[#1+1]\n(PRINT,#1)\nO3 while [#1 LT 3]\n";
+  CHECK(printed("O1 while [0]\nO1 break\nO1 endwhile\n" + do_loop + "M2\n") == Texts{"1.000000"});
+  CHECK(printed("O1 while [0]\nO1 endwhile\n" + do_loop + "M2\n") ==
+        Texts{"1.000000", "2.000000", "3.000000"});
+  // a continue in a do: the next repeat runs twice, but only the next one
+  CHECK(printed("O1 do\nO1 continue\nO1 while [0]\nO2 repeat [2]\n(PRINT,a)\nO2 endrepeat\n"
+                "O3 repeat [1]\n(PRINT,b)\nO3 endrepeat\nM2\n") == Texts{"a", "a", "a", "a", "b"});
+  // ... or the next break of a while goes on
+  CHECK(printed("O1 do\nO1 continue\nO1 while [0]\nO2 while [#1 LT 3]\n#1=[#1+1]\n(PRINT,#1)\nO2 break\n"
+                "O2 endwhile\nM2\n") == Texts{"1.000000", "2.000000"});
+}
+
+TEST_CASE("a definition that is passed over gives the value of its endsub") {
+  CHECK(printed("o1 sub\no1 endsub [#1+2]\n(PRINT,#<_value> #<_value_returned>)\no2 sub\no2 endsub\n"
+                "(PRINT,#<_value> #<_value_returned>)\nM2\n") ==
+        Texts{"2.000000 1.000000", "0.000000 0.000000"});
+  // rs274 knows the sub from its call and refuses to meet it again
+  CHECK(only_code("o1 call\no1 sub\no1 endsub\nM2\n") == Code::o_misplaced);
+  CHECK_FALSE(run("o1 call\nM2\no1 sub\no1 endsub\n").diagnostics.has_errors());
+}
+
+TEST_CASE("a name exists on the line that sets it, with the value 0") {
+  CHECK(printed("#<n>=[#<n>+1]\n(PRINT,#<n>)\n#<n>=[#<n>+1]\n(PRINT,#<n>)\nM2\n") ==
+        Texts{"1.000000", "2.000000"});
+  CHECK(printed("#<m>=[EXISTS[#<m>]] #1=[EXISTS[#<k>]] #<k>=3\n(PRINT,#<m> #1)\nM2\n") ==
+        Texts{"1.000000 0.000000"});
+  CHECK(only_code("G0 X#<k> #<k>=3\n") == Code::name_not_set);
 }
 
 TEST_CASE("a return from within loops leaves them all") {
