@@ -26,7 +26,7 @@ enum class BlockKind : std::uint8_t {
   spindle_speed,      ///< value: S as written; rpm, under G96 see surface_speed_m_min
   spindle_clockwise,  ///< value: rpm, under G96 that of this place
   spindle_counterclockwise,
-  spindle_stop,
+  spindle_stop,  ///< on: oriented (M19), to `value` degrees the way that `number` says, -1 if neither is told
   mist_on,
   mist_off,
   flood_on,

@@ -200,6 +200,14 @@ bool write(LineWriter& line, const Block& block) {
       spindle(line, "START_SPINDLE_COUNTERCLOCKWISE");
       break;
     case BlockKind::spindle_stop:
+      if (block.on) {
+        if (block.number < 0) return false;
+        spindle(line, "ORIENT_SPINDLE");
+        line.fixed(block.value);
+        line.text(" ");
+        line.integer(block.number);
+        break;
+      }
       spindle(line, "STOP_SPINDLE_TURNING");
       break;
     case BlockKind::mist_on:

@@ -28,11 +28,11 @@ std::string_view users_of(char letter) {
     case 'L':
       return "L belongs to G5.2 G10 G41.1 G42.1, cycles, M66 and M98";
     case 'P':
-      return "P belongs to G2 G3 G4 G5 G5.2 G10 G64 G76, cycles, M50 M51 M53 M62 to M66 and M98";
+      return "P belongs to G2 G3 G4 G5 G5.2 G10 G64 G76, cycles, M19 M50 to M53 M62 to M66 and M98";
     case 'Q':
-      return "Q belongs to G5 G10 G64 G73 G76 G83 M61 M66 M67 M68";
+      return "Q belongs to G5 G10 G64 G73 G76 G83 M19 M61 M66 M67 M68";
     case 'R':
-      return "R belongs to G2 G3 G10 G76 and cycles";
+      return "R belongs to G2 G3 G10 G76 M19 and cycles";
     case '$':
       return "$ names a spindle: it belongs to S, M3 M4 M5 M51, G33 G33.1 G76 G96 G97";
     default:
@@ -174,6 +174,7 @@ std::uint32_t Interpreter::usable_letters() const {
   const int mode = words_.g(GGroup::spindle_mode);
   if (mode == 960) letters |= letter_bit('D');
   if (mode != kNoCode || words_.has('S') || words_.m(MGroup::spindle) != kNoCode) letters |= letter_bit('$');
+  if (words_.m(MGroup::spindle) == 19) letters |= letter_bits("RPQ");
   const int override_code = words_.m(MGroup::overrides);
   if (override_code >= 50) letters |= letter_bit('P');
   if (override_code == 51) letters |= letter_bit('$');

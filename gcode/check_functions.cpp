@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kLargestChannel = 9999;
 constexpr double kLastWaitMode = 4;
+constexpr double kFullTurn_deg = 360;
+constexpr double kLastOrientWay = 2;  // P of M19: 0 the nearer way, 1 clockwise, 2 counter-clockwise
 
 }  // namespace
 
@@ -15,11 +17,24 @@ void Interpreter::check_functions() {
   if (words_.m(MGroup::inputs) != kNoCode) check_inputs();
   // one spindle: $0, and $-1, which means all
   if (words_.has('$') && (words_.has('S') || words_.m(MGroup::spindle) != kNoCode)) check_whole('$', -1, 0);
+  if (words_.m(MGroup::spindle) == 19) check_orientation();
   const int spindle_code = words_.m(MGroup::spindle);
   const int state_code = words_.m(MGroup::modal_state);
   if (spindle_code == kNoCode || state_code == kNoCode) return;
   error(problem(Code::modal_conflict, words_.span(*line_, MGroup::modal_state),
                 fmt::format("M{} and M{} exclude each other on one line", spindle_code, state_code)));
+}
+
+void Interpreter::check_orientation() {
+  if (words_.has('R') && !(words_.value('R') >= 0 && words_.value('R') <= kFullTurn_deg)) {
+    error(problem(Code::word_out_of_range, words_.span(*line_, 'R'),
+                  fmt::format("M19 R{}: allowed are 0 to 360 degrees", figure(words_.value('R')))));
+  }
+  check_whole('P', 0, kLastOrientWay);
+  if (words_.has('Q') && !(words_.value('Q') > 0)) {
+    error(problem(Code::word_out_of_range, words_.span(*line_, 'Q'),
+                  fmt::format("M19 waits {} s, allowed above 0", figure(words_.value('Q')))));
+  }
 }
 
 void Interpreter::check_inputs() {

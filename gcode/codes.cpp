@@ -99,15 +99,14 @@ struct MEntry {
 constexpr MEntry kRunM[] = {{0, MGroup::stop},         {1, MGroup::stop},         {2, MGroup::stop},
                             {30, MGroup::stop},        {60, MGroup::stop},        {6, MGroup::tool_change},
                             {61, MGroup::tool_change}, {3, MGroup::spindle},      {4, MGroup::spindle},
-                            {5, MGroup::spindle},      {7, MGroup::coolant},      {8, MGroup::coolant},
-                            {9, MGroup::coolant},      {48, MGroup::overrides},   {49, MGroup::overrides},
-                            {50, MGroup::overrides},   {51, MGroup::overrides},   {53, MGroup::overrides},
-                            {62, MGroup::inputs},      {63, MGroup::inputs},      {64, MGroup::inputs},
-                            {65, MGroup::inputs},      {66, MGroup::inputs},      {67, MGroup::inputs},
-                            {68, MGroup::inputs},      {70, MGroup::modal_state}, {71, MGroup::modal_state},
-                            {72, MGroup::modal_state}, {73, MGroup::modal_state}, {98, MGroup::call},
-                            {99, MGroup::call}};
-constexpr int kKnownM[] = {19, 52};
+                            {5, MGroup::spindle},      {19, MGroup::spindle},     {52, MGroup::overrides},
+                            {7, MGroup::coolant},      {8, MGroup::coolant},      {9, MGroup::coolant},
+                            {48, MGroup::overrides},   {49, MGroup::overrides},   {50, MGroup::overrides},
+                            {51, MGroup::overrides},   {53, MGroup::overrides},   {62, MGroup::inputs},
+                            {63, MGroup::inputs},      {64, MGroup::inputs},      {65, MGroup::inputs},
+                            {66, MGroup::inputs},      {67, MGroup::inputs},      {68, MGroup::inputs},
+                            {70, MGroup::modal_state}, {71, MGroup::modal_state}, {72, MGroup::modal_state},
+                            {73, MGroup::modal_state}, {98, MGroup::call},        {99, MGroup::call}};
 constexpr int kFirstUserM = 100;  // M100 .. M199 are the user's own
 
 constexpr std::array<GCode, kGTableSize> make_g_table() {
@@ -118,7 +117,6 @@ constexpr std::array<GCode, kGTableSize> make_g_table() {
 }
 constexpr std::array<MCode, kMTableSize> make_m_table() {
   std::array<MCode, kMTableSize> table{};
-  for (const int number : kKnownM) table[static_cast<std::size_t>(number)].standing = Standing::not_run;
   for (int m = kFirstUserM; m < kMTableSize; ++m)
     table[static_cast<std::size_t>(m)].standing = Standing::not_run;
   for (const MEntry& e : kRunM) table[static_cast<std::size_t>(e.number)] = {Standing::runs, e.group};

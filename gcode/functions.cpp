@@ -5,6 +5,7 @@ namespace kadr::gcode {
 void Interpreter::spindle() {
   const int code = words_.m(MGroup::spindle);
   if (code == kNoCode) return;
+  if (code == 19) return orient_spindle();
   turn_spindle(code == 3   ? Turning::clockwise
                : code == 4 ? Turning::counterclockwise
                            : Turning::stopped,
@@ -18,6 +19,17 @@ void Interpreter::turn_spindle(Turning turning, Span span) {
                                                                   : BlockKind::spindle_stop,
                            span);
   block.value = mean_spindle_rpm(state_.position, state_.position);
+  emit(block);
+}
+
+void Interpreter::orient_spindle() {
+  state_.turning = Turning::stopped;
+  Block block = make_block(BlockKind::spindle_stop, words_.span(*line_, MGroup::spindle));
+  block.on = true;
+  block.value = words_.has('R') ? words_.value('R') : 0;
+  int way = words_.has('R') ? 0 : -1;
+  if (words_.has('P')) near_integer(words_.value('P'), way);
+  block.number = way;
   emit(block);
 }
 
@@ -37,7 +49,7 @@ void Interpreter::coolant() {
 
 void Interpreter::overrides() {
   const int code = words_.m(MGroup::overrides);
-  if (code == kNoCode || code == 53) return;  // M53, the feed hold switch, is the operator's
+  if (code == kNoCode || code == 52 || code == 53) return;  // adaptive feed and feed hold are the operator's
   const bool enable = code == 48 || (code != 49 && !(words_.has('P') && words_.value('P') == 0));
   if (code != 51) override_block(BlockKind::feed_override, enable);
   if (code != 50) override_block(BlockKind::speed_override, enable);

@@ -83,12 +83,13 @@ class Interpreter {
   void units();
   void work_system();
   void path_control();
-  void set_path_mode(PathMode mode, double tolerance_mm, Span span);
+  void set_path_mode(PathMode mode, double tolerance, Span span);
   void distance_mode();
   void parameters();
 
   // functions.cpp: spindle, coolant, overrides, dwell, stop
   void spindle();
+  void orient_spindle();
   void turn_spindle(Turning turning, Span span);
   void coolant();
   void overrides();
@@ -238,6 +239,7 @@ class Interpreter {
   void inputs_and_outputs();
   void wait_input();
   void check_functions();
+  void check_orientation();
   void check_inputs();
   void check_wait();
 

@@ -212,7 +212,8 @@ class OracleReader {
                                                "SET_AUX_OUTPUT_BIT",
                                                "CLEAR_AUX_OUTPUT_BIT",
                                                "SET_MOTION_OUTPUT_VALUE",
-                                               "SET_AUX_OUTPUT_VALUE"};
+                                               "SET_AUX_OUTPUT_VALUE",
+                                               "ORIENT_SPINDLE"};
     static const char* const kNamesOnly[] = {"START_SPINDLE_CLOCKWISE",
                                              "START_SPINDLE_COUNTERCLOCKWISE",
                                              "STOP_SPINDLE_TURNING",
@@ -281,6 +282,10 @@ std::optional<Call> call_of(const Block& b, const std::string& name) {
       return Call{name, {b.value, static_cast<double>(b.number)}, 0, {}};
     case BlockKind::spindle_mode:
       return Call{"SET_SPINDLE_MODE", {b.maximum_rpm}, 0, {}};
+    case BlockKind::spindle_stop:
+      if (!b.on) return Call{name, {}, 0, {}};
+      if (b.number < 0) return std::nullopt;
+      return Call{name, {0, b.value, static_cast<double>(b.number)}, 0, {}};
     case BlockKind::dwell:
       return Call{name, {b.dwell_s}, 0, {}};
     case BlockKind::set_feed_rate:
