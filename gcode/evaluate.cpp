@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -60,7 +61,7 @@ bool Evaluator::node_value(const Line& line, const Node& node, const State& stat
       return true;
     }
     case NodeKind::exists_named:
-      value = is_predefined(node.left) || find_named(state, node.left) != nullptr ? 1 : 0;
+      value = is_predefined(node.left) || find_named(state, node.left) != nullptr || is_declared(node.left);
       return true;
     case NodeKind::parameter:
       return read(line, node, state, operand(node.left), value);
@@ -119,8 +120,22 @@ bool Evaluator::read_named(const Line& line, const Node& node, const State& stat
     value = *found;
     return true;
   }
+  if (is_declared(node.left)) {
+    value = 0;
+    if (report_ != nullptr) {
+      report_->warning(problem(Code::parameter_never_set, line.span(node.own),
+                               fmt::format("#<{}> is 0 here, because its first value holds behind this line",
+                                           state.names[node.left]),
+                               "set it on a line before"));
+    }
+    return true;
+  }
   return fail(Code::name_not_set, line.span(node.own),
               fmt::format("#<{}> has no value here", state.names[node.left]));
+}
+
+bool Evaluator::is_declared(std::int32_t name) const {
+  return std::find(declared_.begin(), declared_.end(), name) != declared_.end();
 }
 
 bool Evaluator::fail(Code code, Span span, std::string label) {

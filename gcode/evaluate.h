@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <set>
 #include <vector>
 
@@ -21,6 +22,9 @@ class Evaluator {
                 double& value);
   /// True if the last evaluated expression read a parameter that may be wrong after an earlier error.
   bool doubtful() const { return doubtful_; }
+  /// From here on the line sets this name: it exists, with the value 0 until the line has been run.
+  void declare(std::int32_t name) { declared_.push_back(name); }
+  void begin_line() { declared_.clear(); }
 
  private:
   bool node_value(const Line& line, const Node& node, const State& state, double& value);
@@ -28,10 +32,12 @@ class Evaluator {
   bool read_named(const Line& line, const Node& node, const State& state, double& value);
   bool fail(Code code, Span span, std::string label);
 
+  bool is_declared(std::int32_t name) const;
   void tell_never_set(const Line& line, const Node& node, const State& state, int number);
 
-  std::vector<double> values_;  ///< [nodes of the line]
-  std::set<int> told_;          ///< parameters told as never set
+  std::vector<double> values_;          ///< [nodes of the line]
+  std::set<int> told_;                  ///< parameters told as never set
+  std::vector<std::int32_t> declared_;  ///< names that this line sets, as far as it has been read
   Report* report_ = nullptr;
   bool doubtful_ = false;
 };

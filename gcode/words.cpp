@@ -55,6 +55,7 @@ void Words::clear() {
   any = percent = refused_motion = other_codes_ = false;
   comment = -1;
   settings.clear();
+  evaluator_.begin_line();
   g_.fill(kNoCode);
   m_.fill(kNoCode);
   motion_ = {};
@@ -126,6 +127,13 @@ bool Words::read_line_number(const Line& line, std::uint32_t at, Report* report)
   const bool first = std::all_of(line.items.begin(), line.items.begin() + at, [](const Item& before) {
     return before.kind != ItemKind::word && before.kind != ItemKind::setting;
   });
+  const std::string_view text = line.slice(line.items[at].bytes);
+  std::size_t behind = 1;
+  while (behind < text.size() && is_blank(text[behind])) ++behind;
+  if (behind == text.size() || !is_digit(text[behind])) {
+    return refuse(report, Code::bad_number, line.span(line.items[at].bytes),
+                  "a line number is written in digits");
+  }
   if (first) return true;
   return refuse(report, Code::line_number_place, line.span(line.items[at].bytes), "N is not the first word",
                 "a line number stands at the head of its line");
@@ -195,6 +203,7 @@ bool Words::read_setting(const Line& line, const Item& item, const State& state,
   any = true;
   double value = 0;
   if (item.name >= 0) {
+    evaluator_.declare(item.name);
     if (!evaluator_.evaluate(line, item.first, item.value, state, report, value)) return false;
     if (is_predefined(item.name)) {
       return refuse(report, Code::parameter_read_only, line.span({item.bytes.begin, item.equals}),
