@@ -124,11 +124,11 @@ void Interpreter::cycle() {
     return;
   }
   const PathMode mode = state_.path_mode;
-  const double tolerance_mm = state_.path_tolerance_mm;
+  const double tolerance = state_.path_tolerance;  // given back in the units in force now, as LinuxCNC does
   const Span span = action_span();
   if (mode != PathMode::exact_path) set_path_mode(PathMode::exact_path, 0, span);
   cycle_holes(hole);
-  if (mode != PathMode::exact_path) set_path_mode(mode, tolerance_mm, span);
+  if (mode != PathMode::exact_path) set_path_mode(mode, tolerance, span);
 }
 
 bool Interpreter::cycle_levels(Hole& hole) {

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "gcode/interpreter.h"
 #include "gcode/parser.h"
 
@@ -23,7 +25,7 @@ std::string path_word(const ModalState& modes) {
   return modes.path_tolerance > 0 ? fmt::format("G64 P{:.9f} ", modes.path_tolerance) : "G64 ";
 }
 
-/// One line of the words that lead from `now` to `saved`; units and coolant have lines of their own.
+/// The words that lead from `now` to `saved`, units and M codes left out.
 std::string differing_words(const ModalState& now, const ModalState& saved) {
   std::string words;
   const auto differ = [&](bool differs, std::string_view word) {
@@ -31,15 +33,13 @@ std::string differing_words(const ModalState& now, const ModalState& saved) {
   };
   differ(now.feed_mode != saved.feed_mode, feed_mode_word(saved.feed_mode));
   differ(now.constant_surface_speed != saved.constant_surface_speed,
-         saved.constant_surface_speed ? fmt::format("G96 S{:.9f} ", saved.spindle_rpm) : "G97 ");
+         saved.constant_surface_speed ? fmt::format("G96 S{:.0f} ", saved.spindle_rpm) : "G97 ");
+  // as LinuxCNC writes them: F with one decimal, S whole
   if (saved.feed_number > 0) {
-    differ(now.feed_number != saved.feed_number, fmt::format("F{:.9f} ", saved.feed_number));
+    differ(now.feed_number != saved.feed_number, fmt::format("F{:.1f} ", saved.feed_number));
   }
   const bool speed_told = saved.constant_surface_speed && !now.constant_surface_speed;
-  differ(now.spindle_rpm != saved.spindle_rpm && !speed_told, fmt::format("S{:.9f} ", saved.spindle_rpm));
-  differ(now.turning != saved.turning, saved.turning == Turning::clockwise          ? "M3 "
-                                       : saved.turning == Turning::counterclockwise ? "M4 "
-                                                                                    : "M5 ");
+  differ(now.spindle_rpm != saved.spindle_rpm && !speed_told, fmt::format("S{:.0f} ", saved.spindle_rpm));
   differ(now.plane != saved.plane, plane_word(saved.plane));
   differ(now.diameter_mode != saved.diameter_mode, saved.diameter_mode ? "G7 " : "G8 ");
   differ(now.compensation_code != saved.compensation_code && saved.compensation_code == 400, "G40 ");
@@ -49,7 +49,32 @@ std::string differing_words(const ModalState& now, const ModalState& saved) {
   differ(now.arc_centers_absolute != saved.arc_centers_absolute,
          saved.arc_centers_absolute ? "G90.1 " : "G91.1 ");
   differ(now.retract_to_start != saved.retract_to_start, saved.retract_to_start ? "G98 " : "G99 ");
+  // of a tool length only whether there is one
+  differ(now.tool_length != saved.tool_length, saved.tool_length ? "G43 " : "G49 ");
+  differ(now.g92_active != saved.g92_active, saved.g92_active ? "G92.3 " : "G92.2 ");
   return words;
+}
+
+/// The codes by which LinuxCNC keeps coolant and overrides; 0: none, which is never given back.
+int mist_code(const ModalState& modes) { return modes.mist ? 7 : modes.flood ? 0 : 9; }
+int flood_code(const ModalState& modes) { return modes.flood ? 8 : 0; }
+int override_code(const ModalState& modes) { return modes.feed_override ? 48 : 51; }
+int spindle_code(Turning turning) {
+  return turning == Turning::clockwise ? 3 : turning == Turning::counterclockwise ? 4 : 5;
+}
+
+/// The M codes that lead to `saved`, as far as the kept codes tell it: coolant that was off stays on beside
+/// the other one, and of the overrides only an enabled feed override comes back.
+std::vector<int> differing_m_codes(const ModalState& now, const ModalState& saved) {
+  std::vector<int> codes;
+  const auto differ = [&](int code_now, int code_saved) {
+    if (code_now != code_saved && code_saved != 0) codes.push_back(code_saved);
+  };
+  differ(spindle_code(now.turning), spindle_code(saved.turning));
+  differ(mist_code(now), mist_code(saved));
+  differ(flood_code(now), flood_code(saved));
+  differ(override_code(now), override_code(saved));
+  return codes;
 }
 
 }  // namespace
@@ -70,12 +95,15 @@ ModalState Interpreter::modes() const {
   modes.plane = state_.plane;
   modes.feed_mode = state_.feed_mode;
   modes.path_mode = state_.path_mode;
-  modes.path_tolerance = state_.path_tolerance_mm / state_.length_factor();
+  modes.path_tolerance = state_.path_tolerance;
   modes.feed_number = state_.feed_number;
   modes.spindle_rpm = state_.spindle_rpm;
   modes.turning = state_.turning;
   modes.work_system = state_.work_system;
   modes.compensation_code = state_.compensation_code;
+  modes.tool_length = std::any_of(state_.tool_offset.begin(), state_.tool_offset.end(),
+                                  [](double offset) { return offset != 0; });
+  modes.g92_active = state_.parameters[parameter::kG92Active] == 1;
   return modes;
 }
 
@@ -104,18 +132,15 @@ void Interpreter::modal_state() {
 
 void Interpreter::restore(const ModalState& saved, Span place) {
   if (state_.inches != saved.inches) run_words(saved.inches ? "G20" : "G21", place);
-  const std::string words = differing_words(modes(), saved);
-  if (!words.empty()) run_words(words, place);
-  const bool too_much = (state_.mist && !saved.mist) || (state_.flood && !saved.flood);
-  if (too_much) run_words("M9", place);
-  if (saved.mist && !state_.mist) run_words("M7", place);
-  if (saved.flood && !state_.flood) run_words("M8", place);
-  if (state_.feed_override != saved.feed_override)
-    run_words(saved.feed_override ? "M50 P1" : "M50 P0", place);
-  if (state_.speed_override != saved.speed_override) {
-    run_words(saved.speed_override ? "M51 P1" : "M51 P0", place);
+  // one line of all words and the first M code, then each further M code on its own
+  const ModalState now = modes();
+  std::string line = differing_words(now, saved);
+  for (const int code : differing_m_codes(now, saved)) {
+    run_words(line + fmt::format("M{}", code), place);
+    line.clear();
   }
-  state_.feed_hold = saved.feed_hold;
+  if (!line.empty()) run_words(line, place);
+  state_.feed_hold = state_.feed_hold || saved.feed_hold;
 }
 
 void Interpreter::run_words(const std::string& words, Span place) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "gcode/interpreter.h"
@@ -12,6 +13,7 @@ constexpr double kSecondsPerMinute = 60.0;
 // absolute coordinates computed through offsets return to a point only up to rounding; nearer than this is
 // the same point
 constexpr double kSamePoint_u = 1e-9;
+constexpr double kLeastInverseFeed = 0.1;  // #<_feed> of a very slow move under G93, per minute
 
 }  // namespace
 
@@ -236,6 +238,8 @@ void Interpreter::set_feed(Block& block) {
     block.feed_u_s = block.length_u / block.duration_s;
     // a probing move, which has no time of its own, goes on at this feed
     state_.feed_linear_mm_min = state_.feed_rotary_deg_min = block.feed_u_s * kSecondsPerMinute;
+    const double length = rotary ? block.length_u : block.length_u / state_.length_factor();
+    state_.feed_number = std::max(kLeastInverseFeed, length * words_.value('F'));
     return;
   }
   const double per_minute = rotary ? state_.feed_rotary_deg_min : state_.feed_linear_mm_min;

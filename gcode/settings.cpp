@@ -53,9 +53,10 @@ void Interpreter::feed_rate() {
   const double f = words_.value('F');
   const Span span = words_.span(*line_, 'F');
   Block block = make_block(BlockKind::set_feed_rate, span);
-  block.value = state_.feed_number = f;
+  block.value = f;
   const bool inverse = state_.feed_mode == FeedMode::inverse_time;
   if (!inverse) {
+    state_.feed_number = f;
     const bool per_minute = state_.feed_mode == FeedMode::units_per_minute;
     block.value = f * state_.length_factor();
     (per_minute ? state_.feed_linear_mm_min : state_.feed_linear_mm_rev) = block.value;
@@ -108,16 +109,17 @@ void Interpreter::work_system() {
 void Interpreter::path_control() {
   const int code = words_.g(GGroup::path);
   if (code == kNoCode) return;
-  const double tolerance_mm = code == 640 && words_.has('P') ? words_.value('P') * state_.length_factor() : 0;
+  const double tolerance = code == 640 && words_.has('P') ? words_.value('P') : 0;
   set_path_mode(code == 610   ? PathMode::exact_path
                 : code == 611 ? PathMode::exact_stop
                               : PathMode::continuous,
-                tolerance_mm, g_span(GGroup::path));
+                tolerance, g_span(GGroup::path));
 }
 
-void Interpreter::set_path_mode(PathMode mode, double tolerance_mm, Span span) {
+void Interpreter::set_path_mode(PathMode mode, double tolerance, Span span) {
   state_.path_mode = mode;
-  state_.path_tolerance_mm = tolerance_mm;
+  state_.path_tolerance = tolerance;
+  state_.path_tolerance_mm = tolerance * state_.length_factor();
   simple_block(BlockKind::set_path_mode, span);
 }
 

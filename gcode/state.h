@@ -113,12 +113,14 @@ struct ModalState {
   Plane plane = Plane::xy;
   FeedMode feed_mode = FeedMode::units_per_minute;
   PathMode path_mode = PathMode::continuous;
-  double path_tolerance = 0;  ///< in the units in force then
+  double path_tolerance = 0;  ///< as written
   double feed_number = 0;     ///< F as written
   double spindle_rpm = 0;
   Turning turning = Turning::stopped;
   int work_system = 1;
   int compensation_code = 400;
+  bool tool_length = false;  ///< G43 .. G43.2 with an offset other than 0
+  bool g92_active = false;
 };
 
 /// What belongs to one call of a subroutine; the main program is the first.
@@ -147,14 +149,15 @@ struct State {
   bool incremental = false;           ///< G91
   bool arc_centers_absolute = false;  ///< G90.1
   FeedMode feed_mode = FeedMode::units_per_minute;
-  double feed_number = 0;          ///< F as it was written last, 0 after each G94 and G95
-  double feed_linear_mm_min = 0;   ///< F as it holds for lengths
+  double feed_number = 0;         ///< F as written, 0 after each G94 and G95; under G93 that of the last move
+  double feed_linear_mm_min = 0;  ///< F as it holds for lengths
   double feed_rotary_deg_min = 0;  ///< F as it holds for angles: never scaled
   double feed_linear_mm_rev = 0;   ///< F under G95, for lengths
   double feed_rotary_deg_rev = 0;  ///< F under G95, for angles
   bool feed_given = false;         ///< some F has been seen since the start or the last G94 or G95
   bool feed_cleared = false;       ///< the last G94 or G95 has taken away an F that held
   PathMode path_mode = PathMode::continuous;
+  double path_tolerance = 0;  ///< G64 P as written
   double path_tolerance_mm = 0;
   bool feed_override = true;
   bool speed_override = true;

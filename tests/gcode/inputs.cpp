@@ -54,8 +54,33 @@ TEST_CASE("M72 restores the modal state that M70 has saved, but the motion") {
   CHECK(outcome.moves().back().plane == Plane::xy);
   CHECK(outcome.moves().back().feed_u_s == doctest::Approx(50.0 / 60));
   CHECK(outcome.moves().back().path_mode == PathMode::exact_path);
-  // overrides come back one by one
-  CHECK(run("M50 P0\nM70\nM48\nM72\nF1 G1 X1\n").moves().back().feed_override_enabled == false);
+}
+
+TEST_CASE("M72 gives back what LinuxCNC keeps: rounded F and S, one coolant, an enabled override") {
+  const auto calls = [](const std::string& text) {
+    std::string trace;
+    for (const Block& b : run(text).blocks) {
+      std::string line;
+      append_canon(line, b);
+      trace += line.substr(0, line.find(" @")) + ";";
+    }
+    return trace.substr(0, trace.find("PROGRAM_END"));
+  };
+  CHECK(calls("M70\nM8\nM72\n") == "FLOOD_ON;MIST_OFF;FLOOD_OFF;");
+  // mist alone was kept: flood stays on
+  CHECK(calls("M7\nM70\nM8\nM72\nM9\n") == "MIST_ON;FLOOD_ON;MIST_OFF;FLOOD_OFF;");
+  CHECK(calls("F100.26 S100.6\nM70\nF5 S2\nM72\n").find("100.300000;SET_SPINDLE_SPEED 0 101.000000") !=
+        std::string::npos);
+  CHECK(run("M70\nM50 P0\nM72\nF1 G1 X1\n").moves().back().feed_override_enabled == true);
+  CHECK(run("M50 P0\nM70\nM48\nM72\nF1 G1 X1\n").moves().back().feed_override_enabled == true);
+}
+
+TEST_CASE("M72 takes back a tool length and a G92 offset that came later") {
+  // G43.1 is gone: Z stays where it is, so the move in X keeps machine Z 0
+  CHECK(last_point("M70\nG43.1 Z5\nM72\nG0 X1 Z2\n")[2] == 2);
+  CHECK(last_point("M70\nG92 X5\nM72\nG0 X1\n")[0] == 1);
+  // G92 X5 at 0 makes X1 the machine's -4; G92.2 between is undone
+  CHECK(last_point("G92 X5\nM70\nG92.2\nM72\nG0 X1\n")[0] == -4);
 }
 
 TEST_CASE("each call level has a modal state of its own, which M73 restores at the return") {
