@@ -76,7 +76,10 @@ double Interpreter::mean_spindle_rpm(const AxisValues& from, const AxisValues& t
 
 bool Interpreter::feed_per_turn_ready() {
   if (state_.feed_mode != FeedMode::units_per_revolution) return true;
-  if (state_.spindle_rpm == 0 && state_.motion != Motion::cycle) {
+  // LinuxCNC asks for a speed before lines and arcs only
+  const Motion motion = motion_of_line();
+  const bool asked = motion == Motion::feed || is_arc(motion) || motion == Motion::probe;
+  if (state_.spindle_rpm == 0 && asked) {
     if (state_.uncertain.feed) return false;
     state_.uncertain.feed = true;
     return error(problem(Code::feed_without_speed, action_span(), "the spindle's speed here is S0",

@@ -56,10 +56,45 @@ class CurvePrograms {
   }
 
   void between() {
-    static const char* const kLines[] = {
-        "G61",  "G64 P0.01",           "M3 S500",      "G92 X1 Y2",   "G55", "G54",
-        "M8",   "G10 L2 P1 X3 R30",    "G10 L2 P2 Y4", "G43.1 Z1 X2", "G49", "G92.1",
-        "F250", "G10 L2 P2 R-15 Z0.5", "G52 X1 Y-1",   "M9"};
+    static const char* const kLines[] = {"G61",
+                                         "G64 P0.01",
+                                         "M3 S500",
+                                         "G92 X1 Y2",
+                                         "G55",
+                                         "G54",
+                                         "M8",
+                                         "G10 L2 P1 X3 R30",
+                                         "G10 L2 P2 Y4",
+                                         "G43.1 Z1 X2",
+                                         "G49",
+                                         "G92.1",
+                                         "F250",
+                                         "G10 L2 P2 R-15 Z0.5",
+                                         "G52 X1 Y-1",
+                                         "M9",
+                                         "G59.1",
+                                         "G92.2",
+                                         "G92.3",
+                                         "G61.1",
+                                         "G4 P0.1",
+                                         "M49",
+                                         "M48",
+                                         "(spline)",
+                                         "G90.1",
+                                         "G91.1",
+                                         "S300",
+                                         "G10 L20 P1 X1 Y-2",
+                                         "G28.1",
+                                         "G0 A20 C3",
+                                         "G17",
+                                         "M7",
+                                         "(DEBUG,#5420 #5421)",
+                                         "G94 F300",
+                                         "S400 G95 F0.4",
+                                         "G94 F120",
+                                         "N20 G40",
+                                         "G80",
+                                         "#3=1"};
     for (std::uint64_t n = random_.below(3); n > 0; --n) line(kLines[random_.below(std::size(kLines))]);
     if (random_.chance(0.3)) line(random_.chance(0.5) ? "G91" : "G90");
     // the stand-alone rs274 keeps the number of a length when its unit changes
@@ -75,7 +110,7 @@ class CurvePrograms {
   }
 
   void nurbs() {
-    const std::uint64_t order = 3 + random_.below(3);
+    const std::uint64_t order = 3 + random_.below(5);
     std::string head = "G5.2";
     if (random_.chance(0.7)) head += " P" + number(0.2, 3);
     if (order != 3 || random_.chance(0.3)) head += fmt::format(" L{}", order);
@@ -83,12 +118,13 @@ class CurvePrograms {
     line(head);
     for (std::uint64_t n = order - 1 + random_.below(4); n > 0; --n)
       line("X" + number(-9, 9) + " Y" + number(-9, 9) + " P" + number(0.2, 3));
+    if (random_.chance(0.2)) line("(weights)\n#7=1");
     line("G5.3");
   }
 
   /// rs274 stands 0.254 mm before the contact: the next move names X, Y and Z.
   void probe() {
-    line("G90");
+    line("G90 G94 F150");
     line("G38." + std::to_string(2 + random_.below(4)) + " Z" + number(10, 20) +
          maybe(0.3, " X" + number(-9, 9)));
     line("G0 X" + number(-9, 9) + " Y" + number(-9, 9) + " Z" + number(-9, 9));

@@ -48,9 +48,45 @@ class ThreadPrograms {
   std::string maybe(double chance, const std::string& text) { return random_.chance(chance) ? text : ""; }
 
   void between() {
-    static const char* const kLines[] = {
-        "G17", "G18", "G19", "G61",           "G64 P0.01",     "M3",       "M4 S250", "S800",  "G92 Z1 X2",
-        "G55", "G54", "M8",  "G10 L2 P1 Z-3", "G10 L2 P2 X.5", "G43.1 Z1", "G49",     "G92.1", "#1=2"};
+    // no M49: rs274 enables the feed override after G76 even so
+    static const char* const kLines[] = {"G17",
+                                         "G18",
+                                         "G19",
+                                         "G61",
+                                         "G64 P0.01",
+                                         "M3",
+                                         "M4 S250",
+                                         "S800",
+                                         "G92 Z1 X2",
+                                         "G55",
+                                         "G54",
+                                         "M8",
+                                         "G10 L2 P1 Z-3",
+                                         "G10 L2 P2 X.5",
+                                         "G43.1 Z1",
+                                         "G49",
+                                         "G92.1",
+                                         "#1=2",
+                                         "G8",
+                                         "G7",
+                                         "G59.2",
+                                         "G10 L2 P9 X1 Z-2",
+                                         "G52 Z2",
+                                         "M7",
+                                         "M9",
+                                         "G4 P0.2",
+                                         "M48",
+                                         "M51 P1",
+                                         "G64",
+                                         "G61.1",
+                                         "(cut)",
+                                         "G28.1",
+                                         "G90.1",
+                                         "G91.1",
+                                         "G40",
+                                         "G80",
+                                         "M53 P1",
+                                         "G10 L20 P1 X12"};
     for (std::uint64_t n = random_.below(3); n > 0; --n) line(kLines[random_.below(std::size(kLines))]);
     if (random_.chance(0.3)) {
       incremental_ = random_.chance(0.5);
@@ -68,7 +104,7 @@ class ThreadPrograms {
         if (random_.chance(0.3)) line("Z" + number(-9, 9) + " K" + number(0.1, 2));
       } else {
         line("G33.1 Z" + number(-9, 9) + maybe(0.2, " Y" + number(-5, 5)) + " K" + number(0.1, 3) +
-             maybe(0.3, " I" + number(0.5, 4)));
+             maybe(0.3, " I" + number(0.5, 4)) + maybe(0.1, " X" + number(-5, 5)));
       }
     }
   }
@@ -80,7 +116,7 @@ class ThreadPrograms {
                                    number(0.1, 2).insert(0, random_.chance(0.5) ? "-" : ""), first,
                                    first * random_.real(1.01, 3));
     text += maybe(0.5, " R" + number(1, 3, 1)) + maybe(0.5, " Q" + number(-35, 35, 1));
-    text += maybe(0.3, fmt::format(" H{}", random_.below(4)));
+    text += maybe(0.3, fmt::format(" H{}", random_.below(4))) + maybe(0.1, " $0");
     text += maybe(0.5, fmt::format(" E{} L{}", number(0.05, 3), random_.below(4)));
     text += maybe(0.1, " X" + number(5, 9)) + maybe(0.1, " Y" + number(-2, 2)) +
             maybe(0.1, " F" + number(90, 200));

@@ -197,7 +197,8 @@ TEST_CASE("under G95 a feed move at S0 is refused, one with the spindle standing
   CHECK_FALSE(outcome.diagnostics.has_errors());
   CHECK(outcome.moves()[0].feed_u_s == 0);
   CHECK(outcome.moves()[0].pitch_u_rev == 0.1);
-  // rs274 does not ask for the speed in cycles
+  // rs274 does not ask for the speed in cycles and splines
+  CHECK(only_code("G95 F0.1\nG5.1 X1 I1 J1\nM2\n") == Code::feed_of_standing_spindle);
   CHECK(only_code("G95 F0.1\nG81 X1 Z-1 R1\n") == Code::feed_of_standing_spindle);
 }
 
