@@ -37,12 +37,8 @@ struct Job {
   SourceSet sources;
   std::uint32_t program = 0;  ///< index of the program in sources
   machine::MachineFile machine;
-  std::optional<gcode::ToolTable> tools;  ///< none: tools have no length and no radius
-  gcode::Dialect dialect = gcode::Dialect::linuxcnc;
-  std::vector<InputStep> inputs;  ///< what M66 meets; ascending by tick
-  bool block_delete = false;      ///< leave out lines that begin with /
-  gcode::Bounds bounds;
-  std::vector<std::string> sub_folders;     ///< where called files are looked for besides the program's own
+  gcode::Reading reading;                   ///< of the program
+  std::vector<InputStep> inputs;            ///< what M66 meets; ascending by tick
   std::vector<std::uint32_t> called_files;  ///< indices in sources, in the order of their first call
   std::vector<ProgramEvent> events;         ///< ascending in after_segment
   planner::Path path{0};

@@ -41,19 +41,23 @@ struct InputReading {
   double value = 0;
 };
 
-struct InterpretOptions {
+/// How a user wants a program to be read, on whatever machine.
+struct Reading {
+  Dialect dialect = Dialect::linuxcnc;
+  bool block_delete = false;  ///< leave out lines that begin with '/'
+  Bounds bounds;
+  std::vector<std::string> sub_folders;  ///< where called files are looked for after the program's own folder
+  std::optional<ToolTable> tools;        ///< none: tools have no length and no radius
+};
+
+struct InterpretOptions : Reading {
   std::string axis_letters = "XYZABCUVW";  ///< axes of the machine; a word of another axis is an error
   AxisValues home{};                       ///< machine position at start, mm and deg
   AxisValues g28{};                        ///< G28 reference point, machine coordinates
   AxisValues g30{};                        ///< G30 reference point, machine coordinates
   double arc_end_tolerance_mm = 0.01;      ///< docs: PathLimits
   double arc_end_tolerance_relative = 0.001;
-  bool block_delete = false;  ///< leave out lines that begin with '/'
-  Dialect dialect = Dialect::linuxcnc;
-  Bounds bounds;
-  std::vector<std::string> sub_folders;  ///< where called files are looked for after the program's own folder
-  std::optional<ToolTable> tools;        ///< none: tools have no length and no radius
-  std::optional<StockPlane> stock;       ///< none: a probe meets material at the end of its move
+  std::optional<StockPlane> stock;  ///< none: a probe meets material at the end of its move
   std::function<InputReading(const InputWait&)> read_input;  ///< asked at M66; none: every input reads 0
 };
 

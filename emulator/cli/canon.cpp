@@ -64,11 +64,7 @@ int canon_program(const Arguments& arguments, Console& console) {
     console.diagnostics(diagnostics, job.sources, arguments.tools, Console::Where::errors);
     return kNotStarted;
   }
-  options.tools = job.tools;
-  options.dialect = job.dialect;
-  options.block_delete = job.block_delete;
-  options.bounds = job.bounds;
-  options.sub_folders = job.sub_folders;
+  static_cast<gcode::Reading&>(options) = job.reading;
 
   if (json)
     console.data(

@@ -56,13 +56,14 @@ std::string machine_text(const std::string& name, const machine::MachineModel& m
 }
 
 bool load_reading(const Arguments& arguments, emulator::Job& job, Diagnostics& diagnostics) {
-  if (arguments.dialect) job.dialect = *arguments.dialect;
-  job.block_delete = arguments.block_delete;
-  job.bounds = arguments.bounds;
-  job.sub_folders = arguments.sub_folders;
+  if (arguments.dialect) job.reading.dialect = *arguments.dialect;
+  job.reading.block_delete = arguments.block_delete;
+  job.reading.bounds = arguments.bounds;
+  job.reading.sub_folders = arguments.sub_folders;
   if (arguments.tools.empty()) return true;
   const std::size_t errors = diagnostics.errors();
-  job.tools = gcode::read_tool_table(job.sources, job.sources.add(open_text(arguments.tools)), diagnostics);
+  job.reading.tools =
+      gcode::read_tool_table(job.sources, job.sources.add(open_text(arguments.tools)), diagnostics);
   return diagnostics.errors() == errors;
 }
 

@@ -50,11 +50,12 @@ emulator::RunHeader run_header(const emulator::Job& job, const emulator::RunOpti
   header.settings_toml += fmt::format("[run]\nplant = {}\n", options.plant);
   if (options.until_s != machine::kInfinity)
     header.settings_toml += fmt::format("until_s = {}\n", options.until_s);
-  if (job.block_delete) header.settings_toml += "block_delete = true\n";
-  if (job.dialect != gcode::Dialect::linuxcnc)
-    header.settings_toml += fmt::format("dialect = \"{}\"\n", gcode::dialect_name(job.dialect));
-  if (job.tools)
-    header.settings_toml += fmt::format("tools = \"\"\"\n{}\"\"\"\n", gcode::render_tool_table(*job.tools));
+  if (job.reading.block_delete) header.settings_toml += "block_delete = true\n";
+  if (job.reading.dialect != gcode::Dialect::linuxcnc)
+    header.settings_toml += fmt::format("dialect = \"{}\"\n", gcode::dialect_name(job.reading.dialect));
+  if (job.reading.tools)
+    header.settings_toml +=
+        fmt::format("tools = \"\"\"\n{}\"\"\"\n", gcode::render_tool_table(*job.reading.tools));
   for (const std::uint32_t file : job.called_files) {
     const SourceText& called = job.sources[file];
     Hash64 content;

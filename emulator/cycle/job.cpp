@@ -16,11 +16,7 @@ using gcode::BlockKind;
 gcode::InterpretOptions interpret_options(const Job& job) {
   const machine::MachineModel& machine = job.machine.model;
   gcode::InterpretOptions options;
-  options.tools = job.tools;
-  options.dialect = job.dialect;
-  options.block_delete = job.block_delete;
-  options.bounds = job.bounds;
-  options.sub_folders = job.sub_folders;
+  static_cast<gcode::Reading&>(options) = job.reading;
   options.axis_letters.clear();
   for (const machine::AxisModel& axis : machine.axis) {
     options.axis_letters += axis.letter;

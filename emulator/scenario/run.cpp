@@ -137,11 +137,11 @@ bool open_job(const Scenario& scenario, Job& job, Diagnostics& diagnostics) {
                            : SourceText::open(scenario.program_path);
   auto file = machine::read_machine(std::move(machine_text), job.sources, scenario.settings);
   job.program = job.sources.add(std::move(program));
-  job.dialect = scenario.dialect;
+  job.reading.dialect = scenario.dialect;
   const std::size_t errors = diagnostics.errors();
   if (!scenario.tools_path.empty()) {
     const std::uint32_t tools = job.sources.add(SourceText::open(scenario.tools_path));
-    job.tools = gcode::read_tool_table(job.sources, tools, diagnostics);
+    job.reading.tools = gcode::read_tool_table(job.sources, tools, diagnostics);
   }
   if (!file) {
     for (const Diagnostic& d : file.error().list()) diagnostics.add(d);

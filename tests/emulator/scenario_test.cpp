@@ -135,9 +135,9 @@ TEST_CASE("a scenario names its tool table and its dialect") {
   Job job;
   Diagnostics diagnostics;
   REQUIRE(open_job(*s, job, diagnostics));
-  CHECK(job.dialect == gcode::Dialect::grbl);
-  REQUIRE(job.tools);
-  CHECK(job.tools->find(1)->offset[2] == 10);
+  CHECK(job.reading.dialect == gcode::Dialect::grbl);
+  REQUIRE(job.reading.tools);
+  CHECK(job.reading.tools->find(1)->offset[2] == 10);
 
   folder.write("shop.tbl", "T1 P1 Z1,0\n");
   Job refused;

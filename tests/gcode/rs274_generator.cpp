@@ -156,7 +156,10 @@ void Generator::plane() {
 }
 
 // G49 first: the stand-alone rs274 keeps the number of a tool length when its unit changes
-void Generator::units() { text_ += random_.chance(0.5) ? "G49\nG20\n" : "G49\nG21\n"; }
+void Generator::units() {
+  modes_.inches = random_.chance(0.5);
+  text_ += modes_.inches ? "G49\nG20\n" : "G49\nG21\n";
+}
 
 void Generator::distance() {
   modes_.incremental = random_.chance(0.4);
@@ -367,7 +370,7 @@ void Generator::store() {
       break;
     case 1:
       if (!is_stored_) return;
-      text_ += "M72\n";
+      text_ += modes_.inches != stored_.inches ? "G49\nM72\n" : "M72\n";
       modes_ = stored_;
       break;
     case 2:

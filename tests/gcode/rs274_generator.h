@@ -37,7 +37,7 @@ class Generator {
     Plane plane = Plane::xy;
     bool incremental = false, absolute_centers = false;
     bool inverse = false, per_turn = false;
-    bool diameter = false;
+    bool diameter = false, inches = false;
   };
   using Statement = void (Generator::*)();
 
