@@ -48,7 +48,7 @@ void Flow::call_statement(const Line& line) {
 }
 
 void Flow::call_code(const CallRequest& request) {
-  if (request.returns) return return_code(request.place);
+  if (request.returns) return return_code(request);
   if (request.repeats == 0) return;
   const Target target = find(state_.names.number(std::to_string(request.number)), true, request.place);
   if (target.unit == nullptr || !enter(target, true, request.place, {})) return;
@@ -155,16 +155,21 @@ void Flow::give_back(const Line& line) {
   leave_call();
 }
 
-void Flow::return_code(Span place) {
+void Flow::return_code(const CallRequest& request) {
+  const Span place = request.place;
   if (calls_.empty()) {
     report_.warning(problem(Code::main_again, place, "the program ends here, after one run"));
-    return interpreter_.finish(place);
+    return interpreter_.end_program(place);
   }
   Call& call = calls_.back();
   if (!call.by_code) {
     error(problem(Code::sub_kind, place, "the subroutine was called by O call",
                   "end it with return or endsub"));
     return leave_call();
+  }
+  if (!request.alone && options_.dialect != Dialect::fanuc) {
+    error(
+        problem(Code::o_word_place, place, "other words stand beside M99", "write M99 on a line of its own"));
   }
   if (call.repeats_left > 0 && report_.errors() == 0) {
     --call.repeats_left;

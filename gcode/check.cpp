@@ -94,10 +94,7 @@ void Interpreter::check_axes() {
 }
 
 void Interpreter::check_codes() {
-  if (words_.m(MGroup::call) == 98 && !words_.has('P')) {
-    error(problem(Code::word_missing, words_.span(*line_, MGroup::call),
-                  "M98 needs P: the number of the subroutine"));
-  }
+  if (words_.m(MGroup::call) == 98) check_call();
   const int nonmodal_code = words_.g(GGroup::nonmodal);
   const int motion_code = words_.g(GGroup::motion);
   const bool takes_axes = axis_words_taken();
@@ -122,6 +119,29 @@ void Interpreter::check_codes() {
           incremental ? "G53 in G91: machine coordinates are absolute" : "G53 holds for G0 and G1 only",
           "write it as G90 G53 G0 ... or G90 G53 G1 ..."));
     }
+  }
+}
+
+void Interpreter::check_call() {
+  const Span span = words_.span(*line_, MGroup::call);
+  if (!words_.has('P')) {
+    error(problem(Code::word_missing, span, "M98 needs P: the number of the subroutine"));
+  }
+  if (!calls_only()) return;
+  for (const Item& item : line_->items) {
+    if (item.kind == ItemKind::block_delete || item.kind == ItemKind::byte_order_mark || item.letter == 'N')
+      continue;
+    if (line_->span(item.bytes).column != span.column) {
+      error(problem(Code::o_word_place, span, "M98 is not the first word",
+                    "write the call on a line of its own, or first on its line"));
+      return;
+    }
+    break;
+  }
+  if (const Item* other = words_beside_call()) {
+    report_.warning(problem(Code::word_not_run, line_->span(other->bytes),
+                            "LinuxCNC runs no other word of a line with M98",
+                            "write it on a line of its own"));
   }
 }
 

@@ -68,7 +68,7 @@ class Flow {
   bool enter(Target target, bool by_code, Span place, const std::vector<double>& arguments);
   void give_back(const Line& line);
   void leave_call();
-  void return_code(Span place);
+  void return_code(const CallRequest& request);
 
   bool value(const Line& line, std::int32_t first, std::int32_t root, double& result);
   bool argument(const Line& line, double& result) {

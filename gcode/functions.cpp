@@ -85,12 +85,29 @@ void Interpreter::dwell() {
   emit(block);
 }
 
+/// A word or setting beside M98 P L or M99, none: null.
+const Item* Interpreter::words_beside_call() const {
+  for (const Item& item : line_->items) {
+    if (item.kind == ItemKind::setting) return &item;
+    if (item.kind != ItemKind::word || item.letter == 'N' || item.letter == 'P' || item.letter == 'L')
+      continue;
+    if (line_->span(item.bytes).column != words_.span(*line_, MGroup::call).column) return &item;
+  }
+  return nullptr;
+}
+
+/// LinuxCNC runs nothing of a line that begins with M98 but the call.
+bool Interpreter::calls_only() const {
+  return words_.m(MGroup::call) == 98 && options_.dialect != Dialect::fanuc;
+}
+
 void Interpreter::call() {
   const int code = words_.m(MGroup::call);
   if (code == kNoCode) return;
   CallRequest request;
   request.returns = code == 99;
   request.place = words_.span(*line_, MGroup::call);
+  request.alone = !words_beside_call();
   int whole = 0;
   if (words_.has('P') && near_integer(words_.value('P'), whole)) {
     // beside L, all of P is the number
@@ -114,7 +131,7 @@ void Interpreter::stop() {
       break;
     case 2:
     case 30:
-      end_program();
+      end_program(span);
       break;
     default:
       simple_block(BlockKind::program_stop, span);
@@ -122,8 +139,7 @@ void Interpreter::stop() {
   }
 }
 
-void Interpreter::end_program() {
-  const Span span = words_.span(*line_, MGroup::stop);
+void Interpreter::end_program(Span span) {
   state_.feed_mode = FeedMode::units_per_minute;
   simple_block(BlockKind::set_feed_mode, span);
   simple_block(BlockKind::set_feed_rate, span);

@@ -38,6 +38,7 @@ void Interpreter::run(const Line& line) {
   if (words_.g(GGroup::nonmodal) == 40 && options_.dialect != Dialect::linuxcnc) take_dwell_words();
   if (readable && plain_move()) return motion();
   if (!readable || !polar_words() || !check()) return recover(false);
+  if (calls_only()) return call();
   if (compensation_.active()) return execute_compensated();
   execute();
 }

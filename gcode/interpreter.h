@@ -18,6 +18,7 @@ namespace kadr::gcode {
 /// M98 or M99 on a line that was run.
 struct CallRequest {
   bool returns = false;       ///< M99
+  bool alone = true;          ///< no other word on its line
   std::int64_t number = 0;    ///< M98 P
   std::uint64_t repeats = 1;  ///< M98 L
   Span place;
@@ -51,6 +52,8 @@ class Interpreter {
   void run(const Line& line);
   /// The program's end if no M2 or M30 gave it.
   void finish(Span end, bool by_percent = false);
+  /// The end by M2, M30, or M99 in the main program: modes are reset first.
+  void end_program(Span place);
   /// What the line just run asks of the flow; asked once.
   std::optional<CallRequest> take_call() { return std::exchange(call_, std::nullopt); }
   /// The end of a call: its modes are given back if M73 asked for it, and its level goes.
@@ -69,6 +72,7 @@ class Interpreter {
   void check_values();
   void check_motion_words();
   void check_codes();
+  void check_call();
   std::uint32_t usable_letters() const;
   bool require_word(char letter, GGroup group, std::string_view what);
   bool require_words(const std::vector<NeededWord>& needed, Span span, std::string_view who);
@@ -95,7 +99,6 @@ class Interpreter {
   void overrides();
   void dwell();
   void stop();
-  void end_program();
   void call();
   void override_block(BlockKind kind, bool enabled);
 
@@ -258,6 +261,8 @@ class Interpreter {
 
   // interpreter.cpp
   bool plain_move() const;
+  bool calls_only() const;
+  const Item* words_beside_call() const;
   void execute();
   void apply_modes();
   void recover(bool syntax);

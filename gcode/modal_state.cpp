@@ -35,9 +35,7 @@ std::string differing_words(const ModalState& now, const ModalState& saved) {
   differ(now.constant_surface_speed != saved.constant_surface_speed,
          saved.constant_surface_speed ? fmt::format("G96 S{:.0f} ", saved.spindle_rpm) : "G97 ");
   // as LinuxCNC writes them: F with one decimal, S whole
-  if (saved.feed_number > 0) {
-    differ(now.feed_number != saved.feed_number, fmt::format("F{:.1f} ", saved.feed_number));
-  }
+  differ(now.feed_number != saved.feed_number, fmt::format("F{:.1f} ", saved.feed_number));
   const bool speed_told = saved.constant_surface_speed && !now.constant_surface_speed;
   differ(now.spindle_rpm != saved.spindle_rpm && !speed_told, fmt::format("S{:.0f} ", saved.spindle_rpm));
   differ(now.plane != saved.plane, plane_word(saved.plane));

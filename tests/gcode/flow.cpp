@@ -128,6 +128,19 @@ TEST_CASE("a definition that is passed over gives the value of its endsub") {
   CHECK_FALSE(run("o1 call\nM2\no1 sub\no1 endsub\n").diagnostics.has_errors());
 }
 
+TEST_CASE("M98 and M99 have lines of their own, as in rs274") {
+  const std::string sub = "M2\nO100\nG0 X5\nM99\n";
+  CHECK(only_code("G0 X1 M98 P100\n" + sub) == Code::o_word_place);
+  // words behind M98 are not run, but told
+  const Outcome passed_over = run("M98 P100 G0 Y1\n" + sub);
+  CHECK_FALSE(passed_over.diagnostics.has_errors());
+  CHECK(passed_over.moves().size() == 1);
+  CHECK(passed_over.rendered.find("warning[K1101]") != std::string::npos);
+  CHECK(only_code("M98 P100\nM2\nO100\nG0 X5 M99\n") == Code::o_word_place);
+  // in the main program M99 is the end, as M2
+  CHECK(run("M8\nG0 X1 M99\n").blocks.size() == run("M8\nG0 X1\nM2\n").blocks.size());
+}
+
 TEST_CASE("a name exists on the line that sets it, with the value 0") {
   CHECK(printed("#<n>=[#<n>+1]\n(PRINT,#<n>)\n#<n>=[#<n>+1]\n(PRINT,#<n>)\nM2\n") ==
         Texts{"1.000000", "2.000000"});

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <sstream>
 
@@ -46,7 +47,7 @@ std::string doubtful_value(Random& random) {
       "ACOS[2]",  "LN[0]",  "[2**0.5]",   "[[1]]",      "[-8**0.5]", "[]",      "[1,2]",     "[1 AND]",
       "SIN[1]+2", "[SIN]",  "#",          "##1",        "#-1",       "#5602",   "#5399",     "#[1.5]",
       "[1 == 1]", "[TRUE]", "EXISTS[#1]", "EXISTS[1]",  "[1 EQ 1]",  "+5",      "-[5]",      "- 5",
-      "1 . 5",    "0x10",   "1e2",        "[1 MOD -2]", "[0**0]",    "[0**-1]", "EXP[1000]", "TAN[90]",
+      "1 . 5",    "0x10",   "1e2",        "[1 MOD -2]", "[0**0]",    "[0**-1]", "EXP[1000]", "TAN[89]",
       "-#5220",   "#<_x>",  "#<nix>",     "[1!2]",      "+-5",       "+[5]",    "-+5",       "--5"};
   return kPieces[random.below(std::size(kPieces))];
 }
@@ -110,7 +111,12 @@ std::string with_mistake(Random& random, const std::string& line) {
       words.push_back(" " + other());
       words.push_back(" " + other());
   }
-  return joined(words);
+  std::string damaged = joined(words);
+  // rs274 takes the second of two polar words of a kind; kadr tells it
+  for (const char polar : {'@', '^'}) {
+    if (std::count(damaged.begin(), damaged.end(), polar) > 1) return line;
+  }
+  return damaged;
 }
 
 TestProgram damaged(Random& random, const Subjects& subjects) {
