@@ -71,7 +71,10 @@ void Interpreter::motion() {
   const int code = words_.g(GGroup::motion);
   if (code != kNoCode) {
     if (nurbs_.open && code != 52 && code != 53) drop_nurbs(g_span(GGroup::motion));
-    if (code == 50 || code == 51) return spline(motion_of_line());
+    if (code == 50 || code == 51) {
+      if ((words_.present & letter_bits("@^")) != 0 && !resolve_polar()) return;
+      return spline(motion_of_line());
+    }
     take_motion(code);
     if (code == 53) return end_nurbs();
   }

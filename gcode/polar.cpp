@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "gcode/interpreter.h"
@@ -24,6 +26,12 @@ bool Interpreter::polar_words() {
   if (axis_words_taken() || words_.g(GGroup::nonmodal) == 530) {
     return error(problem(Code::polar_place, span, "no motion in program coordinates reads this word",
                          "give X and Y instead"));
+  }
+  // as the controller, which looks at the plane before the line changes it
+  if (state_.plane != Plane::xy) {
+    return error(problem(Code::polar_place, span,
+                         fmt::format("the line begins in {}", state_.plane == Plane::zx ? "G18" : "G19"),
+                         "write G17 on a line before, or give the end by its axes"));
   }
   words_.stand_in('X', sign);
   words_.stand_in('Y', sign);

@@ -164,6 +164,11 @@ void Interpreter::set_nurbs_order() {
 }
 
 bool Interpreter::nurbs_words_allowed(bool first) {
+  for (const char letter : {'@', '^'}) {
+    if (!words_.has(letter)) continue;
+    return error(problem(Code::nurbs_point, words_.span(*line_, letter), "a control point has no polar words",
+                         "give it by X and Y"));
+  }
   const bool x = words_.has('X'), y = words_.has('Y'), p = words_.has('P');
   if (p && !(words_.value('P') > 0)) {
     return error(problem(Code::nurbs_point, words_.span(*line_, 'P'),

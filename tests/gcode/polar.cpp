@@ -33,7 +33,7 @@ TEST_CASE("polar words give radius and angle from the origin, each alone keeps t
   check_points("G0 @10 ^30\n^60\n@20\nM2\n", {{8.660254038, 5}, {5, 8.660254038}, {10, 17.320508076}});
   check_points("G0 X3 Y4\n^90\n@7\nM2\n", {{3, 4}, {0, 5}, {0, 7}});
   check_points("G20 G0 @1 ^90\nM2\n", {{0, 25.4}});
-  // the plane does not matter
+  // the line's own plane does not matter
   check_points("G18 G0 @10 ^90\nM2\n", {{0, 10}});
   check_points("F100 G0 X5\nG3 @5 ^90 I-5\nM2\n", {{5, 0}, {0, 5}});
 }
@@ -113,4 +113,14 @@ TEST_CASE("an incremental angle of a repeated cycle goes on from hole to hole") 
   CHECK(holes[2][0] == doctest::Approx(-10));
   CHECK(holes[5][0] == doctest::Approx(10));
   CHECK(std::fabs(holes[5][1]) < 1e-12);
+}
+
+TEST_CASE("polar words end splines, and lie in the plane XY only") {
+  // 5 at 30 degrees: the next move along X shows where the spline ended
+  CHECK(last_point("F100\nG5 @5 ^30 I1 J1 P1 Q1\nG1 X0\n")[1] == doctest::Approx(2.5));
+  CHECK(last_point("F100\nG5.1 @5 ^30 I1 J1\nG1 X0\n")[1] == doctest::Approx(2.5));
+  CHECK(only_code("F100\nG5.2 P1\n@5 ^30 P1\n") == Code::nurbs_point);
+  CHECK(only_code("G18\nG0 @5 ^30\n") == Code::polar_place);
+  CHECK(only_code("G19\nG17 G0 @5 ^30\n") == Code::polar_place);
+  CHECK(last_point("G18 G0 @5 ^30\n")[1] == doctest::Approx(2.5));
 }
