@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "machine/base/require.h"
+
 namespace kadr::gcode {
 
 Flow::Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& options, Report& report,
@@ -102,6 +104,12 @@ void Flow::statement(const Line& line) {
   // a program number at the head of a file without other O words
   if (line.flow.word == FlowWord::label) return;
   const int index = unit_->structure.at_line(line.number);
+  if (index < 0) {
+    // behind an M2 that a mistake has kept from ending the program nothing is bound
+    require(report_.errors() > 0, "every O word that is run was bound before");
+    stopped_ = true;
+    return;
+  }
   const Statement& s = at(index);
   switch (line.flow.word) {
     case FlowWord::sub:

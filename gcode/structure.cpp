@@ -8,7 +8,6 @@
 
 #include "gcode/evaluate.h"
 #include "gcode/words.h"
-#include "machine/base/require.h"
 
 namespace kadr::gcode {
 namespace {
@@ -349,8 +348,8 @@ int Structure::at_line(std::uint32_t line) const {
   const auto it =
       std::lower_bound(statements_.begin(), statements_.end(), line,
                        [](const Statement& s, std::uint32_t wanted) { return s.span.line < wanted; });
-  require(it != statements_.end() && it->span.line == line, "every O word that is run was bound before");
-  return static_cast<int>(it - statements_.begin());
+  const bool bound = it != statements_.end() && it->span.line == line;
+  return bound ? static_cast<int>(it - statements_.begin()) : -1;
 }
 
 }  // namespace kadr::gcode

@@ -26,7 +26,7 @@ class Structure {
   /// @return false if O words don't fit together (told): nothing of the file may be run
   bool read(Program& program, bool block_delete, Names& names, Report& report);
 
-  /// The statement on a line. @pre the line holds an O word
+  /// The statement on a line that holds an O word, -1 if it lies behind the end of the program.
   int at_line(std::uint32_t line) const;
   std::size_t size() const { return statements_.size(); }
   const Statement& operator[](int index) const { return statements_[static_cast<std::size_t>(index)]; }

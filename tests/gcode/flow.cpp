@@ -361,3 +361,8 @@ TEST_CASE("what can't be read behind M2 is a remark, until a subroutine begins")
   CHECK(only_code("M98 P2\nM2\nnotes, no words\nO2\nG0 Y[\nM99\n") == Code::number_missing);
   CHECK(only_code(sub + "o1 call [5]\nnotes, no words\nM2\n") == Code::unknown_name);
 }
+
+TEST_CASE("behind an M2 with a mistake O words are not run") {
+  CHECK(run("M2 #\no3 continue\n").diagnostics.list().size() == 1);
+  CHECK(only_code("M2 Q1\no3 continue\n") == Code::word_unused);
+}
