@@ -129,8 +129,7 @@ void Interpreter::check_call() {
   }
   if (!calls_only()) return;
   for (const Item& item : line_->items) {
-    if (item.kind == ItemKind::block_delete || item.kind == ItemKind::byte_order_mark || item.letter == 'N')
-      continue;
+    if ((item.kind != ItemKind::word && item.kind != ItemKind::setting) || item.letter == 'N') continue;
     if (line_->span(item.bytes).column != span.column) {
       error(problem(Code::o_word_place, span, "M98 is not the first word",
                     "write the call on a line of its own, or first on its line"));

@@ -24,6 +24,7 @@ constexpr std::string_view kCodeLetters = "GMNT";
 // what is printed first has the lower rank; items of one rank keep their order
 constexpr std::int32_t kHeadRank = 0;
 constexpr std::int32_t kNumberRank = 1;
+constexpr std::int32_t kFirstRank = 2;  // M98 must be the first word; a name exists from its setting on
 constexpr std::int32_t kGRank = 100;
 constexpr std::int32_t kLetterRank = 200;
 constexpr std::int32_t kMRank = 300;
@@ -174,12 +175,16 @@ void Formatter::sort_items(const Line& line) {
   const auto count = static_cast<std::uint32_t>(line.items.size());
   order_.resize(count);
   ranks_.resize(count);
-  bool first = true;  // no word or setting stands before
+  bool first = true;  // no word but N, and no setting, stands before
   for (std::uint32_t i = 0; i < count; ++i) {
     const Item& item = line.items[i];
     order_[i] = i;
-    ranks_[i] = item.letter == 'N' && !first ? kMisplacedRank : rank_of(item);
-    if (item.kind == ItemKind::word || item.kind == ItemKind::setting) first = false;
+    const bool calls = item.letter == 'M' && item.value < 0 && item.number == 98;
+    const bool names = item.kind == ItemKind::setting && item.name >= 0;
+    ranks_[i] = item.letter == 'N' && !first ? kMisplacedRank
+                : first && (calls || names)  ? kFirstRank
+                                             : rank_of(item);
+    if ((item.kind == ItemKind::word && item.letter != 'N') || item.kind == ItemKind::setting) first = false;
   }
   std::stable_sort(order_.begin(), order_.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return ranks_[a] < ranks_[b]; });

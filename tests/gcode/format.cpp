@@ -92,7 +92,10 @@ TEST_CASE("numbers lose blanks, plus signs and needless zeros, never their value
 TEST_CASE("settings stand behind the words, whose values they do not change, in their order") {
   CHECK(form("#1=5 X#1 G0 #2=#1\n") == "G0 X#1 #1=5 #2=#1\n");
   CHECK(form("# [1+1] = -.5\n") == "#[1 + 1]=-0.5\n");
-  CHECK(form("#<Feed Rate>=3 F#<feed rate>\n") == "F#<feed rate> #<Feed Rate>=3\n");
+  // a name exists from its setting on: before that it would have no value
+  CHECK(form("#<Feed Rate>=3 F#<feed rate>\n") == "#<Feed Rate>=3 F#<feed rate>\n");
+  CHECK(form("p300 m98\n") == "P300 M98\n");
+  CHECK(form("n5 m98p300\n") == "N5 M98 P300\n");
 }
 
 TEST_CASE("expressions have blanks round their operators and nowhere else") {
