@@ -157,10 +157,16 @@ void Flow::pass_definition(int index) {
   const Line& end = *unit_->program.next();
   double returned = 0;
   state_.value_returned = !end.flow.arguments.empty();
+  // names that only the sub sets are 0 here
+  evaluator_.begin_line();
+  for (const Node& node : end.nodes) {
+    if (node.kind == NodeKind::named) evaluator_.declare(node.left);
+  }
   const bool known =
       state_.value_returned &&
       evaluator_.evaluate(end, end.flow.first, end.flow.arguments.front(), state_, nullptr, returned);
   state_.returned_value = known ? returned : 0;
+  evaluator_.begin_line();
 }
 
 bool Flow::value(const Line& line, std::int32_t first, std::int32_t root, double& result) {

@@ -123,6 +123,8 @@ TEST_CASE("a definition that is passed over gives the value of its endsub") {
   CHECK(printed("o1 sub\no1 endsub [#1+2]\n(PRINT,#<_value> #<_value_returned>)\no2 sub\no2 endsub\n"
                 "(PRINT,#<_value> #<_value_returned>)\nM2\n") ==
         Texts{"2.000000 1.000000", "0.000000 0.000000"});
+  CHECK(printed("o1 sub\n#<x>=5\no1 endsub [#<x>+3]\n(PRINT,#<_value>)\no1 call\n(PRINT,#<_value>)\nM2\n") ==
+        Texts{"3.000000", "8.000000"});
   // rs274 knows the sub from its call and refuses to meet it again
   CHECK(only_code("o1 call\no1 sub\no1 endsub\nM2\n") == Code::o_misplaced);
   CHECK_FALSE(run("o1 call\nM2\no1 sub\no1 endsub\n").diagnostics.has_errors());

@@ -137,9 +137,8 @@ class FlowPrograms {
         loop(depth, in_sub);
     }
   }
-  /// Not #<_value>: rs274 sets it as it passes over a definition, too.
   void show() {
-    std::string text = "(debug, #1 #2 #3 #31 #32 #<_call_level>";
+    std::string text = "(debug, #1 #2 #3 #31 #32 #<_call_level> #<_value> #<_value_returned>";
     if (!w_.named.empty()) text += " #<" + w_.pick(w_.named) + ">";
     line(text + ")");
   }

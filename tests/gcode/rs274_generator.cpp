@@ -217,15 +217,18 @@ void Generator::machine_coordinates() {
 }
 
 void Generator::machine_function() {
-  std::vector<std::string> codes = {"M7",           "M8",     "M9",    "M0",          "M1",
-                                    "G4 P0.25",     "M48",    "M49",   "M50 P0",      "M51 P1",
-                                    "(MSG, hello)", "G61",    "G64",   "G61.1",       "G64 P0.1",
-                                    "(plain)",      "; rest", "/ M9",  "#1=[#1+1.5]", "G40 G80 G0",
-                                    "M53 P1",       "M53 P0", "M50",   "M51",         "G64 P0.02 Q0.01",
-                                    "M3 S500",      "M4",     "M60",   "S1234.5",     "(DEBUG, #1 #5420)",
-                                    "(x) (msg,y)",  "(msg,)", "M3 M8", "M4 M7 G4 P1", "G0 G40 M5 (end)",
-                                    "g80g40g49"};
-  if (!modes_.per_turn && !subjects_.threads && !subjects_.cycles) codes.emplace_back("M5");
+  std::vector<std::string> codes = {
+      "M7",           "M8",     "M9",     "M0",          "M1",
+      "G4 P0.25",     "M48",    "M49",    "M50 P0",      "M51 P1",
+      "(MSG, hello)", "G61",    "G64",    "G61.1",       "G64 P0.1",
+      "(plain)",      "; rest", "/ M9",   "#1=[#1+1.5]", "G40 G80 G0",
+      "M53 P1",       "M53 P0", "M50",    "M51",         "G64 P0.02 Q0.01",
+      "M3 S500",      "M4",     "M60",    "S1234.5",     "(DEBUG, #1 #5420)",
+      "(x) (msg,y)",  "(msg,)", "M3 M8",  "M4 M7 G4 P1", "G0 G40 M5 (end)",
+      "g80g40g49",    "M52 P1", "M52 P0", "G04p[1/8]",   "(print,%d#1 %.2f #2)"};
+  if (!modes_.per_turn && !subjects_.threads && !subjects_.cycles) {
+    codes.insert(codes.end(), {"M5", "M19 R45", "M19 R350.5 P2 Q1"});
+  }
   text_ += w_.pick(codes) + "\n";
 }
 
