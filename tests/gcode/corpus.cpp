@@ -35,9 +35,9 @@ std::string contents(const fs::path& path) {
   return text.str();
 }
 
-std::vector<fs::path> programs(const fs::path& folder = kCorpus) {
+std::vector<fs::path> programs() {
   std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(folder)) {
+  for (const auto& entry : fs::directory_iterator(kCorpus)) {
     if (entry.path().extension() == ".ngc") paths.push_back(entry.path());
   }
   std::sort(paths.begin(), paths.end());
@@ -56,9 +56,7 @@ TestProgram read_program(const fs::path& path) {
     program.tools = read_tool_table(sources, file, diagnostics);
     REQUIRE_FALSE(diagnostics.has_errors());
   }
-  const fs::path subs = path.parent_path() / "subs";
-  if (!fs::exists(subs)) return program;
-  for (const auto& entry : fs::directory_iterator(subs))
+  for (const auto& entry : fs::directory_iterator(kCorpus / "subs"))
     program.files[entry.path().filename().string()] = contents(entry.path());
   return program;
 }
@@ -124,22 +122,4 @@ TEST_CASE("each program of the corpus has the calls that rs274 makes of it") {
     CHECK_MESSAGE(difference.empty(), path.stem().string(), ": ", difference);
   }
   MESSAGE("corpus: " << compared << " programs compared, " << beyond << " beyond rs274");
-}
-
-TEST_CASE("the programs of a folder of one's own have the calls that rs274 makes of them" *
-          doctest::skip(std::getenv("KADR_PROGRAMS") == nullptr)) {
-  const std::string rs274 = find_rs274();
-  REQUIRE_FALSE(rs274.empty());
-  std::size_t agreed = 0, refused = 0;
-  const std::vector<fs::path> paths = programs(std::getenv("KADR_PROGRAMS"));
-  for (const fs::path& path : paths) {
-    const TestProgram program = read_program(path);
-    const Trace other = oracle_trace(rs274, program);
-    const std::string difference = first_difference(own_trace(program), other);
-    agreed += difference.empty() ? 1 : 0;
-    refused += other.refused ? 1 : 0;
-    CHECK_MESSAGE(difference.empty(), path.stem().string(), ": ", difference);
-  }
-  MESSAGE("own programs: " << paths.size() << " compared, " << agreed << " agree, " << refused
-                           << " refused by rs274");
 }

@@ -37,7 +37,26 @@ std::vector<fs::path> programs_under(const fs::path& folder) {
   return paths;
 }
 
-/// A program with the files of its folder, which it may call, and a table with most tools that it may want.
+/// NAME.tbl beside NAME.ngc, else a table with most tools that a program may want.
+ToolTable tools_of(const fs::path& path) {
+  ToolTable table;
+  const fs::path beside = fs::path(path).replace_extension(".tbl");
+  if (fs::exists(beside)) {
+    SourceSet sources;
+    Diagnostics diagnostics;
+    return read_tool_table(sources, sources.add(SourceText(beside.string(), contents(beside))), diagnostics);
+  }
+  for (int number = 1; number <= kTools; ++number) {
+    Tool tool;
+    tool.number = tool.pocket = number;
+    tool.offset[2] = 10 + number;
+    tool.diameter_mm = 6;
+    table.tools.push_back(tool);
+  }
+  return table;
+}
+
+/// A program with the files of its folder, which it may call.
 TestProgram read_program(const fs::path& path) {
   TestProgram program;
   program.text = contents(path);
@@ -45,14 +64,8 @@ TestProgram read_program(const fs::path& path) {
     if (entry.is_regular_file() && entry.path().extension() == ".ngc" && entry.path() != path)
       program.files[entry.path().filename().string()] = contents(entry.path());
   }
-  for (int number = 1; number <= kTools; ++number) {
-    Tool tool;
-    tool.number = tool.pocket = number;
-    tool.offset[2] = 10 + number;
-    tool.diameter_mm = 6;
-    program.tools.tools.push_back(tool);
-  }
-  program.diameter_unit_mm = 25.4;
+  program.tools = tools_of(path);
+  program.diameter_unit_mm = 25.4;  // what rs274 takes where it compensates
   return program;
 }
 
@@ -67,12 +80,17 @@ TEST_CASE("the programs of a folder make the same canonical calls as in rs274") 
     MESSAGE("skipped: KADR_PROGRAMS names no folder, or rs274 is not installed");
     return;
   }
-  std::size_t compared = 0, refused = 0, endless = 0;
+  std::size_t compared = 0, refused = 0, endless = 0, unfinished = 0;
   for (const fs::path& path : programs_under(folder)) {
     const TestProgram program = read_program(path);
     const Trace other = oracle_trace(rs274, program);
     if (other.timed_out) {
       ++endless;
+      continue;
+    }
+    // kadr ends such a program where its text ends
+    if (other.refusal.find("File ended with no percent sign or program end") != std::string::npos) {
+      ++unfinished;
       continue;
     }
     ++compared;
@@ -81,6 +99,6 @@ TEST_CASE("the programs of a folder make the same canonical calls as in rs274") 
     CHECK_MESSAGE(difference.empty(), path.string(), ": ", difference);
   }
   CHECK(compared > 0);
-  MESSAGE("programs: " << compared << " compared, " << refused << " refused by rs274, " << endless
-                       << " without end in rs274");
+  MESSAGE("programs: " << compared << " compared, " << refused << " refused by rs274, " << unfinished
+                       << " without M2, " << endless << " that rs274 never ends");
 }
