@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "gcode/predefined.h"
 #include "gcode/scanner.h"
@@ -27,8 +28,9 @@ std::string valid_text(std::string_view text) {
 
 namespace {
 
-constexpr int kDecimals = 6;     // of a value without a format before it
-constexpr int kDecimalsOfF = 4;  // %f
+constexpr int kDecimals = 6;          // of a value without a format before it
+constexpr double kLeastShown = 1e-4;  // what is nearer to 0 is told as 0
+constexpr int kDecimalsOfF = 4;       // %f
 constexpr const char* kUnset = "######";
 
 /// Expands one text from left to right; a format holds for every value behind it.
@@ -91,7 +93,9 @@ class Expansion {
     at_ = end;
     return true;
   }
-  void put(double value) { out_ += fmt::format("{:.{}f}", value, decimals_); }
+  void put(double value) {
+    out_ += fmt::format("{:.{}f}", std::fabs(value) < kLeastShown ? 0.0 : value, decimals_);
+  }
 
   std::string_view text_;
   State& state_;

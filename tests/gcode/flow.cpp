@@ -143,6 +143,11 @@ TEST_CASE("M98 and M99 have lines of their own, as in rs274") {
   CHECK(run("M8\nG0 X1 M99\n").blocks.size() == run("M8\nG0 X1\nM2\n").blocks.size());
 }
 
+TEST_CASE("a message tells a value nearer to 0 than 0.0001 as 0, as rs274 does") {
+  CHECK(printed("#1=0.00009 #2=-0.00009 #3=0.0001\n(PRINT,#1 #2 #3)\nM2\n") ==
+        Texts{"0.000000 0.000000 0.000100"});
+}
+
 TEST_CASE("a name exists on the line that sets it, with the value 0") {
   CHECK(printed("#<n>=[#<n>+1]\n(PRINT,#<n>)\n#<n>=[#<n>+1]\n(PRINT,#<n>)\nM2\n") ==
         Texts{"1.000000", "2.000000"});

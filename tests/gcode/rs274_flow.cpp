@@ -11,8 +11,9 @@ using namespace kadr::gcode::test;
 
 namespace {
 
-constexpr int kDeepest = 3;        // loops and conditions within each other
-constexpr int kFirstCounter = 20;  // #20 .. count the passes of loops, one for each depth
+constexpr int kDeepest = 3;                     // loops and conditions within each other
+constexpr std::size_t kLongestArguments = 140;  // characters, before the last one
+constexpr int kFirstCounter = 20;               // #20 .. count the passes of loops, one for each depth
 
 /// Programs of O-words: every loop counts, and a subroutine calls only those written before it, so that each
 /// program ends.
@@ -155,7 +156,8 @@ class FlowPrograms {
     if (in_sub && sub.recursive) return;
     std::string arguments;
     const int count = w_.random.chance(0.1) ? 30 : sub.arguments;
-    for (int i = 0; i < count; ++i) {
+    // rs274 reads lines of up to 255 characters
+    for (int i = 0; i < count && arguments.size() < kLongestArguments; ++i) {
       const std::string value = sub.recursive && i == 0 ? fmt::format("{}", w_.random.below(5))
                                 : count == 30           ? fmt::format("{}", w_.random.below(100))
                                                         : "[" + w_.expression(1) + "] MOD 20";
