@@ -20,8 +20,9 @@ enum class GGroup : std::uint8_t {
   retract,            ///< G98 G99
   spindle_mode,       ///< G96 G97
   diameter,           ///< G7 G8
+  g92_state,          ///< G92.1 G92.2 G92.3
 };
-inline constexpr int kGGroups = 14;
+inline constexpr int kGGroups = 15;
 
 enum class MGroup : std::uint8_t {
   stop,         ///< M0 M1 M2 M30 M60

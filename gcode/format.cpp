@@ -40,7 +40,7 @@ constexpr std::array<GGroup, kGGroups> kGOrder = {
     GGroup::feed_mode, GGroup::spindle_mode, GGroup::plane,        GGroup::units,
     GGroup::diameter,  GGroup::compensation, GGroup::tool_length,  GGroup::coordinate_system,
     GGroup::path,      GGroup::distance,     GGroup::arc_distance, GGroup::retract,
-    GGroup::nonmodal,  GGroup::motion};
+    GGroup::nonmodal,  GGroup::g92_state,    GGroup::motion};
 constexpr std::array<MGroup, kMGroups> kMOrder = {MGroup::inputs,      MGroup::tool_change, MGroup::spindle,
                                                   MGroup::modal_state, MGroup::coolant,     MGroup::overrides,
                                                   MGroup::call,        MGroup::stop};

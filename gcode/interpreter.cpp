@@ -116,7 +116,7 @@ void Interpreter::recover(bool syntax) {
   const int nonmodal_code = words_.g(GGroup::nonmodal);
   const bool plain_move =
       !uncertain.motion && nonmodal_code == kNoCode && (words_.has_axis() || state_.motion != before);
-  if (syntax || nonmodal_code != kNoCode) {
+  if (syntax || nonmodal_code != kNoCode || words_.g(GGroup::g92_state) != kNoCode) {
     uncertain.axes = (1U << kProgramAxes) - 1;
   } else if (plain_move) {
     move_to(target());

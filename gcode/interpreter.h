@@ -119,6 +119,7 @@ class Interpreter {
   AxisValues measured_work_offset(int system);
   void turn_under_g92(double rotation_deg);
   void set_g92(bool local);
+  void set_g92_state();
 
   // check_offsets.cpp
   void check_axis_words();

@@ -34,6 +34,14 @@ void Interpreter::nonmodal() {
     case 920:
       set_g92(words_.g(GGroup::nonmodal) == 520);
       break;
+    default:
+      break;
+  }
+  set_g92_state();
+}
+
+void Interpreter::set_g92_state() {
+  switch (words_.g(GGroup::g92_state)) {
     case 921:
       state_.g92_offset = {};
       write_axis_parameters(state_, parameter::kG92, {});

@@ -18,6 +18,16 @@ void check_point(const AxisValues& at, double x, double y, double z = 0) {
 
 }  // namespace
 
+TEST_CASE("G92.1 G92.2 G92.3 stand beside other codes and act behind them") {
+  // G28 goes to the machine's 0 while G92 X5 still holds; then X1 is the machine's 1
+  const Outcome outcome = run("G92 X5\nG0 X1\nG92.2 G28\nG0 X1\n");
+  CHECK_FALSE(outcome.diagnostics.has_errors());
+  CHECK(outcome.moves()[2].end[0] == 0);
+  CHECK(outcome.moves()[3].end[0] == 1);
+  CHECK(last_point("G92 X5\nG92.2 G53 G0 X7\n")[0] == 7);
+  CHECK(only_code("G92.1 G92.2\n") == Code::modal_conflict);
+}
+
 TEST_CASE("G10 L2 R turns the work system about its zero point") {
   // 90 degrees: program (3, 1) lies at (-1, 3) from the zero point (10, 20)
   check_point(last_point("G10 L2 P1 X10 Y20 R90\nG0 X3 Y1\n"), 9, 23);

@@ -191,7 +191,7 @@ void Generator::work_offset() {
       text_ += "G92 " + words + "\n";
       break;
     case 3:
-      text_ += w_.pick({"G92.1", "G92.2", "G92.3"}) + "\n";
+      text_ += w_.pick({"G92.1", "G92.2", "G92.3", "G92.2 G28", "G30 G92.3", "G92.1 G4 P0.1"}) + "\n";
       break;
     case 4:
       text_ += "G43.1 Z" + number(-20, 20) + "\n";
