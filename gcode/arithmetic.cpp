@@ -88,7 +88,14 @@ Arithmetic arc_function(Operation operation, double a) {
   return {angle * kDegrees, {}, false};
 }
 
-double round_away(double a) { return a < 0 ? -std::floor(0.5 - a) : std::floor(a + 0.5); }
+/// A zero of either sign becomes +0.
+double round_away(double a) { return (a < 0 ? -std::floor(0.5 - a) : std::floor(a + 0.5)) + 0.0; }
+
+/// A zero keeps the sign of a, as in the controller: ATAN tells them apart.
+double signed_modulo(double a, double b) {
+  const double rest = modulo(a, b);
+  return rest == 0 ? std::copysign(0.0, a) : rest;
+}
 
 }  // namespace
 
@@ -113,7 +120,7 @@ Arithmetic apply(Operation operation, double a, double b) {
       return {a / b, {}, false};
     case Operation::modulo:
       if (b == 0) return {0, "the divisor is 0", true};
-      return {modulo(a, b), {}, false};
+      return {signed_modulo(a, b), {}, false};
     case Operation::power:
       return power(a, b);
     case Operation::equal:
@@ -142,11 +149,11 @@ Arithmetic apply(Operation operation, double a, double b) {
 Arithmetic apply(Operation operation, double a) {
   switch (operation) {
     case Operation::sin:
-      return {sincos_degrees(a).sin, {}, false};
+      return {a == 0 ? a : sincos_degrees(a).sin, {}, false};
     case Operation::cos:
       return {sincos_degrees(a).cos, {}, false};
     case Operation::tan:
-      return tangent(a);
+      return a == 0 ? Arithmetic{a, {}, false} : tangent(a);
     case Operation::asin:
     case Operation::acos:
       return arc_function(operation, a);
@@ -163,7 +170,7 @@ Arithmetic apply(Operation operation, double a) {
       if (a <= 0) return {0, fmt::format("argument {}, allowed above 0", a), false};
       return {exact_log(a), {}, false};
     case Operation::abs:
-      return {std::fabs(a), {}, false};
+      return {a < 0 ? -a : a, {}, false};
     case Operation::round:
       return {round_away(a), {}, false};
     case Operation::fix:

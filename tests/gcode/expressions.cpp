@@ -8,6 +8,14 @@ using namespace kadr;
 using namespace kadr::gcode;
 using namespace kadr::gcode::test;
 
+TEST_CASE("zeros have the signs that rs274 gives them") {
+  CHECK(evaluated("[ATAN[ROUND[-0.4]]/[-1]]") == 180);
+  CHECK(evaluated("[ATAN[ABS[-0]]/[-1]]") == -180);
+  CHECK(evaluated("[ATAN[-5 MOD 5]/[-1]]") == -180);
+  CHECK(evaluated("[ATAN[5 MOD 5]/[-1]]") == 180);
+  CHECK(evaluated("[ATAN[SIN[-0]]/[-1]]") == -180);
+}
+
 TEST_CASE("operators run from left to right: 2**3**2 = 64, and a sign belongs to its number: -2**2 = 4") {
   CHECK(evaluated("[2**3**2]") == 64);
   CHECK(evaluated("[-2**2]") == 4);

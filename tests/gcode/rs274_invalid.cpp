@@ -91,7 +91,7 @@ std::string with_mistake(Random& random, const std::string& line) {
     }
     case 6: {  // a character too many
       const std::size_t c = random.below(word.size() + 1);
-      word.insert(c, 1, "[]()#-+.*/=_,:!?\"<>%;&0AXG"[random.below(26)]);
+      word.insert(c, 1, "[]()#-+.*/=_,:!?\"<>~;&0AXG"[random.below(26)]);
       break;
     }
     case 7:  // at another place
@@ -99,7 +99,7 @@ std::string with_mistake(Random& random, const std::string& line) {
       break;
     case 8: {  // one more word
       static const char* const kWords[] = {"P1 ", "Q2 ", "R5 ", "L2 ", "D1 ", "H1 ", "K1 ", "I1 ",  "J1 ",
-                                           "E1 ", "U1 ", "T1 ", "S5 ", "F0 ", "F5 ", "@5 ", "^45 ", "$1 ",
+                                           "E1 ", "C1 ", "T1 ", "S5 ", "F0 ", "F5 ", "@5 ", "^45 ", "$1 ",
                                            "X1 ", "Z1 ", "M8 ", "M5 ", "G0 ", "A1 ", "O5 ", "#1=2 "};
       words.push_back(" " + std::string(kWords[random.below(std::size(kWords))]));
       break;
