@@ -88,7 +88,7 @@ class CyclePrograms {
         "G90 G53 G0 Z20",
         "G59.1",
         "G59.3",
-        "G52 X1 Y2",
+        "G52 X1.0137 Y2.0171",
         "G1 X2 Y1",
         // at M6 the stand-alone rs274 forgets a rotation that no move has followed
         "G0 X1 Y1\nT1 M6",
