@@ -96,6 +96,10 @@ bool Evaluator::read(const Line& line, const Node& node, const State& state, dou
                 fmt::format("parameter {}, allowed are whole numbers from {} to {}", index, parameter::kFirst,
                             parameter::kLast));
   }
+  if (number >= parameter::kPosition && number <= parameter::kPositionLast && state.compensating()) {
+    return fail(Code::compensation_conflict, line.span(node.own),
+                fmt::format("#{} tells where the tool is, which the next move decides", number));
+  }
   value = read_parameter(state, number);
   const bool own = number >= parameter::kOwnFirst && number <= parameter::kOwnLast;
   if (own && !state.parameters_set[static_cast<std::size_t>(number)])

@@ -22,7 +22,8 @@ std::string work_system_word(int system) {
 std::string path_word(const ModalState& modes) {
   if (modes.path_mode == PathMode::exact_path) return "G61 ";
   if (modes.path_mode == PathMode::exact_stop) return "G61.1 ";
-  return modes.path_tolerance > 0 ? fmt::format("G64 P{:.9f} ", modes.path_tolerance) : "G64 ";
+  // P0 is written out as well: an M51 of the same line reads it too, as in LinuxCNC
+  return fmt::format("G64 P{:.9f} ", modes.path_tolerance);
 }
 
 /// The words that lead from `now` to `saved`, units and M codes left out.

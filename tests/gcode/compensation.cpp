@@ -499,3 +499,11 @@ TEST_CASE("left of a contour and right of the same contour run backwards are one
     }
   }
 }
+
+TEST_CASE("the present point can't be computed with while compensation is on, and can be shown") {
+  const std::string contour = "G21 F100\nG0 X-20\nG41.1 D4\nG1 X0\n";
+  CHECK(only_code(contour + "X[#5420+5]\nG40\nG0 Y9\nM2\n") == Code::compensation_conflict);
+  CHECK(only_code(contour + "X5\nG40 Y#5421\nM2\n") == Code::compensation_conflict);
+  CHECK_FALSE(run(contour + "(DEBUG,#5420)\n#1=EXISTS[#5420]\nX5\nG40\nG0 Y[#5420+1]\nM2\n")
+                  .diagnostics.has_errors());
+}

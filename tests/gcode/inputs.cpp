@@ -56,6 +56,16 @@ TEST_CASE("M72 restores the modal state that M70 has saved, but the motion") {
   CHECK(outcome.moves().back().path_mode == PathMode::exact_path);
 }
 
+TEST_CASE("M72 gives back path mode and overrides on one line, so that they share P") {
+  // G64 P0 and M51 of the line that gives the modes back: P0 disables the speed override
+  std::vector<bool> speed_override;
+  for (const Block& block : run("M50 P0\nM70\nM50\nG64 P0.1\nM72\nM2\n").blocks) {
+    if (block.kind == BlockKind::speed_override) speed_override.push_back(block.number == 1);
+  }
+  REQUIRE_FALSE(speed_override.empty());
+  CHECK_FALSE(speed_override.front());
+}
+
 TEST_CASE("M72 gives back what LinuxCNC keeps: rounded F and S, one coolant, an enabled override") {
   const auto calls = [](const std::string& text) {
     std::string trace;
