@@ -103,7 +103,7 @@ bool Program::read(Line& line) {
   const auto* newline = static_cast<const char*>(std::memchr(begin, '\n', left));
   std::size_t length = newline ? static_cast<std::size_t>(newline - begin) : left;
   const std::size_t whole = newline ? length + 1 : length;
-  if (newline && length > 0 && begin[length - 1] == '\r') --length;
+  if (length > 0 && begin[length - 1] == '\r') --length;
   line.file = file_;
   line.number = at_.line;
   line.text = text_.substr(at_.offset, length);

@@ -134,7 +134,7 @@ struct Line {
   std::uint32_t file = 0;
   std::uint32_t number = 0;  ///< 1-based
   std::string_view text;     ///< without line end
-  std::string_view ending;   ///< "\n", "\r\n" or "" at the end of the file
+  std::string_view ending;   ///< "\n" or "\r\n"; "\r" or "" at the end of the file
   std::vector<Item> items;
   std::vector<Node> nodes;
   FlowStatement flow;     ///< if has_flow

@@ -56,5 +56,11 @@ TEST_CASE("a program file of 16 MB is interpreted in 4 MB of memory, a warning i
   most = std::max(most, resident_bytes());
   CHECK(diagnostics.list().size() == 1);
   CHECK(blocks > 590'000);
-  CHECK(most - before < (std::int64_t{4} << 20));
+#ifdef __SANITIZE_ADDRESS__
+  // the address sanitizer keeps what was freed for a while
+  constexpr std::int64_t kAllowed_bytes = std::int64_t{6} << 20;
+#else
+  constexpr std::int64_t kAllowed_bytes = std::int64_t{4} << 20;
+#endif
+  CHECK(most - before < kAllowed_bytes);
 }
