@@ -23,6 +23,12 @@ enum class IntegratorKind : std::uint8_t { smooth, reference, oracle };
 enum class TickFeed : std::uint8_t { linear, constant };
 enum class AxisLimitRule : std::uint8_t { enforce, report };
 enum class OnAlarm : std::uint8_t { report, stop };
+enum class SchedulerKind : std::uint8_t { chained, blockwise };
+enum class RampLaw : std::uint8_t { jerk_limited, quintic };
+enum class BlockTicks : std::uint8_t { exact, kl };
+enum class OverrideMode : std::uint8_t { corrected_plus, corrected, proportional };
+enum class LimiterKind : std::uint8_t { off, threshold, paper, matched };
+enum class LockedFeed : std::uint8_t { full, freeze };
 
 /// Two masses on one axis (paper 001, eq. 5-6). SI: kg, N/m, N s/m; for a rotary axis kg m^2, N m/rad, N m
 /// s/rad.
@@ -79,8 +85,37 @@ struct PlannerSettings {
   bool whole_ticks = true;  ///< motion ends on a control tick (paper 003, eq. 2)
   AxisLimitRule axis_limits = AxisLimitRule::enforce;
   TickFeed tick_feed = TickFeed::linear;
-  double tool_change_s = 0;  ///< dwell that M6 costs
+  double tool_change_s = 0;                          ///< dwell that M6 costs
+  SchedulerKind scheduler = SchedulerKind::chained;  ///< ramps over many blocks, or block by block
+  BlockTicks block_ticks = BlockTicks::exact;        ///< blockwise: how a block gets its whole control ticks
+  RampLaw law = RampLaw::jerk_limited;               ///< shape of a planned ramp
   bool operator==(const PlannerSettings&) const = default;
+};
+
+/// What an operator's percent does to the feed, and what an axis that is asked for too much does to it (paper
+/// 003, sections 3 to 5).
+struct OverrideSettings {
+  OverrideMode mode = OverrideMode::corrected_plus;
+  LockedFeed locked = LockedFeed::full;  ///< threads and taps: at 100 %, or at the percent of their beginning
+  LimiterKind limiter = LimiterKind::off;
+  bool predictive = false;      ///< the limiter looks one control tick ahead, in place of one back
+  double limiter_band_u_s = 3;  ///< delta of eq. 13-16: half the range in which it sets in smoothly, > 0
+  bool operator==(const OverrideSettings&) const = default;
+};
+
+/// How the feed answers a spindle that carries too much. The product of this percent and the operator's is in
+/// force.
+struct SpindleReaction {
+  double high_load_pct = 110;  ///< above it for high_ms, and again every down_ms: down_pct less
+  double high_ms = 20;
+  double down_pct = 10;
+  double down_ms = 100;
+  double low_load_pct = 90;  ///< below it for low_ms, and again every up_ms: up_pct more, to 100 %
+  double low_ms = 500;
+  double up_pct = 5;
+  double up_ms = 200;
+  double least_pct = 30;  ///< never below
+  bool operator==(const SpindleReaction&) const = default;
 };
 
 struct PlantSettings {
@@ -111,6 +146,8 @@ struct MachineModel {
   std::vector<AxisModel> axis;  ///< [machine axes], 1..9, in the order of the file
   PathLimits path;
   PlannerSettings planner;
+  OverrideSettings feed_override;
+  SpindleReaction spindle;
   PlantSettings plant;
   LogSettings log;
   OnAlarm on_alarm = OnAlarm::report;

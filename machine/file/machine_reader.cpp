@@ -115,6 +115,38 @@ PlannerSettings read_planner(const Node* table, const Span& place, ReadContext& 
   s.axis_limits = static_cast<AxisLimitRule>(r.choice("axis_limits", {"enforce", "report"}, 0).value);
   s.tick_feed = static_cast<TickFeed>(r.choice("tick_feed", {"linear", "constant"}, 0).value);
   s.tool_change_s = r.number("tool_change_s", {0, 1e6}, s.tool_change_s).value;
+  s.scheduler = static_cast<SchedulerKind>(r.choice("scheduler", {"chained", "blockwise"}, 0).value);
+  s.block_ticks = static_cast<BlockTicks>(r.choice("block_ticks", {"exact", "kl"}, 0).value);
+  s.law = static_cast<RampLaw>(r.choice("law", {"jerk_limited", "quintic"}, 0).value);
+  r.finish();
+  return s;
+}
+
+OverrideSettings read_override(const Node* table, const Span& place, ReadContext& context) {
+  TableReader r(table, "override", place, context);
+  OverrideSettings s;
+  s.mode = static_cast<OverrideMode>(r.choice("mode", {"corrected+", "corrected", "proportional"}, 0).value);
+  s.locked = static_cast<LockedFeed>(r.choice("locked", {"full", "freeze"}, 0).value);
+  s.limiter =
+      static_cast<LimiterKind>(r.choice("limiter", {"off", "threshold", "paper", "matched"}, 0).value);
+  s.predictive = r.flag("predictive", s.predictive).value;
+  s.limiter_band_u_s = r.number("limiter_band_mm_s", {1e-3, 1e4}, s.limiter_band_u_s).value;
+  r.finish();
+  return s;
+}
+
+SpindleReaction read_spindle(const Node* table, const Span& place, ReadContext& context) {
+  TableReader r(table, "spindle", place, context);
+  SpindleReaction s;
+  s.high_load_pct = r.number("high_load_pct", {1, 1000}, s.high_load_pct).value;
+  s.high_ms = r.number("high_ms", {1, 1e6}, s.high_ms).value;
+  s.down_pct = r.number("down_pct", {0, 100}, s.down_pct).value;
+  s.down_ms = r.number("down_ms", {1, 1e6}, s.down_ms).value;
+  s.low_load_pct = r.number("low_load_pct", {0, 1000}, s.low_load_pct).value;
+  s.low_ms = r.number("low_ms", {1, 1e6}, s.low_ms).value;
+  s.up_pct = r.number("up_pct", {0, 100}, s.up_pct).value;
+  s.up_ms = r.number("up_ms", {1, 1e6}, s.up_ms).value;
+  s.least_pct = r.number("least_pct", {1, 100}, s.least_pct).value;
   r.finish();
   return s;
 }
@@ -205,6 +237,8 @@ MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
   model.clock = read_clock(root.table("clock"), top, context);
   model.path = read_path_limits(root.table("path"), root.table("feed"), top, context);
   model.planner = read_planner(root.table("planner"), top, context);
+  model.feed_override = read_override(root.table("override"), top, context);
+  model.spindle = read_spindle(root.table("spindle"), top, context);
   read_axes(root, model);
   model.plant = read_plant_settings(root.table("plant"), top, model.axis, context);
   model.stock = read_stock(root.table("stock"), top, model, context);

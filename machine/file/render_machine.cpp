@@ -103,6 +103,30 @@ void write_axis(TomlWriter& w, const AxisModel& axis, double home2_u) {
   if (axis.has_plant) write_plant(w, axis);
 }
 
+void write_override(TomlWriter& w, const OverrideSettings& s) {
+  constexpr std::string_view modes[] = {"corrected+", "corrected", "proportional"};
+  constexpr std::string_view limiters[] = {"off", "threshold", "paper", "matched"};
+  w.table("[override]", "override");
+  w.word("mode", modes[static_cast<std::size_t>(s.mode)]);
+  w.word("locked", s.locked == LockedFeed::full ? "full" : "freeze");
+  w.word("limiter", limiters[static_cast<std::size_t>(s.limiter)]);
+  w.flag("predictive", s.predictive);
+  w.number("limiter_band_mm_s", s.limiter_band_u_s);
+}
+
+void write_spindle(TomlWriter& w, const SpindleReaction& s) {
+  w.table("[spindle]", "spindle");
+  w.number("high_load_pct", s.high_load_pct);
+  w.number("high_ms", s.high_ms);
+  w.number("down_pct", s.down_pct);
+  w.number("down_ms", s.down_ms);
+  w.number("low_load_pct", s.low_load_pct);
+  w.number("low_ms", s.low_ms);
+  w.number("up_pct", s.up_pct);
+  w.number("up_ms", s.up_ms);
+  w.number("least_pct", s.least_pct);
+}
+
 void write_settings(TomlWriter& w, const MachineModel& m) {
   w.table("[clock]", "clock");
   w.line("rate_hz", fmt::format("{}", m.clock.base_hz));
@@ -121,6 +145,11 @@ void write_settings(TomlWriter& w, const MachineModel& m) {
   w.word("axis_limits", m.planner.axis_limits == AxisLimitRule::enforce ? "enforce" : "report");
   w.word("tick_feed", m.planner.tick_feed == TickFeed::linear ? "linear" : "constant");
   w.number("tool_change_s", m.planner.tool_change_s);
+  w.word("scheduler", m.planner.scheduler == SchedulerKind::chained ? "chained" : "blockwise");
+  w.word("block_ticks", m.planner.block_ticks == BlockTicks::exact ? "exact" : "kl");
+  w.word("law", m.planner.law == RampLaw::jerk_limited ? "jerk_limited" : "quintic");
+  write_override(w, m.feed_override);
+  write_spindle(w, m.spindle);
   constexpr std::string_view integrators[] = {"smooth", "reference", "oracle"};
   w.table("[plant]", "plant");
   w.word("integrator", integrators[static_cast<std::size_t>(m.plant.integrator)]);

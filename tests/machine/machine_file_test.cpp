@@ -59,6 +59,8 @@ TEST_CASE("a file of ten lines is a machine; what it does not say has the docume
   CHECK(m.on_alarm == OnAlarm::report);
   CHECK(m.path == PathLimits{});
   CHECK(m.planner == PlannerSettings{});
+  CHECK(m.feed_override == OverrideSettings{});
+  CHECK(m.spindle == SpindleReaction{});
   CHECK(m.plant == PlantSettings{});
   CHECK(m.log == LogSettings{});
   REQUIRE(m.axis.size() == 1);
@@ -77,7 +79,9 @@ TEST_CASE("a setting of the command line replaces the value of the file, adds ke
   const MachineModel m =
       read_small({"axis.X.max_mm_s=50", "feed.max_jerk_mm_s3=2e4", "name=other", "axis.X.range_mm=[-10, inf]",
                   "clock.control_period_us=250", "planner.whole_ticks=false", "planner.tick_feed=constant",
-                  "axis.X.step_mm=.01", "axis.X.max_mm_s=60", "axis.X.home2_mm=7"})
+                  "axis.X.step_mm=.01", "axis.X.max_mm_s=60", "axis.X.home2_mm=7",
+                  "planner.scheduler=blockwise", "override.mode=proportional", "override.limiter=matched",
+                  "spindle.least_pct=50"})
           .model;
   CHECK(m.name == "other");
   CHECK(m.axis[0].max_feed_u_s == 60);  // the last one counts
@@ -87,6 +91,10 @@ TEST_CASE("a setting of the command line replaces the value of the file, adds ke
   CHECK(m.clock.control_tick == Ticks{2'500});
   CHECK_FALSE(m.planner.whole_ticks);
   CHECK(m.planner.tick_feed == TickFeed::constant);
+  CHECK(m.planner.scheduler == SchedulerKind::blockwise);
+  CHECK(m.feed_override.mode == OverrideMode::proportional);
+  CHECK(m.feed_override.limiter == LimiterKind::matched);
+  CHECK(m.spindle.least_pct == 50);
   CHECK(m.axis[0].step_u == 0.01);  // in place of steps_per_mm of the file
   CHECK(m.home2[0] == 7);
 }
