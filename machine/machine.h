@@ -96,7 +96,8 @@ struct PlannerSettings {
 /// 003, sections 3 to 5).
 struct OverrideSettings {
   OverrideMode mode = OverrideMode::corrected_plus;
-  LockedFeed locked = LockedFeed::full;  ///< threads and taps: at 100 %, or at the percent of their beginning
+  LockedFeed locked = LockedFeed::full;      ///< threads and taps: 100 %, or the percent of their beginning
+  LockedFeed disabled = LockedFeed::freeze;  ///< between M49 (M50 P0) and M48: the same choice
   LimiterKind limiter = LimiterKind::off;
   bool predictive = false;      ///< the limiter looks one control tick ahead, in place of one back
   double limiter_band_u_s = 3;  ///< delta of eq. 13-16: half the range in which it sets in smoothly, > 0

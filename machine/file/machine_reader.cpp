@@ -127,6 +127,7 @@ OverrideSettings read_override(const Node* table, const Span& place, ReadContext
   OverrideSettings s;
   s.mode = static_cast<OverrideMode>(r.choice("mode", {"corrected+", "corrected", "proportional"}, 0).value);
   s.locked = static_cast<LockedFeed>(r.choice("locked", {"full", "freeze"}, 0).value);
+  s.disabled = static_cast<LockedFeed>(r.choice("disabled", {"full", "freeze"}, 1).value);
   s.limiter =
       static_cast<LimiterKind>(r.choice("limiter", {"off", "threshold", "paper", "matched"}, 0).value);
   s.predictive = r.flag("predictive", s.predictive).value;

@@ -109,6 +109,7 @@ void write_override(TomlWriter& w, const OverrideSettings& s) {
   w.table("[override]", "override");
   w.word("mode", modes[static_cast<std::size_t>(s.mode)]);
   w.word("locked", s.locked == LockedFeed::full ? "full" : "freeze");
+  w.word("disabled", s.disabled == LockedFeed::full ? "full" : "freeze");
   w.word("limiter", limiters[static_cast<std::size_t>(s.limiter)]);
   w.flag("predictive", s.predictive);
   w.number("limiter_band_mm_s", s.limiter_band_u_s);
