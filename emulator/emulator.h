@@ -32,15 +32,45 @@ struct InputStep {
   Span span;         ///< in the scenario file
 };
 
+/// What an operator, the spindle or the emergency stop does.
+enum class OperatorAction : std::uint8_t {
+  feed_override,   ///< value: ratio, 0..2
+  rapid_override,  ///< value: ratio, 0..1
+  hold,
+  resume,
+  spindle_load,  ///< value: ratio of the rated load
+  emergency_stop,
+};
+
+/// Where on the path a step of the timeline stands; found when the path is known.
+struct PathPlace {
+  enum class Kind : std::uint8_t { line, block, length } kind = Kind::length;
+  double number = 0;   ///< line from 1, running block number from 0, or length of path, mm or deg
+  int pass = 1;        ///< line: which of its motions, from 1
+  double after_u = 0;  ///< behind the beginning of the line's or block's motion, as its feed measures
+};
+
+/// A step of the timeline that changes how the program is run: in force for the control tick that begins at
+/// its tick, or for the first one that begins at or behind its place.
+struct OperatorStep {
+  OperatorAction action = OperatorAction::feed_override;
+  double value = 1;
+  ControlTicks tick;  ///< unless place is given
+  std::optional<PathPlace> place;
+  double path_u = 0;  ///< of the place, once the path is known
+  Span span;          ///< in the scenario file
+};
+
 /// A program read, planned and verified-ready; everything the cycle needs.
 struct Job {
   SourceSet sources;
   std::uint32_t program = 0;  ///< index of the program in sources
   machine::MachineFile machine;
-  gcode::Reading reading;                   ///< of the program
-  std::vector<InputStep> inputs;            ///< what M66 meets; ascending by tick
-  std::vector<std::uint32_t> called_files;  ///< indices in sources, in the order of their first call
-  std::vector<ProgramEvent> events;         ///< ascending in after_segment
+  gcode::Reading reading;                    ///< of the program
+  std::vector<InputStep> inputs;             ///< what M66 meets; ascending by tick
+  std::vector<OperatorStep> operator_steps;  ///< by tick those that have one, in the file's order the others
+  std::vector<std::uint32_t> called_files;   ///< indices in sources, in the order of their first call
+  std::vector<ProgramEvent> events;          ///< ascending in after_segment
   planner::Path path{0};
   planner::FeedPlan plan;    ///< laws of the runs, in path order, pauses not included
   std::uint32_t blocks = 0;  ///< motion blocks

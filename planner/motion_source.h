@@ -8,9 +8,18 @@ namespace kadr::planner {
 
 /// What the operator and the machine ask of this control tick.
 struct OperatorInput {
-  double feed_override = 1.0;   ///< 0..2
+  double feed_override = 1.0;   ///< 0..2; the operator's and the spindle's percent together
   double rapid_override = 1.0;  ///< 0..1
-  bool hold = false;
+  bool hold = false;            ///< feed hold
+  bool emergency_stop = false;  ///< stop now, whatever is locked
+};
+
+/// Why a percent that was asked for is not in force in a control tick.
+enum class OverrideNote : std::uint8_t {
+  none,
+  deferred,  ///< the motion brakes for a place ahead
+  locked,    ///< thread, tap, M49
+  limited,   ///< the axis limiter lowers the feed
 };
 
 /// How s moves in one control tick. Exact at both ends of the tick; between them the feed runs linearly over
@@ -28,8 +37,11 @@ struct TickMotion {
   double ramp_begin_u_s =
       0;  ///< speed at move_begin and move_end of the linear feed; (sum / 2) * (t_e - t_b) = s_end - s_begin
   double ramp_end_u_s = 0;
-  double accel_end_u_s2 = 0;  ///< of the law at the tick's end, for the log
-  double override_used = 1.0;
+  double accel_end_u_s2 = 0;        ///< of the law at the tick's end, for the log
+  double override_requested = 1.0;  ///< ratio
+  double override_used = 1.0;       ///< in force at the tick's end
+  OverrideNote note = OverrideNote::none;
+  double limiter = 1.0;  ///< K_max of the axis limiter, 1 where it does nothing
   LimitedBy limited_by = LimitedBy::program;
   std::int8_t limiting_axis = -1;
   double held_error_u = 0;  ///< tick_feed = constant: largest distance from the law inside the tick
@@ -44,6 +56,8 @@ class MotionSource {
   virtual TickMotion advance(const OperatorInput& input) = 0;
   /// The path's end is reached and at rest.
   virtual bool finished() const = 0;
+  /// At rest after an emergency stop: nothing moves any more.
+  virtual bool stopped() const { return false; }
 };
 
 /// Plays a motion law computed beforehand, at 100 %.
@@ -53,10 +67,21 @@ class LawSource final : public MotionSource {
   TickMotion advance(const OperatorInput& input) override;
   bool finished() const override;
 
+  /// The law's state at the end of the last tick, and the piece that it lies in.
+  const MotionState& state() const { return state_; }
+  std::size_t piece() const { return hint_; }
+  /// Goes on from another time of the law, where it rests at path length s, as if `tick` control ticks had
+  /// passed before.
+  void seek(double time_s, double s_u, ControlTicks tick);
+
  private:
+  double time_s() const;  ///< of the law, at the end of the last tick
+
   const MotionLaw& law_;
   const machine::MachineModel& machine_;
   ControlTicks tick_;
+  ControlTicks from_tick_;  ///< tick at which the law stood at from_s_
+  double from_s_ = 0;
   std::size_t hint_ = 0;
   MotionState state_{};
 };

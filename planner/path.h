@@ -19,6 +19,13 @@ namespace kadr::planner {
 
 enum class SegmentKind : std::uint8_t { line, arc };
 
+/// Why the operator's percent does not count on a segment.
+enum class FeedLock : std::uint8_t {
+  none,
+  thread,    ///< in step with the spindle: G33, G33.1
+  disabled,  ///< M49, M50 P0, and what switches the override off by itself
+};
+
 /// Circle in a plane of two machine axes; the other axes move linearly with the angle (helix).
 /// The radius runs linearly with the angle from radius_begin to radius_end (equal but for rounding of the
 /// program):
@@ -41,7 +48,7 @@ struct PathSegment {
   SegmentKind kind = SegmentKind::line;
   bool rapid = false;
   bool stop_at_end = false;  ///< exact stop (G61.1) or a stop asked for by the program
-  bool feed_override_enabled = true;
+  FeedLock lock = FeedLock::none;
   bool path_limits = false;                           ///< feed_length_u is of X Y Z: PathLimits apply to it
   gcode::BlockKind made_by = gcode::BlockKind::feed;  ///< what the program asked for
   std::int32_t arc = -1;                              ///< index into Path::arcs
@@ -112,6 +119,8 @@ class PathBuilder {
   void add(const gcode::Block& block);
   /// The last segment ends at rest (dwell, stop, spindle word follows).
   void stop();
+  /// The blocks from here on follow the spindle's angle, or no longer.
+  void follow_spindle(bool on) { follows_spindle_ = on; }
   const Path& path() const { return path_; }
   Path take() { return std::move(path_); }
 
@@ -135,6 +144,7 @@ class PathBuilder {
   Path path_;
   std::vector<int> program_axis_;  ///< [machine axes] index into AxisValues
   std::uint32_t blocks_ = 0;
+  bool follows_spindle_ = false;
 };
 
 }  // namespace kadr::planner

@@ -80,7 +80,10 @@ PathSegment PathBuilder::segment_of(const gcode::Block& block) {
   PathSegment segment;
   segment.rapid = block.kind == gcode::BlockKind::traverse;
   segment.stop_at_end = block.path_mode == gcode::PathMode::exact_stop;
-  segment.feed_override_enabled = block.feed_override_enabled;
+  if (follows_spindle_ || block.kind == gcode::BlockKind::rigid_tap)
+    segment.lock = FeedLock::thread;
+  else if (!block.feed_override_enabled)
+    segment.lock = FeedLock::disabled;
   segment.made_by = block.kind;
   segment.block = blocks_++;
   segment.span = block.span;

@@ -32,4 +32,10 @@ tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineM
 tl::expected<double, PlanError> motion_time_s(const Path& path, const machine::MachineModel& machine,
                                               std::size_t first);
 
+/// Plays a plan under an operator's percent (override/override_source.h). `path`, `plan` and `machine`
+/// outlive it.
+/// @param most_percent  highest ratio that it will be asked for, >= 1
+std::unique_ptr<MotionSource> override_source(const Path& path, const FeedPlan& plan,
+                                              const machine::MachineModel& machine, double most_percent);
+
 }  // namespace kadr::planner

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "emulator/cycle/operator_panel.h"
 #include "emulator/cycle/program_reader.h"
 #include "emulator/cycle/soft_limits.h"
 #include "emulator/emulator.h"
@@ -106,6 +107,9 @@ bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
     job.called_files.push_back(static_cast<std::uint32_t>(file));
   if (diagnostics.has_errors()) return false;
   check_soft_limits(job.path, machine, soft_limits, diagnostics);
+  const std::size_t errors = diagnostics.errors();
+  place_on_path(job, diagnostics);
+  if (diagnostics.errors() != errors) return false;
 
   auto plan = planner::plan(job.path, machine);
   if (!plan) {

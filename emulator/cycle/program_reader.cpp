@@ -55,6 +55,7 @@ void ProgramReader::take_event(const Block& block) {
     if (!moved_by_angle_) builder_.stop();
   }
   if (block.kind == BlockKind::sync_stop) sync_by_angle_ = false;
+  builder_.follow_spindle(sync_by_angle_);
   if (needs_rest(block)) builder_.stop();
   add_event(block);
 }

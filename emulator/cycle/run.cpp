@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include "emulator/cycle/log_thread.h"
+#include "emulator/cycle/lost_time.h"
 #include "emulator/cycle/monitor.h"
+#include "emulator/cycle/operator_panel.h"
 #include "emulator/cycle/program_event.h"
 #include "emulator/emulator.h"
 #include "emulator/interpolator/interpolator.h"
@@ -38,7 +40,9 @@ class Cycle {
         machine_(job.machine.model),
         options_(options),
         log_(log),
-        source_(job.plan.law, machine_),
+        source_(make_source(job)),
+        panel_(job.operator_steps, machine_),
+        lost_(job.plan.law, machine_.clock.tau_s()),
         interpolator_(job.path, machine_),
         monitor_(job.path, machine_) {
     batch_.axis.resize(machine_.axis.size());
@@ -75,6 +79,11 @@ class Cycle {
         ++k;
         break;
       }
+      if (const char* end = ended_by_operator()) {
+        outcome = end;
+        ++k;
+        break;
+      }
       if (options_.progress && k % 1000 == 999) report_progress();
     }
     return finish(outcome, k);
@@ -87,12 +96,25 @@ class Cycle {
     Ticks tick;
   };
 
-  bool done() const { return source_.finished() && next_event_ == job_.events.size() && !job_pending(); }
+  static std::unique_ptr<planner::MotionSource> make_source(const Job& job) {
+    const machine::MachineModel& machine = job.machine.model;
+    if (job.operator_steps.empty()) return std::make_unique<planner::LawSource>(job.plan.law, machine);
+    return planner::override_source(job.path, job.plan, machine, most_percent(job.operator_steps));
+  }
+  bool has_operator() const { return !job_.operator_steps.empty(); }
+
+  bool done() const { return source_->finished() && next_event_ == job_.events.size() && !job_pending(); }
   bool job_pending() const { return ready_at_ > now_; }
 
   /// One control tick. A failure of the plant is logged and ends the run; one of the log is the world's.
   std::optional<RunFailure> advance(std::int64_t k) {
-    motion_ = source_.advance(planner::OperatorInput{});
+    if (has_operator()) {
+      const auto& input = panel_.advance(ControlTicks{k}, motion_.s_end_u, events_);
+      motion_ = source_->advance(input);
+      watch_operator(input);
+    } else {
+      motion_ = source_->advance(planner::OperatorInput{});
+    }
     batch_.tick = motion_.tick;
     interpolator_.advance(motion_, batch_);
     hash_.add(batch_);
@@ -110,6 +132,65 @@ class Cycle {
     if (plant_) monitor_.lost_steps(plant_->lost_steps(), now_, events_);
     if (motion_.s_end_u > motion_.s_begin_u) ++motion_ticks_;
     return log_tick();
+  }
+
+  /// Why a run under a timeline ends before the program does, or nothing.
+  const char* ended_by_operator() {
+    if (!has_operator()) return nullptr;
+    if (source_->stopped()) {
+      add_alarm(Code::emergency_stopped, motion_.s_end_u, job_.path.length_u(),
+                fmt::format("stands at {:.6g} of {:.6g}", motion_.s_end_u, job_.path.length_u()));
+      return "emergency stop";
+    }
+    const bool held = motion_.limited_by == planner::LimitedBy::hold && motion_.speed_end_u_s == 0 &&
+                      motion_.s_end_u == motion_.s_begin_u;
+    if (!held || !panel_.at_its_end()) return nullptr;
+    add_alarm(Code::held_to_the_end, motion_.s_end_u, job_.path.length_u(),
+              fmt::format("held at {:.6g} of {:.6g}, and no step lets it go", motion_.s_end_u,
+                          job_.path.length_u()));
+    return "held";
+  }
+
+  void add_alarm(Code code, double value, double limit, std::string text) {
+    EventRecord e;
+    e.tick = now_;
+    e.kind = "alarm";
+    e.code = code;
+    e.value = value;
+    e.limit = limit;
+    e.text = std::move(text);
+    if (job_.path.size() > 0) {
+      e.span = job_.path.segments[segment()].span;
+      e.block = job_.path.segments[segment()].block;
+    }
+    events_.push_back(std::move(e));
+    ++operator_alarms_;
+  }
+
+  /// Waiting percents, time lost and what is alarming about them.
+  void watch_operator(const planner::OperatorInput& input) {
+    using planner::LimitedBy;
+    using planner::OverrideNote;
+    deferred_ticks_ =
+        motion_.note == OverrideNote::none || motion_.note == OverrideNote::limited ? 0 : deferred_ticks_ + 1;
+    const bool locked_overload = motion_.note == OverrideNote::locked && panel_.spindle_percent() < 1;
+    if (locked_overload && !overload_told_)
+      add_alarm(Code::overload_locked, panel_.spindle_percent() * 100, 100,
+                fmt::format("the load asks for {:.6g} %, the lock waits", panel_.spindle_percent() * 100));
+    overload_told_ = locked_overload;
+    const bool rests = motion_.s_end_u == motion_.s_begin_u;
+    if (rests && motion_.limited_by == LimitedBy::stop) return;  // a pause of the program
+    if (input.hold || motion_.limited_by == LimitedBy::hold)
+      reason_ = "hold";
+    else if (motion_.note == OverrideNote::deferred)
+      reason_ = "deferral";
+    else if (motion_.limiter < 1)
+      reason_ = "limiter";
+    else if (panel_.spindle_percent() < 1)
+      reason_ = "spindle load";
+    else if (motion_.override_used != 1 || input.rapid_override != 1)
+      reason_ = "override";
+    lost_.add(motion_, reason_);
   }
 
   std::size_t segment() const {
@@ -218,7 +299,17 @@ class Cycle {
     record.motion = &motion_;
     record.position_steps = &interpolator_.position_steps();
     record.axis = plant_ ? &plant_->state() : nullptr;
+    record.has_override = has_operator();
     return keep(log_->tick(record, batch_));
+  }
+
+  /// Feed of the path at s inside this tick, by its linear feed.
+  double feed_at(double s_u) const {
+    const double left_u = std::max(s_u - motion_.s_begin_u, 0.0);
+    const double way_u = motion_.s_end_u - motion_.s_begin_u;
+    if (!(way_u > 0)) return motion_.speed_end_u_s;
+    const double v0 = motion_.ramp_begin_u_s, v1 = motion_.ramp_end_u_s;
+    return std::sqrt(std::max(0.0, v0 * v0 + (v1 * v1 - v0 * v0) * std::min(left_u / way_u, 1.0)));
   }
 
   BlockRecord block_record(const BlockStart& start) const {
@@ -236,6 +327,9 @@ class Cycle {
     r.planned_end_u_s = summary.end_u_s;
     r.planned_s = summary.time_s;
     r.limited_by = limited_by_text(summary.limited_by, summary.limiting_axis, machine_);
+    r.entry_u_s = feed_at(job_.path.start_s_u[start.segment]);
+    if (start.segment > 0) r.planned_entry_u_s = job_.plan.segments[start.segment - 1].end_u_s;
+    r.deferred_ticks = deferred_ticks_;
     return r;
   }
 
@@ -270,7 +364,9 @@ class Cycle {
     summary.mean_feed_u_s = summary.motion_s > 0 ? summary.path_u / summary.motion_s : 0.0;
     summary.steps_hash = hash_.digest();
     summary.limited_by = limit_shares(job_);
-    summary.alarms += plant_alarms_;
+    summary.planned_s = job_.motion_s;
+    if (has_operator()) summary.lost_by = lost_.shares();
+    summary.alarms += plant_alarms_ + operator_alarms_;
     summary.exit_code = summary.alarms > 0 ? 3 : 0;
     if (log_)
       if (auto failure = keep(log_->end(summary))) return tl::unexpected(*failure);
@@ -281,7 +377,9 @@ class Cycle {
   const machine::MachineModel& machine_;
   const RunOptions& options_;
   RunLog* log_;
-  planner::LawSource source_;
+  std::unique_ptr<planner::MotionSource> source_;
+  OperatorPanel panel_;
+  LostTime lost_;
   CrossingInterpolator interpolator_;
   std::optional<plant::Plant> plant_;
   Monitor monitor_;
@@ -295,7 +393,10 @@ class Cycle {
   std::vector<EventRecord> events_;
   std::vector<BlockEndRecord> block_ends_;
   std::int64_t motion_ticks_ = 0;
-  std::size_t plant_alarms_ = 0;
+  std::size_t plant_alarms_ = 0, operator_alarms_ = 0;
+  std::int64_t deferred_ticks_ = 0;
+  bool overload_told_ = false;
+  std::string_view reason_ = "override";
 };
 
 }  // namespace

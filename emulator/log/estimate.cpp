@@ -18,7 +18,7 @@ std::int64_t envelope(std::size_t channel_bytes) {
 
 /// KADR_TICKS without its per-tick columns, and those (ticks_t).
 double ticks_message_bytes(std::int64_t axes) {
-  return static_cast<double>(envelope(kTicksChannel.size()) + 8 + 8 + 4 + 4 + 4 + 8 * axes);
+  return static_cast<double>(envelope(kTicksChannel.size()) + 8 + 8 + 4 + 4 + 4 + 4 + 8 * axes);
 }
 double tick_bytes(std::int64_t axes, bool plant) {
   return static_cast<double>(4 * 8 + 1 + 1 + 4 + axes * (4 + 8) + (plant ? axes * 5 * 8 : 0));
@@ -36,7 +36,7 @@ double viewer_bytes(std::int64_t axes) {
 /// KADR_BLOCK with texts of usual length, and KADR_BLOCK_END (block_t, block_end_t).
 double block_bytes() {
   constexpr std::int64_t kTexts = 3 * 5 + 24 + 4 + 8;  // length and zero byte each; line, motion, limited_by
-  return static_cast<double>(envelope(kBlockChannel.size()) + 8 + 8 + 3 * 4 + 5 * 8 + kTexts);
+  return static_cast<double>(envelope(kBlockChannel.size()) + 8 + 8 + 3 * 4 + 7 * 8 + 4 + kTexts);
 }
 double block_end_bytes(std::int64_t axes) {
   return static_cast<double>(envelope(kBlockEndChannel.size()) + 8 + 8 + 3 * 4 + 2 * 8 * axes);

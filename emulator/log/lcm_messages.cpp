@@ -107,6 +107,9 @@ block_t block_message(const BlockRecord& r, const machine::ClockModel& clock) {
   m.planned_end_u_s = r.planned_end_u_s;
   m.planned_s = r.planned_s;
   m.limited_by = lcm_text(r.limited_by);
+  m.entry_u_s = r.entry_u_s;
+  m.planned_entry_u_s = r.planned_entry_u_s;
+  m.deferred_ticks = static_cast<std::int32_t>(r.deferred_ticks);
   return m;
 }
 
@@ -198,6 +201,12 @@ summary_t summary_message(const RunSummary& s, const machine::ClockModel& clock,
     m.limited_by.push_back(lcm_text(share.limited_by));
     m.limited_s.push_back(share.time_s);
   }
+  m.planned_s = s.planned_s;
+  m.n_losses = small(s.lost_by.size());
+  for (const LimitShare& share : s.lost_by) {
+    m.lost_by.push_back(lcm_text(share.limited_by));
+    m.lost_s.push_back(share.time_s);
+  }
   m.n_alarms = static_cast<std::int64_t>(s.alarms);
   m.n_warnings = static_cast<std::int64_t>(s.warnings);
   m.exit_code = s.exit_code;
@@ -212,8 +221,10 @@ BlockBuilder::BlockBuilder(const machine::MachineModel& machine)
           "offsets within a control tick fit 16 bits");
   const auto n = static_cast<std::size_t>(machine.log.block_ticks);
   const std::size_t axes = machine.axis.size();
-  for (auto* column : {&ticks_.feed_u_s, &ticks_.accel_u_s2, &ticks_.path_u, &ticks_.override_used})
+  for (auto* column : {&ticks_.feed_u_s, &ticks_.accel_u_s2, &ticks_.path_u, &ticks_.override_requested,
+                       &ticks_.override_used, &ticks_.limiter})
     column->resize(n);
+  ticks_.override_note.resize(n);
   ticks_.limited_by.resize(n);
   ticks_.limiting_axis.resize(n);
   ticks_.block.resize(n);
@@ -232,13 +243,14 @@ BlockBuilder::BlockBuilder(const machine::MachineModel& machine)
 bool BlockBuilder::breaks(const TickRecord& record) const {
   if (empty()) return false;
   return record.tick.value != ticks_.first_control_tick + ticks_.n ||
-         (record.axis != nullptr) != (ticks_.n_plant_axes > 0);
+         (record.axis != nullptr) != (ticks_.n_plant_axes > 0) || record.has_override != has_override_;
 }
 
 void BlockBuilder::begin_block(const TickRecord& record) {
   ticks_.first_control_tick = record.tick.value;
   ticks_.tick = record.tick.value * machine_.clock.control_tick.value;
   ticks_.n_plant_axes = record.axis ? ticks_.n_axes : 0;
+  has_override_ = record.has_override;
   for (std::size_t a = 0; a < node_.size(); ++a)
     ticks_.steps_base[a] = (*record.position_steps)[a] + lattice_offset_[a];
   for (PulseEncoder& encoder : pulses_) encoder.begin_block();
@@ -262,11 +274,15 @@ void BlockBuilder::add(const TickRecord& record, const StepBatch& batch) {
   if (lattice_offset_.empty()) begin_lattice(record, batch);
   if (empty()) begin_block(record);
   const auto i = static_cast<std::size_t>(ticks_.n++);
+  ticks_.n_override = has_override_ ? ticks_.n : 0;
   const planner::TickMotion& motion = *record.motion;
   ticks_.feed_u_s[i] = motion.speed_end_u_s;
   ticks_.accel_u_s2[i] = motion.accel_end_u_s2;
   ticks_.path_u[i] = motion.s_end_u;
+  ticks_.override_requested[i] = motion.override_requested;
   ticks_.override_used[i] = motion.override_used;
+  ticks_.limiter[i] = motion.limiter;
+  ticks_.override_note[i] = static_cast<std::int8_t>(motion.note);
   ticks_.limited_by[i] = static_cast<std::int8_t>(motion.limited_by);
   ticks_.limiting_axis[i] = motion.limiting_axis;
   ticks_.block[i] = static_cast<std::int32_t>(record.block);

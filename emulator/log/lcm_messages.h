@@ -57,7 +57,8 @@ class BlockBuilder {
   std::vector<PulseEncoder> pulses_;          // [axes]
   std::vector<std::int64_t> lattice_offset_;  // [axes] lattice node - position_steps; set by the first tick
   std::vector<std::int64_t> node_;            // [axes] of the tick added last
-  double accel_u_s2_ = 0, jerk_u_s3_ = 0;     // of the tick added last
+  bool has_override_ = false;
+  double accel_u_s2_ = 0, jerk_u_s3_ = 0;  // of the tick added last
 };
 
 }  // namespace kadr::emulator

@@ -57,6 +57,9 @@ Decoded<BlockRecord> decode_block(WireReader in) {
   r.planned_end_u_s = in.f64();
   r.planned_s = in.f64();
   r.limited_by = in.string();
+  r.entry_u_s = in.f64();
+  r.planned_entry_u_s = in.f64();
+  r.deferred_ticks = in.i32();
   return finished(in, std::move(r));
 }
 
@@ -91,6 +94,8 @@ Decoded<TickBlock> decode_ticks(WireReader in, const LogHeader& header) {
   const std::int32_t axes = axis_count(in, header);
   const std::int32_t plant_axes = in.count(0, axes);
   if (plant_axes != 0 && plant_axes != axes) in.fail();
+  const std::int32_t override_ticks = in.count(0, ticks);
+  if (override_ticks != 0 && override_ticks != ticks) in.fail();
   for (auto* column : {&b.feed_u_s, &b.accel_u_s2, &b.path_u, &b.override_used}) *column = in.f64s(ticks);
   b.limited_by = in.i8s(ticks);
   b.limiting_axis = in.i8s(ticks);
@@ -105,6 +110,14 @@ Decoded<TickBlock> decode_ticks(WireReader in, const LogHeader& header) {
                       &AxisTicks::motor_force})
     for (std::int32_t a = 0; a < plant_axes; ++a)
       b.axis[static_cast<std::size_t>(a)].*column = in.f64s(ticks);
+  b.override_requested = in.f64s(override_ticks);
+  b.limiter = in.f64s(override_ticks);
+  b.override_note = in.i8s(override_ticks);
+  if (override_ticks == 0) {  // nobody asked for anything
+    b.override_requested = b.override_used;
+    b.limiter.assign(b.size(), 1.0);
+    b.override_note.assign(b.size(), 0);
+  }
   return finished(in, std::move(b));
 }
 
@@ -206,6 +219,14 @@ Decoded<LogDiagnostic> decode_diag(WireReader in) {
   return finished(in, std::move(d));
 }
 
+void decode_shares(WireReader& in, std::vector<LimitShare>& shares) {
+  const std::int32_t count = in.i32();
+  const auto names = in.strings(count);
+  const auto times_s = in.f64s(count);
+  for (std::size_t i = 0; i < std::min(names.size(), times_s.size()); ++i)
+    shares.push_back({names[i], times_s[i]});
+}
+
 /// The summary's columns, one value an axis, in the order of summary_t.
 void decode_axis_summaries(WireReader& in, std::vector<AxisSummary>& axis) {
   const auto integers = [&](auto&& put) {
@@ -251,11 +272,9 @@ Decoded<LogSummary> decode_summary(WireReader in) {
   r.held_error_u = in.f64();
   r.axis.resize(static_cast<std::size_t>(in.count(0, kMaxAxes)));
   decode_axis_summaries(in, r.axis);
-  const std::int32_t limits = in.i32();
-  const auto names = in.strings(limits);
-  const auto times_s = in.f64s(limits);
-  for (std::size_t i = 0; i < std::min(names.size(), times_s.size()); ++i)
-    r.limited_by.push_back({names[i], times_s[i]});
+  decode_shares(in, r.limited_by);
+  r.planned_s = in.f64();
+  decode_shares(in, r.lost_by);
   r.alarms = static_cast<std::size_t>(in.i64());
   r.warnings = static_cast<std::size_t>(in.i64());
   r.exit_code = in.i32();

@@ -57,10 +57,12 @@ struct AxisTicks {
 struct TickBlock {
   Ticks begin;
   ControlTicks first;
-  std::vector<double> feed_u_s, accel_u_s2, path_u, override_used;  ///< [ticks]
-  std::vector<std::int8_t> limited_by, limiting_axis;  ///< [ticks] planner::LimitedBy; axis or -1
-  std::vector<std::uint32_t> block;                    ///< [ticks]
-  std::vector<AxisTicks> axis;                         ///< [axes]
+  std::vector<double> feed_u_s, accel_u_s2, path_u;                ///< [ticks]
+  std::vector<double> override_requested, override_used, limiter;  ///< [ticks] ratios
+  std::vector<std::int8_t> override_note;                          ///< [ticks] planner::OverrideNote
+  std::vector<std::int8_t> limited_by, limiting_axis;              ///< [ticks] planner::LimitedBy; axis or -1
+  std::vector<std::uint32_t> block;                                ///< [ticks]
+  std::vector<AxisTicks> axis;                                     ///< [axes]
   bool has_plant = false;
   std::size_t size() const { return feed_u_s.size(); }
 };

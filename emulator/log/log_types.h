@@ -9,7 +9,7 @@
 /// Names and numbers that the log's writer, reader and size estimate share (docs/log_format.md).
 namespace kadr::emulator {
 
-inline constexpr std::int32_t kLogFormat = 1;
+inline constexpr std::int32_t kLogFormat = 2;
 inline constexpr std::uint32_t kEventSync = 0xEDA1DA01;  ///< first word of every event of an LCM log
 inline constexpr std::size_t kEventHeaderBytes = 28;     ///< sync, event number, time stamp, two lengths
 inline constexpr std::size_t kMaxChannelBytes = 63;      ///< LCM's limit for a channel name

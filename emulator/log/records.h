@@ -34,8 +34,12 @@ struct BlockRecord {
   double programmed_u_s = 0;
   double planned_peak_u_s = 0;
   double planned_end_u_s = 0;
-  double planned_s = 0;    ///< duration
-  std::string limited_by;  ///< e.g. "program", "axis X speed"
+  double planned_s = 0;          ///< duration
+  std::string limited_by;        ///< e.g. "program", "axis X speed"
+  double entry_u_s = 0;          ///< feed at its beginning, as run
+  double planned_entry_u_s = 0;  ///< F_KK of the block before, as planned at 100 %
+  std::int64_t deferred_ticks =
+      0;  ///< control ticks that a percent has been waiting for the motion before it
 };
 
 /// What a motion block did, at the first control tick at which another block has begun; only of blocks that
@@ -55,6 +59,7 @@ struct TickRecord {
   const planner::TickMotion* motion = nullptr;
   const std::vector<std::int64_t>* position_steps = nullptr;  ///< [axes]
   const std::vector<plant::AxisState>* axis = nullptr;        ///< [axes]; null without plant
+  bool has_override = false;  ///< the run has steps of operator or spindle: what they ask for is kept
 };
 
 /// Something that happened at a tick: "spindle", "coolant", "tool", "dwell", "message", "stop", "alarm",
@@ -112,6 +117,8 @@ struct RunSummary {
   double held_error_u = 0;             ///< tick_feed = constant: largest distance from the law along the path
   std::vector<AxisSummary> axis;       ///< [axes]
   std::vector<LimitShare> limited_by;  ///< descending time
+  double planned_s = 0;                ///< motion at 100 %
+  std::vector<LimitShare> lost_by;     ///< time lost against that, by reason; < 0: gained
   std::size_t alarms = 0, warnings = 0;
   int exit_code = 0;  ///< 0, or 3 with alarms
 };

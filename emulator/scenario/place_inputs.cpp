@@ -16,25 +16,54 @@ constexpr double kSameTick = 1e-6;
 
 void place_inputs(const Scenario& scenario, std::uint32_t file, Job& job, Diagnostics& diagnostics) {
   const double tau_s = job.machine.model.clock.tau_s();
+  double load = 0;  // of the spindle, before a step with for_s
   for (const ScenarioStep& step : scenario.steps) {
     Span span = step.span;
     span.file = file;
-    const double ticks = step.at_tick ? static_cast<double>(*step.at_tick) : step.at_s / tau_s;
-    const double whole = std::floor(ticks + 0.5);
-    if (std::fabs(ticks - whole) > kSameTick) {
+    const auto on_tick = [&](double ticks, std::string_view key) -> std::optional<ControlTicks> {
+      const double whole = std::floor(ticks + 0.5);
+      if (std::fabs(ticks - whole) <= kSameTick) return ControlTicks{static_cast<std::int64_t>(whole)};
       Diagnostic d = machine::file_diagnostic(
           Code::scenario_step, span, fmt::format("is {:.6g} control ticks of {:.6g} s", ticks, tau_s));
       d.notes.push_back(fmt::format("allowed: whole multiples of {:.6g} s", tau_s));
-      d.help = fmt::format("write at_s = {:.9g} or {:.9g}", std::floor(ticks) * tau_s,
+      d.help = fmt::format("write {} = {:.9g} or {:.9g}", key, std::floor(ticks) * tau_s,
                            (std::floor(ticks) + 1) * tau_s);
       diagnostics.add(std::move(d));
+      return {};
+    };
+    OperatorStep action;
+    action.place = step.place;
+    if (!step.place) {
+      const auto tick =
+          on_tick(step.at_tick ? static_cast<double>(*step.at_tick) : step.at_s / tau_s, "at_s");
+      if (!tick) continue;
+      action.tick = *tick;
+    }
+    if (!step.action) {
+      job.inputs.push_back({action.tick, step.analog, step.number, step.value, span});
       continue;
     }
-    const ControlTicks tick{static_cast<std::int64_t>(whole)};
-    job.inputs.push_back({tick, step.analog, step.number, step.value, span});
+    action.action = *step.action;
+    action.value = step.value;
+    action.span = span;
+    job.operator_steps.push_back(action);
+    if (*step.action != OperatorAction::spindle_load) continue;
+    if (step.for_s > 0) {
+      const auto more = on_tick(step.for_s / tau_s, "for_s");
+      if (!more) continue;
+      action.tick = action.tick + *more;
+      action.value = load;
+      job.operator_steps.push_back(action);
+    } else {
+      load = step.value;
+    }
   }
   std::stable_sort(job.inputs.begin(), job.inputs.end(),
                    [](const InputStep& a, const InputStep& b) { return a.tick < b.tick; });
+  const auto placed = std::stable_partition(job.operator_steps.begin(), job.operator_steps.end(),
+                                            [](const OperatorStep& s) { return !s.place; });
+  std::stable_sort(job.operator_steps.begin(), placed,
+                   [](const OperatorStep& a, const OperatorStep& b) { return a.tick < b.tick; });
 }
 
 }  // namespace kadr::emulator

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <utility>
 
 #include "emulator/report/alarm_list.h"
 #include "emulator/scenario/scenario.h"
+#include "emulator/scenario/signals.h"
 #include "machine/base/hash.h"
 
 namespace kadr::emulator {
@@ -77,6 +79,36 @@ void compare_run(ScenarioResult& result, const Expectations& expect, const machi
   for (const AxisExpectation& axis : expect.axis) compare_axis(result.checks, axis, machine, summary);
 }
 
+void compare_signals(ScenarioResult& result, const Expectations& expect, const SignalRecorder& signals,
+                     const machine::MachineModel& machine) {
+  for (const SignalExpectation& s : expect.signals) {
+    const auto range = signals.range(s.signal, s.from_s, s.to_s);
+    const std::string unit = signal_unit(s.signal, machine);
+    std::string what = s.signal;
+    if (s.from_s > 0 || s.to_s < machine::kInfinity)
+      what += fmt::format(" from {:.6g} to {:.6g} s", s.from_s, s.to_s);
+    result.checks.push_back({what, fmt::format("{:.10g} to {:.10g} {}", s.least, s.most, unit),
+                             range ? fmt::format("{:.10g} to {:.10g} {}", range->least_u, range->most_u, unit)
+                                   : "no control tick, or no such signal",
+                             range && range->least_u >= s.least && range->most_u <= s.most});
+  }
+}
+
+std::string boundary_text(const BoundaryExpectation& b) {
+  return fmt::format("tick {} + {}, feed {:.4f}, planned {:.4f}, deferred {}", b.control_tick, b.offset,
+                     b.feed_u_s, b.planned_u_s, b.deferred_ticks);
+}
+
+void compare_boundaries(ScenarioResult& result, const Expectations& expect) {
+  for (const BoundaryExpectation& b : expect.boundaries) {
+    const auto it = std::find_if(result.boundaries.begin(), result.boundaries.end(),
+                                 [&](const BoundaryExpectation& m) { return m.block == b.block; });
+    const std::string measured = it == result.boundaries.end() ? "never begins" : boundary_text(*it);
+    result.checks.push_back({fmt::format("boundary of block {}", b.block), boundary_text(b), measured,
+                             boundary_text(b) == measured});
+  }
+}
+
 void render_into(ScenarioResult& result, const Diagnostics& diagnostics, const SourceSet& sources) {
   for (const Diagnostic& d : diagnostics.list()) {
     result.diagnostics += render_human(d, sources);
@@ -105,7 +137,8 @@ void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions
     return;
   }
   AlarmList alarms(nullptr);
-  auto summary = run(job, &alarms, options);
+  SignalRecorder signals(job.machine.model, alarms);
+  auto summary = run(job, &signals, options);
   if (!summary) {
     result.failure = summary.error().what;
     return;
@@ -115,7 +148,18 @@ void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions
   result.machine_s =
       static_cast<double>(summary->ticks.value) / static_cast<double>(job.machine.model.clock.base_hz);
   result.summary = std::move(*summary);
+  const std::int64_t tau = job.machine.model.clock.control_tick.value;
+  for (const BlockRecord& r : signals.boundaries())
+    result.boundaries.push_back({r.block,
+                                 r.tick.value / tau,
+                                 r.tick.value % tau,
+                                 r.entry_u_s,
+                                 r.planned_entry_u_s,
+                                 r.deferred_ticks,
+                                 {}});
   compare_run(result, scenario.expect, job.machine.model);
+  compare_signals(result, scenario.expect, signals, job.machine.model);
+  compare_boundaries(result, scenario.expect);
 }
 
 }  // namespace

@@ -30,6 +30,27 @@ struct AxisExpectation {
   std::optional<Bounds> residual;         ///< AxisSummary::residual_u
 };
 
+/// Least and most of a signal over control ticks that end in (from_s, to_s].
+struct SignalExpectation {
+  std::string signal;  ///< signals.h
+  double from_s = 0;
+  double to_s = machine::kInfinity;
+  double least = -machine::kInfinity;
+  double most = machine::kInfinity;
+  Span span;  ///< of the name
+};
+
+/// Where one block ends and the next begins.
+struct BoundaryExpectation {
+  std::int64_t block = 0;         ///< that begins, counted from 0
+  std::int64_t control_tick = 0;  ///< in which it begins
+  std::int64_t offset = 0;        ///< base ticks since that control tick's beginning
+  double feed_u_s = 0;            ///< to 1e-4
+  double planned_u_s = 0;         ///< F_KK at 100 %, to 1e-4
+  std::int64_t deferred_ticks = 0;
+  Span span;  ///< of the table
+};
+
 /// What must come out. Errors and alarms that are not named here always fail the scenario.
 struct Expectations {
   std::optional<double> time_s;  ///< machine time of the whole run
@@ -38,16 +59,21 @@ struct Expectations {
   std::vector<std::pair<Code, std::int64_t>> alarms;  ///< code and count, ascending
   std::vector<Code> diagnostics;                      ///< errors and warnings of a refused program, in order
   std::vector<AxisExpectation> axis;
+  std::vector<SignalExpectation> signals;
+  std::vector<BoundaryExpectation> boundaries;
 };
 
-/// A step of the timeline: an input changes.
+/// A step of the timeline: an input of M66 changes, or the operator or the spindle does something.
 struct ScenarioStep {
-  double at_s = 0;  ///< the time, unless at_tick is given
+  double at_s = 0;  ///< the time, unless at_tick or place is given
   std::optional<std::int64_t> at_tick;
+  std::optional<PathPlace> place;
+  std::optional<OperatorAction> action;  ///< else an input
   bool analog = false;
   int number = 0;
   double value = 0;
-  Span span;  ///< of the time
+  double for_s = 0;  ///< spindle_load: back to the load before after this time; 0: it stays
+  Span span;         ///< of the time or place
 };
 
 /// A scenario file as read; nothing of it has run.
@@ -83,7 +109,7 @@ tl::expected<Scenario, Diagnostics> read_scenario(const std::string& path, Sourc
 bool open_job(const Scenario& scenario, Job& job, Diagnostics& diagnostics);
 
 /// Puts the steps of a scenario on the control ticks of the job's machine; a time between two ticks is an
-/// error.
+/// error. Steps that stand on the path keep their place until prepare() knows the path.
 /// @param file  of the scenario's text in job.sources
 void place_inputs(const Scenario& scenario, std::uint32_t file, Job& job, Diagnostics& diagnostics);
 
@@ -103,6 +129,7 @@ struct ScenarioResult {
   std::string diagnostics;  ///< rendered for people; empty if there were none
   std::vector<Code> codes;  ///< of the program's errors and warnings, in order
   std::vector<std::pair<Code, std::int64_t>> alarms;  ///< code and count, ascending
+  std::vector<BoundaryExpectation> boundaries;        ///< measured
   std::optional<RunSummary> summary;                  ///< empty if the program was refused
   double machine_s = 0;                               ///< machine time of the run
   bool passed() const;

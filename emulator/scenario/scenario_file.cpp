@@ -22,6 +22,7 @@ constexpr machine::Bounds kTime{0, 1e9};
 constexpr machine::Bounds kVibration{0, 1e9};
 constexpr machine::Bounds kInput{0, 63, false, true};
 constexpr machine::Bounds kDigital{0, 1, false, true};
+constexpr machine::Bounds kAny{-1e12, 1e12};
 constexpr machine::Bounds kAnalog{-1e9, 1e9};
 
 /// Reads one scenario file; mistakes go to the context's diagnostics.
@@ -141,15 +142,22 @@ class ScenarioReader {
     }
   }
 
-  void read_step(const Node& node) {
-    if (!node.find("input") && !node.find("analog_input")) {
-      tell(Code::scenario_step, node.span, "names neither input nor analog_input",
-           "steps that move an input are run: at_s = 1.2, input = 3, value = 1");
-      return;
-    }
-    TableReader table(&node, "step", node.span, context_);
-    ScenarioStep step;
-    if (table.has("at_tick")) {
+  /// When or where: at_s, at_tick, at_line (pass, after_mm), at_block (after_mm), at_path_mm.
+  void read_moment(TableReader& table, ScenarioStep& step) {
+    const auto place = [&](std::string_view key, PathPlace::Kind kind, double least) {
+      const auto number = table.number(key, {least, 1e9, false, kind != PathPlace::Kind::length});
+      step.place = PathPlace{kind, number.value};
+      step.span = number.span;
+    };
+    if (table.has("at_line")) {
+      place("at_line", PathPlace::Kind::line, 1);
+      if (table.has("pass"))
+        step.place->pass = static_cast<int>(table.number("pass", {1, 1e9, false, true}).value);
+    } else if (table.has("at_block")) {
+      place("at_block", PathPlace::Kind::block, 0);
+    } else if (table.has("at_path_mm")) {
+      place("at_path_mm", PathPlace::Kind::length, 0);
+    } else if (table.has("at_tick")) {
       const auto tick = table.number("at_tick", {0, 9e15, false, true});
       step.at_tick = static_cast<std::int64_t>(tick.value);
       step.span = tick.span;
@@ -158,10 +166,54 @@ class ScenarioReader {
       step.at_s = time.value;
       step.span = time.span;
     }
-    const std::string_view key = table.one_of("input", "analog_input");
-    step.analog = key == "analog_input";
-    step.number = static_cast<int>(table.number(key, kInput).value);
-    step.value = table.number("value", step.analog ? kAnalog : kDigital).value;
+    if (step.place && table.has("after_mm")) step.place->after_u = table.number("after_mm", kTime).value;
+  }
+
+  void read_step(const Node& node) {
+    TableReader table(&node, "step", node.span, context_);
+    ScenarioStep step;
+    read_moment(table, step);
+    int actions = 0;
+    const auto takes = [&](std::string_view key) { return table.has(key) && ++actions == 1; };
+    const auto percent = [&](std::string_view key, double most_pct, OperatorAction action) {
+      if (!takes(key)) return;
+      step.value = table.number(key, {0, most_pct}).value / 100;
+      step.action = action;
+    };
+    const auto act = [&](std::string_view key, OperatorAction action) {
+      if (!takes(key)) return;
+      if (!table.flag(key, true).value)
+        tell(Code::scenario_step, table.header(), fmt::format("{} = false does nothing", key),
+             "leave the step out, or write true");
+      step.action = action;
+    };
+    percent("override_pct", 200, OperatorAction::feed_override);
+    percent("rapid_override_pct", 100, OperatorAction::rapid_override);
+    percent("spindle_load_pct", 1000, OperatorAction::spindle_load);
+    act("hold", OperatorAction::hold);
+    act("resume", OperatorAction::resume);
+    act("emergency_stop", OperatorAction::emergency_stop);
+    if (step.action == OperatorAction::spindle_load && table.has("for_s"))
+      step.for_s = table.number("for_s", kTime).value;
+    for (const std::string_view key : {"input", "analog_input"}) {
+      if (!takes(key)) continue;
+      step.analog = key == "analog_input";
+      step.number = static_cast<int>(table.number(key, kInput).value);
+      step.value = table.number("value", step.analog ? kAnalog : kDigital).value;
+    }
+    if (actions == 0)
+      return tell(Code::scenario_step, node.span, "does nothing",
+                  "one of override_pct, rapid_override_pct, hold, resume, spindle_load_pct, emergency_stop, "
+                  "input, analog_input");
+    if (actions > 1)
+      return tell(Code::scenario_step, node.span, fmt::format("does {} things at once", actions),
+                  "write a [[step]] for each, at the same tick if need be");
+    if (!step.action && step.place)
+      return tell(Code::scenario_step, step.span, "an input changes at a time, not at a place",
+                  "write at_s or at_tick");
+    if (step.place && step.for_s > 0)
+      return tell(Code::scenario_step, step.span, "for_s counts from a time, not from a place",
+                  "write a second step where the load falls again");
     table.finish();
     scenario_.steps.push_back(step);
   }
@@ -179,7 +231,42 @@ class ScenarioReader {
       if (const auto code = known_code(item.value, item.span)) expect.diagnostics.push_back(*code);
     if (const Node* axes = table.table("axis"))
       for (const machine::Entry& entry : axes->entries) read_axis(entry);
+    for (const Node& signal : table.tables("signal")) read_signal(signal);
+    for (const Node& boundary : table.tables("boundary")) read_boundary(boundary);
     table.finish();
+  }
+
+  void read_signal(const Node& node) {
+    TableReader table(&node, "expect.signal", node.span, context_);
+    SignalExpectation s;
+    const auto name = table.text("name");
+    s.signal = name.value;
+    s.span = name.span;
+    s.from_s = table.number("from_s", kTime, s.from_s).value;
+    if (table.has("to_s")) s.to_s = table.number("to_s", kTime).value;
+    if (table.has("least")) s.least = table.number("least", kAny).value;
+    if (table.has("most")) s.most = table.number("most", kAny).value;
+    if (!table.has("least") && !table.has("most"))
+      tell(Code::scenario_value, s.span, "has neither least nor most", "write least, most or both");
+    table.finish();
+    scenario_.expect.signals.push_back(std::move(s));
+  }
+
+  void read_boundary(const Node& node) {
+    TableReader table(&node, "expect.boundary", node.span, context_);
+    const auto count = [&](std::string_view key) {
+      return static_cast<std::int64_t>(table.number(key, {0, 9e15, false, true}).value);
+    };
+    BoundaryExpectation b;
+    b.span = node.span;
+    b.block = count("block");
+    b.control_tick = count("control_tick");
+    b.offset = count("offset");
+    b.feed_u_s = table.number("feed_mm_s", kTime).value;
+    b.planned_u_s = table.number("planned_mm_s", kTime).value;
+    b.deferred_ticks = count("deferred_ticks");
+    table.finish();
+    scenario_.expect.boundaries.push_back(b);
   }
 
   std::optional<std::uint64_t> read_hash(const machine::Reading<std::string>& text) {

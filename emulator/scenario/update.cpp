@@ -46,6 +46,22 @@ void replace_axis(const Entry& axis, const ScenarioResult& result, const machine
     out.push_back({e->value.span, fmt::format("{}", measured.end_steps)});
 }
 
+void replace_boundary(const Node& node, const ScenarioResult& result, std::vector<Replacement>& out) {
+  const Entry* block = node.find("block");
+  if (!block) return;
+  for (const BoundaryExpectation& b : result.boundaries) {
+    if (static_cast<double>(b.block) != block->value.number) continue;
+    const auto put = [&](std::string_view key, std::string text) {
+      if (const Entry* e = node.find(key)) out.push_back({e->value.span, std::move(text)});
+    };
+    put("control_tick", fmt::format("{}", b.control_tick));
+    put("offset", fmt::format("{}", b.offset));
+    put("feed_mm_s", fmt::format("{:.4f}", b.feed_u_s));
+    put("planned_mm_s", fmt::format("{:.4f}", b.planned_u_s));
+    put("deferred_ticks", fmt::format("{}", b.deferred_ticks));
+  }
+}
+
 std::vector<Replacement> replacements(const Node& expect, const ScenarioResult& result,
                                       const machine::MachineModel& machine) {
   std::vector<Replacement> out;
@@ -56,6 +72,8 @@ std::vector<Replacement> replacements(const Node& expect, const ScenarioResult& 
   if (const Entry* e = expect.find("steps_hash"))
     out.push_back({e->value.span, quoted_hash(*result.summary)});
   if (const Entry* e = expect.find("alarms")) out.push_back({e->value.span, alarms_text(result.alarms)});
+  if (const Entry* e = expect.find("boundary"))
+    for (const Node& boundary : e->value.items) replace_boundary(boundary, result, out);
   if (const Entry* e = expect.find("axis"))
     for (const Entry& axis : e->value.entries) replace_axis(axis, result, machine, out);
   return out;

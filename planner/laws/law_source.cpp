@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/laws/tick_shape.h"
 #include "planner/motion_source.h"
 
 namespace kadr::planner {
@@ -9,29 +10,6 @@ namespace {
 /// A law that ends on a control tick may miss it by the rounding of its summed durations; far below a base
 /// tick.
 constexpr double kEndSlack_s = 1e-9;
-
-/// Linear feed over a tick that keeps the law's path and speeds at both ends:
-///   ramp_begin = S/tau - (v1 - v0)/2,  ramp_end = S/tau + (v1 - v0)/2
-/// Where that would run backwards, the path rests for a part of the tick: it starts late, or ends early.
-void shape_linear(TickMotion& m, double tau_s, double tick_ticks) {
-  const double way = m.s_end_u - m.s_begin_u;
-  const double v0 = m.speed_begin_u_s;
-  const double v1 = m.speed_end_u_s;
-  const double mean = way / tau_s;
-  m.ramp_begin_u_s = mean - 0.5 * (v1 - v0);
-  m.ramp_end_u_s = mean + 0.5 * (v1 - v0);
-  m.move_begin_ticks = 0.0;
-  m.move_end_ticks = tick_ticks;
-  if (m.ramp_begin_u_s < 0.0) {  // then v1 > 2 mean: the triangle 0 -> v1 at the tick's end
-    m.ramp_begin_u_s = 0.0;
-    m.ramp_end_u_s = v1;
-    m.move_begin_ticks = tick_ticks - tick_ticks * std::min(2.0 * mean / v1, 1.0);
-  } else if (m.ramp_end_u_s < 0.0) {
-    m.ramp_begin_u_s = v0;
-    m.ramp_end_u_s = 0.0;
-    m.move_end_ticks = tick_ticks * std::min(2.0 * mean / v0, 1.0);
-  }
-}
 
 /// Largest distance between the law and a path that moves from s_begin at a constant speed, over [begin,
 /// end]. Extremes lie where the law has that speed, and at the ends of its pieces.
@@ -70,8 +48,18 @@ LawSource::LawSource(const MotionLaw& law, const machine::MachineModel& machine)
   if (!law_.pieces.empty()) state_ = law_.eval(0.0, hint_);
 }
 
-bool LawSource::finished() const {
-  return static_cast<double>(tick_.value) * machine_.clock.tau_s() >= law_.duration_s - kEndSlack_s;
+double LawSource::time_s() const {
+  return from_s_ + static_cast<double>((tick_ - from_tick_).value) * machine_.clock.tau_s();
+}
+
+bool LawSource::finished() const { return time_s() >= law_.duration_s - kEndSlack_s; }
+
+void LawSource::seek(double time_s, double s_u, ControlTicks tick) {
+  tick_ = from_tick_ = tick;
+  from_s_ = time_s;
+  hint_ = 0;
+  law_.eval(time_s, hint_);
+  state_ = {s_u, 0.0, 0.0, 0.0};
 }
 
 TickMotion LawSource::advance(const OperatorInput&) {
@@ -88,10 +76,10 @@ TickMotion LawSource::advance(const OperatorInput&) {
     ++tick_;
     return m;
   }
-  const double begin = static_cast<double>(tick_.value) * tau;
+  const double begin = time_s();
   const std::size_t hint_begin = hint_;
   ++tick_;
-  const double end = finished() ? law_.duration_s : static_cast<double>(tick_.value) * tau;
+  const double end = finished() ? law_.duration_s : time_s();
   const MotionState next = law_.eval(end, hint_);
   // the last bits of the polynomials neither turn the path back nor take it past its end
   m.s_end_u = std::min(std::max(next.s_u, m.s_begin_u), law_.length_u);
@@ -106,7 +94,7 @@ TickMotion LawSource::advance(const OperatorInput&) {
     m.move_end_ticks = ticks;
     m.held_error_u = largest_gap_u(law_, hint_begin, begin, end, m.s_begin_u, held);
   } else {
-    shape_linear(m, tau, ticks);
+    shape_linear_feed(m, tau, ticks);
   }
   state_ = next;
   state_.s_u = m.s_end_u;

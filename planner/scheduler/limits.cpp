@@ -114,8 +114,8 @@ void lower_tangential_on_arc(SegmentCaps& caps, const ArcBounds& b, const machin
 
 class TableMaker {
  public:
-  TableMaker(const Path& path, const machine::MachineModel& machine)
-      : path_(path), machine_(machine), axes_(machine.axis.size()) {
+  TableMaker(const Path& path, const machine::MachineModel& machine, double feed_scale)
+      : path_(path), machine_(machine), feed_scale_(feed_scale), axes_(machine.axis.size()) {
     const double tau = machine.clock.tau_s();
     for (std::size_t j = 0; j < axes_; ++j)
       speed_step_[j] =
@@ -174,7 +174,7 @@ class TableMaker {
     const machine::PathLimits& limits = machine_.path;
     const double scale = seg.length_u / seg.feed_length_u;
     if (!seg.rapid) {
-      caps.lower_speed(seg.feed_u_s, LimitedBy::program);
+      caps.lower_speed(seg.feed_u_s * feed_scale_, LimitedBy::program);
       if (seg.path_limits) caps.lower_speed(limits.max_feed_mm_s * scale, LimitedBy::path_feed);
     }
     if (seg.path_limits) {
@@ -273,6 +273,7 @@ class TableMaker {
 
   const Path& path_;
   const machine::MachineModel& machine_;
+  double feed_scale_;
   std::size_t axes_;
   AxisVector speed_step_{};  // min(a_inst tau, j_inst tau^2)
   PathLimitTable table_;
@@ -280,8 +281,9 @@ class TableMaker {
 
 }  // namespace
 
-tl::expected<PathLimitTable, PlanError> limit_table(const Path& path, const machine::MachineModel& machine) {
-  return TableMaker(path, machine).make();
+tl::expected<PathLimitTable, PlanError> limit_table(const Path& path, const machine::MachineModel& machine,
+                                                    double feed_scale) {
+  return TableMaker(path, machine, feed_scale).make();
 }
 
 }  // namespace kadr::planner

@@ -46,6 +46,9 @@ struct PathLimitTable {
 ///
 /// With axis_limits = report the axis limits are left out wherever the path gives an acceleration limit;
 /// corners keep the junction rule and rapids their axis speed.
-tl::expected<PathLimitTable, PlanError> limit_table(const Path& path, const machine::MachineModel& machine);
+///
+/// @param feed_scale  factor on the programmed feeds: the highest percent that an operator will ask for
+tl::expected<PathLimitTable, PlanError> limit_table(const Path& path, const machine::MachineModel& machine,
+                                                    double feed_scale = 1.0);
 
 }  // namespace kadr::planner

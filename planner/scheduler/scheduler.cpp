@@ -103,6 +103,12 @@ std::string_view limited_by_name(LimitedBy reason) {
       return "length";
     case LimitedBy::stop:
       return "stop";
+    case LimitedBy::override_percent:
+      return "override";
+    case LimitedBy::hold:
+      return "hold";
+    case LimitedBy::limiter:
+      return "limiter";
   }
   return "unknown";
 }

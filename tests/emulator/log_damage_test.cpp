@@ -187,8 +187,8 @@ TEST_CASE("what is no kadr log is told from what can't be read") {
   // the format number follows fingerprint and tick: byte 28 + 8 ("KADR_RUN") + 8 + 8 + 3
   test::write_log(folder / "a", test::log_machine(1), 1);
   auto bytes = test::read_bytes(folder / "a");
-  REQUIRE(bytes[55] == 1);
-  bytes[55] = 2;
+  REQUIRE(bytes[55] == 2);
+  bytes[55] = 3;
   test::write_bytes(folder / "newer", bytes);
   CHECK(read_all(folder / "newer").fault == LogReadFault::other_format);
 }

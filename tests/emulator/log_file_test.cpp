@@ -84,6 +84,10 @@ TEST_CASE("every control tick comes back from a log bit by bit: 1000 ticks, 3 ax
       same = same && b->feed_u_s[i] == r.motion->speed_end_u_s &&
              b->accel_u_s2[i] == r.motion->accel_end_u_s2 && b->path_u[i] == r.motion->s_end_u &&
              b->override_used[i] == r.motion->override_used &&
+             b->override_requested[i] ==
+                 (r.has_override ? r.motion->override_requested : r.motion->override_used) &&
+             b->limiter[i] == (r.has_override ? r.motion->limiter : 1.0) &&
+             b->override_note[i] == (r.has_override ? static_cast<int>(r.motion->note) : 0) &&
              b->limited_by[i] == static_cast<int>(r.motion->limited_by) &&
              b->limiting_axis[i] == r.motion->limiting_axis && b->block[i] == r.block;
       for (std::size_t a = 0; a < 3; ++a) {
@@ -203,6 +207,10 @@ TEST_CASE("header, blocks, events, diagnostics and summary come back from a log"
   REQUIRE(s.limited_by.size() == 2);
   CHECK(s.limited_by[1].limited_by == "axis X speed");
   CHECK(s.limited_by[1].time_s == 14.75);
+  CHECK(s.planned_s == 38.25);
+  REQUIRE(s.lost_by.size() == 2);
+  CHECK(s.lost_by[1].limited_by == "override");
+  CHECK(s.lost_by[1].time_s == -0.125);
 }
 
 TEST_CASE("viewer messages carry the numbers of their control tick, ten to a hundred ticks") {

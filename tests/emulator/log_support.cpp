@@ -94,7 +94,10 @@ const emulator::TickRecord& FakeRun::advance() {
   motion_.speed_end_u_s = 0.001 * std::abs(after) / tau_s;
   motion_.accel_end_u_s2 = (motion_.speed_end_u_s - motion_.speed_begin_u_s) / tau_s;
   motion_.override_used = 1 - 0.001 * static_cast<double>(tick_ % 50);
-  motion_.limited_by = static_cast<planner::LimitedBy>(tick_ / 100 % 8);
+  motion_.override_requested = motion_.override_used + 0.25;
+  motion_.limiter = 1 - 0.002 * static_cast<double>(tick_ % 7);
+  motion_.note = static_cast<planner::OverrideNote>(tick_ / 30 % 4);
+  motion_.limited_by = static_cast<planner::LimitedBy>(tick_ / 100 % 11);
   motion_.limiting_axis = static_cast<std::int8_t>(tick_ / 100 % 4 - 1);
   for (std::size_t a = 0; a < batch_.axis.size(); ++a) {
     const double share = 1 - 0.07 * static_cast<double>(a), begin = position_steps_[a];
@@ -112,6 +115,7 @@ const emulator::TickRecord& FakeRun::advance() {
   record_.motion = &motion_;
   record_.position_steps = &steps_;
   record_.axis = options_.plant ? &states_ : nullptr;
+  record_.has_override = options_.has_override;
   ++tick_;
   return record_;
 }
@@ -193,6 +197,8 @@ emulator::RunSummary log_summary(const machine::MachineModel& machine, std::int6
     s.axis.push_back(x);
   }
   s.limited_by = {{"program", 23.5}, {"axis X speed", 14.75}};
+  s.planned_s = 38.25;
+  s.lost_by = {{"hold", 2.5}, {"override", -0.125}};
   s.alarms = 2;
   s.warnings = 1;
   s.exit_code = 3;

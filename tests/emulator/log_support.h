@@ -36,6 +36,7 @@ struct FakeRunOptions {
   double peak_steps_per_s = 50'000;  ///< of the first axis; each next axis goes a little slower
   std::int64_t ramp_ticks = 400;     ///< from rest to the peak; rest for a fifth of that at every turn
   bool plant = true;
+  bool has_override = false;
   bool wobble = true;  ///< the crossing times of a curve: the pulse interval moves by some base ticks
 };
 

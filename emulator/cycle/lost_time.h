@@ -1,0 +1,33 @@
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "emulator/log/records.h"
+#include "planner/planner.h"
+
+namespace kadr::emulator {
+
+/// Where a run under a percent takes longer than its plan at 100 %, tick by tick: the tick's length less the
+/// planned time for the path that it makes. The sum over all reasons is the difference of the two times but
+/// for dwells, which both have.
+class LostTime {
+ public:
+  /// @param law  outlives this
+  LostTime(const planner::MotionLaw& law, double tau_s) : law_(law), tau_s_(tau_s) {}
+  /// A tick that is not a pause of the program.
+  void add(const planner::TickMotion& motion, std::string_view reason);
+  /// Longest first; reasons that lost less than a microsecond are left out.
+  std::vector<LimitShare> shares() const;
+
+ private:
+  double planned_s(double s_u);
+
+  const planner::MotionLaw& law_;
+  double tau_s_;
+  std::size_t piece_ = 0;
+  double moving_s_ = 0;  ///< of the pieces before `piece_`, pauses left out
+  double reached_s_ = 0;
+  std::vector<LimitShare> shares_;
+};
+
+}  // namespace kadr::emulator

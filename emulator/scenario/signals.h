@@ -1,0 +1,43 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/scenario/scenario.h"
+
+namespace kadr::emulator {
+
+/// Keeps what scenarios measure over time: feed, acceleration, jerk, percents, axis speeds per control tick,
+/// and the boundaries between blocks.
+class SignalRecorder final : public RunLog {
+ public:
+  /// @param next  where the records go besides; outlives this
+  SignalRecorder(const machine::MachineModel& machine, RunLog& next);
+
+  /// Least and most of a signal over the control ticks that end in (from_s, to_s]; nothing if there are none.
+  std::optional<Bounds> range(std::string_view signal, double from_s, double to_s) const;
+  const std::vector<BlockRecord>& boundaries() const { return boundaries_; }
+
+  tl::expected<void, LogError> begin(const RunHeader& header) override;
+  tl::expected<void, LogError> block(const BlockRecord& record) override;
+  tl::expected<void, LogError> tick(const TickRecord& record, const StepBatch& batch) override;
+  tl::expected<void, LogError> block_end(const BlockEndRecord& record) override;
+  tl::expected<void, LogError> event(const EventRecord& record) override;
+  tl::expected<void, LogError> diagnostic(const Diagnostic& d, Ticks tick) override;
+  tl::expected<void, LogError> end(const RunSummary& summary) override;
+
+ private:
+  const machine::MachineModel& machine_;
+  RunLog& next_;
+  std::vector<std::vector<double>> columns_;  ///< [signal][control tick]
+  std::vector<BlockRecord> boundaries_;
+};
+
+/// Names of the signals of a machine: "feed", "acceleration", "jerk", "path", "override_pct",
+/// "override_requested_pct", "limiter", "axis.X.speed" ...
+std::vector<std::string> signal_names(const machine::MachineModel& machine);
+/// "mm/s", "mm/s2", ... ; of an axis its own unit
+std::string signal_unit(std::string_view signal, const machine::MachineModel& machine);
+
+}  // namespace kadr::emulator

@@ -1,0 +1,99 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "planner/path.h"
+#include "planner/scheduler/limits.h"
+#include "planner/scheduler/ramp.h"
+#include "planner/scheduler/range_min.h"
+
+namespace kadr::planner {
+
+/// What is in force on the path ahead, as ratios: 1 is 100 %.
+struct Percent {
+  double feed = 1.0;
+  double rapid = 1.0;
+  double frozen = 1.0;  ///< of moves that keep the percent of their beginning
+  bool operator==(const Percent&) const = default;
+};
+
+/// A place where the feed must be low enough: the next one ahead whose cap is below all before it.
+struct Valley {
+  std::size_t place = 0;
+  double s_u = 0;
+  double cap_u_s = 0;  ///< under the percent
+  bool hard = false;   ///< the cap is the machine's or the path's, whatever the percent
+  /// It can't be left with acceleration 0 for the next valley that can: braking for that one has to be below
+  /// the cap here.
+  bool tight = false;
+};
+
+/// The caps of a path under a percent. Hard caps (corners, curvature, axes, stops, moves that no percent
+/// changes) stand apart from the programmed feed (paper 003, eq. 6-8 with the hard part taken out of F_HK):
+///   cap = min(hard cap, F p)      a rapid: hard cap * p_rapid
+/// A move that runs into one at a fixed feed (a thread) is not slowed below that feed.
+class FeedTerrain {
+ public:
+  /// @param table  caps with the highest percent that is to come; its accelerations hold up to that
+  FeedTerrain(const Path& path, const machine::MachineModel& machine, PathLimitTable table);
+
+  const Path& path() const { return path_; }
+  /// Cap at a place (limits.h) under a percent; 0 at a stop.
+  double cap_u_s(std::size_t place, const Percent& percent) const;
+  double hard_cap_u_s(std::size_t place) const { return table_.cap_u_s[place]; }
+  const Signature& signature(std::size_t place) const { return table_.signature[place]; }
+  /// What holds the feed on a segment at its cap.
+  Signature cap_reason(std::size_t segment, const Percent& percent) const;
+
+  /// No percent changes the segment's feed from within it.
+  bool locked(std::size_t segment) const { return path_.segments[segment].lock != FeedLock::none; }
+  /// Last segment of the run (rest to rest) that segment i belongs to.
+  std::size_t run_end(std::size_t segment) const;
+  /// Segment at s, at or after a known one before it.
+  std::size_t segment_at(double s_u, std::size_t from) const;
+
+  /// Lowest limits over segments [first, last].
+  RampLimits limits(std::size_t first, std::size_t last) const;
+
+  /// Valleys ahead of a segment up to `until_u`, each lower than the one before and than `below_u_s`.
+  /// @return whether there can be more of them behind `until_u`
+  bool valleys(std::size_t segment, double below_u_s, double until_u, const Percent& percent,
+               std::vector<Valley>& out) const;
+  /// Finds the tight valleys, and leaves out those that any braking for the next passes below.
+  /// @param scale  factor on the limits
+  void thin_out(std::vector<Valley>& valleys, double scale) const;
+  /// Path that braking from w to a valley takes, with the lowest limits on its way.
+  double braking_u(double w_u_s, const Valley& valley, double scale, RampLimits& limits) const;
+
+  /// Speed at which braking from w for `next` passes a tight valley before it; w if it begins behind that
+  /// one, inf if it would have to begin before `begin_u`.
+  double passing_u_s(double w_u_s, double begin_u, const Valley& tight, const Valley& next,
+                     double scale) const;
+
+  /// Factor on accelerations and jerks while the percent goes from one to another: 1, or in proportional
+  /// mode the percent itself, as the whole diagram is multiplied by it (eq. 5).
+  double limit_scale(const Percent& from, const Percent& to) const;
+
+ private:
+  RampLimits scaled(std::size_t first, std::size_t last, double scale) const;
+  double target_u_s(std::size_t segment, const Percent& percent) const;
+  double factor(std::size_t place, const Percent& percent) const;
+  /// First place of [from, last] whose cap may be at most that; last + 1: none.
+  std::size_t next_at_most(double level_u_s, std::size_t from, std::size_t last,
+                           const Percent& percent) const;
+
+  const Path& path_;
+  bool proportional_;          ///< every cap is multiplied by the percent
+  std::array<bool, 3> fixed_;  ///< by FeedLock: no percent at all
+  PathLimitTable table_;
+  std::vector<double> feed_u_s_;        // [segments], inf where no percent counts
+  std::vector<double> rapid_u_s_;       // [segments], inf but for rapids
+  std::vector<double> least_u_s_;       // [segments], feed of the locked move that follows, else 0
+  std::vector<std::size_t> stops_;      // joints with cap 0, ascending
+  std::vector<std::size_t> lock_ends_;  // joints behind threads, ascending
+  RangeMin caps_, feeds_, rapids_, accels_, jerks_;
+  bool uniform_ = false;
+};
+
+}  // namespace kadr::planner
