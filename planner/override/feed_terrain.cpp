@@ -279,10 +279,11 @@ RampLimits FeedTerrain::scaled(std::size_t first, std::size_t last, double scale
   return {l.accel_u_s2 * scale, l.jerk_u_s3 * scale};
 }
 
-double FeedTerrain::limit_scale(const Percent& from, const Percent& to) const {
+double FeedTerrain::limit_scale(const Percent& percent, std::size_t segment, double speed_u_s) const {
   if (!proportional_) return 1.0;
-  const double scale = std::max(from.feed, to.feed);
-  return scale > 0.0 ? scale : 1.0;
+  const double ratio = factor(2 * segment + 1, percent);
+  // a hold is not multiplied by zero
+  return ratio > 0.0 ? std::max(ratio, speed_u_s / table_.cap_u_s[2 * segment + 1]) : 1.0;
 }
 
 double FeedTerrain::braking_u(double w_u_s, const Valley& valley, double scale, RampLimits& ramp) const {

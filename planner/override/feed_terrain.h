@@ -39,6 +39,7 @@ class FeedTerrain {
   FeedTerrain(const Path& path, const machine::MachineModel& machine, PathLimitTable table);
 
   const Path& path() const { return path_; }
+  bool proportional() const { return proportional_; }
   /// Cap at a place (limits.h) under a percent; 0 at a stop.
   double cap_u_s(std::size_t place, const Percent& percent) const;
   double hard_cap_u_s(std::size_t place) const { return table_.cap_u_s[place]; }
@@ -71,9 +72,9 @@ class FeedTerrain {
   double passing_u_s(double w_u_s, double begin_u, const Valley& tight, const Valley& next,
                      double scale) const;
 
-  /// Factor on accelerations and jerks while the percent goes from one to another: 1, or in proportional
-  /// mode the percent itself, as the whole diagram is multiplied by it (eq. 5).
-  double limit_scale(const Percent& from, const Percent& to) const;
+  /// Factor on accelerations and jerks: 1, or in proportional mode the percent, as the whole diagram is
+  /// multiplied by it (eq. 5); while the speed is still that of a higher one, that one.
+  double limit_scale(const Percent& percent, std::size_t segment, double speed_u_s) const;
 
  private:
   RampLimits scaled(std::size_t first, std::size_t last, double scale) const;

@@ -60,7 +60,6 @@ bool FeedTracker::start(std::size_t segment, const MotionState& state, const Per
   ceiling_u_s_ = ceiling_u_s;
   ended_ = stopping_ = false;
   run_end_joint_ = terrain_.run_end(segment) + 1;
-  scale_ = terrain_.limit_scale(percent_, percent_);
   return decide(state.speed_u_s > 0.0);
 }
 
@@ -108,8 +107,13 @@ void FeedTracker::advance(double time_s) {
       in_piece_s_ += time_s;
       state_ = moved(pieces_[at_].begin, in_piece_s_);
       segment_ = terrain_.segment_at(state_.s_u, segment_);
-      require(state_.s_u <= terrain_.path().start_s_u[run_end_joint_] * (1.0 + 1e-12) + 1e-9,
-              "the feed tracker stops at the end of its run");
+      const double end_u = terrain_.path().start_s_u[run_end_joint_];
+      if (state_.s_u <= end_u * (1.0 + 1e-12) + 1e-9) return;
+      // multiplying the diagram by a percent that moves gives no promise: the path ends, and with it the
+      // motion
+      require(terrain_.proportional(), "the feed tracker stops at the end of its run");
+      state_ = {end_u, 0.0, 0.0, 0.0};
+      enter(2 * run_end_joint_);
       return;
     }
     time_s -= left_s;
@@ -265,7 +269,9 @@ bool FeedTracker::passed_too_fast(double w) {
 /// limits than braking for the valley does.
 bool FeedTracker::overruns(double w) {
   hard_.clear();
-  terrain_.valleys(segment_, fastest_u_s_, seen_u_, kUnlimited, hard_);
+  // multiplied, every cap moves with the percent: the one under which the speed came about is what counts
+  const Percent multiplied{scale_, std::max(scale_, percent_.rapid), scale_};
+  terrain_.valleys(segment_, fastest_u_s_, seen_u_, terrain_.proportional() ? multiplied : kUnlimited, hard_);
   const bool passes = passed_too_fast(w);
   terrain_.thin_out(hard_, scale_);
   return passes || broken(w, hard_) != nullptr;
@@ -290,19 +296,19 @@ bool FeedTracker::decide(bool may_refuse) {
   at_ = 0;
   in_piece_s_ = 0.0;
   end_place_ = 0;
-  end_ = state_;
-  end_.jerk_u_s3 = 0.0;
-  if (state_.accel_u_s2 == 0.0 || !(limits_.jerk_u_s3 < kInfinity)) {
-    state_.accel_u_s2 = end_.accel_u_s2 = 0.0;
-    limits_ = limits(segment_, segment_);
-  }
   // a locked move that stands begins with the percent that it finds
   const bool moves_freely = !terrain_.locked(segment_) || state_.speed_u_s == 0.0;
   if (moves_freely) {
-    scale_ = terrain_.limit_scale(percent_, wanted_);
     percent_ = wanted_;
     percent_.frozen = wanted_.feed;
   }
+  scale_ = terrain_.limit_scale(percent_, segment_, state_.speed_u_s);
+  if (state_.accel_u_s2 == 0.0 || !(limits_.jerk_u_s3 < kInfinity)) {
+    state_.accel_u_s2 = 0.0;
+    limits_ = limits(segment_, segment_);
+  }
+  end_ = state_;
+  end_.jerk_u_s3 = 0.0;
   const double cap = stopping_ ? 0.0 : std::min(terrain_.cap_u_s(2 * segment_ + 1, percent_), ceiling_u_s_);
   const double v = state_.speed_u_s, a = state_.accel_u_s2;
   const double flared = a == 0.0 ? v : v + 0.5 * a * std::fabs(a) / limits_.jerk_u_s3;
@@ -318,7 +324,12 @@ bool FeedTracker::decide(bool may_refuse) {
     seen_u_ = state_.s_u + (kHorizons - 1.0) * longest;
   terrain_.thin_out(valleys_, scale_);
 
-  const bool late = broken(cap, valleys_) && (flared > cap || broken(flared, valleys_));
+  const auto is_late = [&] { return broken(cap, valleys_) && (flared > cap || broken(flared, valleys_)); };
+  bool late = is_late();
+  if (late && scale_ < 1.0) {  // multiplied by a low percent the brakes are weak: they need not be
+    scale_ = 1.0;
+    late = is_late();
+  }
   double w = cap;
   const Valley* towards = nullptr;
   if (late) {  // a percent fell too late for a place ahead: towards it at once
@@ -329,6 +340,8 @@ bool FeedTracker::decide(bool may_refuse) {
   }
   if ((late || w < std::max(v, flared)) && !stopping_ && overruns(w)) {
     if (may_refuse) return false;
+    scale_ = std::max(scale_, 1.0);
+    overruns(w);
     // the percent can't be followed yet: hold what there is to the hard valley ahead
     valleys_ = hard_;
     const Valley* q = broken(flared, valleys_);

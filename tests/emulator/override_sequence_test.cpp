@@ -85,6 +85,7 @@ TEST_CASE(
       axis.junction_accel_u_s2 = 1500;
     }
     machine.feed_override.mode = static_cast<machine::OverrideMode>(dice.whole(0, 2));
+    CAPTURE(static_cast<int>(machine.feed_override.mode));
     const planner::Path path = random_program(dice, machine);
     const auto plan = planner::plan(path, machine);
     REQUIRE(plan.has_value());
