@@ -23,14 +23,28 @@ enum class LimitedBy : std::uint8_t {
 };
 std::string_view limited_by_name(LimitedBy reason);
 
+/// How the blockwise scheduler gave a block its whole control ticks (fill_block_ticks).
+enum class TickRule : std::uint8_t {
+  none,           ///< they were whole, or need not be
+  lower_main,     ///< a: F_HK lowered
+  stretch_brake,  ///< b: braking stretched
+  lower_end,      ///< c: F_KK lowered
+  scale,          ///< d: all speeds times kl (paper 003, eq. 3-4)
+};
+/// "", "a", "b", "c", "d".
+std::string_view tick_rule_name(TickRule rule);
+
 /// Per segment, made by the scheduler; boundary feeds are reachable within each segment.
 struct SegmentPlan {
   double peak_u_s = 0;      ///< F_HK of paper 003: highest speed of s on the segment
   double end_u_s = 0;       ///< F_KK: speed at its end
+  double kl = 1;            ///< factor in both of them, <= 1; below 1 with TickRule::scale only
+  double end_jump_u_s = 0;  ///< speed just behind its end less end_u_s; not 0 only beside a kl
   double begin_time_s = 0;  ///< since the law's beginning
   double end_time_s = 0;
   LimitedBy limited_by = LimitedBy::program;  ///< what held the peak
   std::int8_t limiting_axis = -1;             ///< machine axis, or -1
+  TickRule rule = TickRule::none;
 };
 
 /// s(t) as pieces of constant jerk (jerk = 0 and jumps of acceleration where a jerk limit is infinite).
@@ -49,7 +63,8 @@ struct MotionState {
   double s_u, speed_u_s, accel_u_s2, jerk_u_s3;
 };
 
-/// s(t), ds/dt >= 0, from rest to rest; s and ds/dt continuous, d2s/dt2 too where every jerk limit is finite.
+/// s(t), ds/dt >= 0, from rest to rest; s and ds/dt continuous, d2s/dt2 too where every jerk limit is finite;
+/// but for the jumps of ds/dt that the table states (SegmentPlan::end_jump_u_s).
 /// Consecutive runs (rest to rest) follow each other without a gap; `pause` pieces (speed 0) are allowed.
 struct MotionLaw {
   std::vector<JerkPiece> pieces;  ///< ascending in time, without gaps

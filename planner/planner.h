@@ -25,6 +25,10 @@ struct PlanError {
 /// continuous over inner joints), zero acceleration at every plateau. With jerk = inf the ramps are those of
 /// trapezoidal motion, segment by segment. With planner.whole_ticks each rest-to-rest run lasts a whole
 /// number of control ticks (paper 003, eq. 2). Deterministic: fixed iteration counts, + - * / sqrt only.
+///
+/// With planner.scheduler = blockwise ramps end with their segment, acceleration being zero at every joint,
+/// and each segment lasts a whole number of control ticks (BlockScheduler); speed jumps only where the plan's
+/// table states it.
 tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineModel& machine);
 
 /// Time that plan() gives to the segments from `first` to the path's end, where the machine stops. Segment

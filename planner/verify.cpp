@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "machine/base/numbers.h"
+#include "planner/verify_blocks.h"
 
 namespace kadr::planner {
 namespace {
@@ -13,14 +14,8 @@ namespace {
 constexpr double kUlp = std::numeric_limits<double>::epsilon();
 using AxisVector = std::array<double, kProgramAxes>;
 
-struct State {
-  double s, v, a, j;
-};
-State at(const JerkPiece& p, double t) {
-  const double j = p.jerk_u_s3;
-  return {p.s_u + p.speed_u_s * t + p.accel_u_s2 * t * t / 2.0 + j * t * t * t / 6.0,
-          p.speed_u_s + p.accel_u_s2 * t + j * t * t / 2.0, p.accel_u_s2 + j * t, j};
-}
+using State = VerifiedState;
+State at(const JerkPiece& p, double t) { return verified_state(p, t); }
 
 /// x', x'', x''' with respect to s, from the definition of the shapes in path.h.
 struct Derivatives {
@@ -56,7 +51,12 @@ class Verifier {
  public:
   Verifier(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
            const VerifyOptions& options)
-      : path_(path), plan_(plan), law_(plan.law), machine_(machine), options_(options) {
+      : path_(path),
+        plan_(plan),
+        law_(plan.law),
+        machine_(machine),
+        options_(options),
+        blocks_(plan, machine) {
     tolerance_s_ = 16.0 * kUlp * std::max(path.length_u(), 1.0);
     for (const JerkPiece& p : law_.pieces) top_speed_ = std::max(top_speed_, p.speed_u_s);
   }
@@ -77,6 +77,9 @@ class Verifier {
     }
     check_stops();
     check_table();
+    if (!full() && plan_.segments.size() == path_.size())
+      verify_blocks(
+          plan_, machine_, options_, [this](std::size_t i) { return jerk_limited(i); }, found_);
     return std::move(found_);
   }
 
@@ -133,7 +136,8 @@ class Verifier {
     if (!(std::fabs(end.s - q.s_u) <= way_tolerance(p)))
       report("continuity of s", q.begin_s, segment_, -1, end.s, q.s_u);
     const double steep = std::fabs(end.a) + std::fabs(end.j) * p.duration_s;
-    if (!(std::fabs(end.v - q.speed_u_s) <= speed_tolerance(end.v, steep, q.begin_s)))
+    const double jump = blocks_.stated_jump_u_s(q.begin_s);
+    if (!(std::fabs(end.v + jump - q.speed_u_s) <= speed_tolerance(end.v, steep, q.begin_s)))
       report("continuity of speed", q.begin_s, segment_, -1, end.v, q.speed_u_s);
     // acceleration may jump only where a segment at this place has no jerk limit
     const double scale =
@@ -315,6 +319,8 @@ class Verifier {
   // --- stops, ticks and table
   // -------------------------------------------------------------------------------------
 
+  static bool stands(const JerkPiece& p) { return p.speed_u_s == 0.0 && at(p, p.duration_s).s == p.s_u; }
+
   void check_stops() {
     std::size_t k = 0;
     const double tau = machine_.clock.tau_s();
@@ -333,6 +339,9 @@ class Verifier {
         rests = std::fabs(x.s - s) <= way_tolerance(p) && std::fabs(x.v) <= speed_tolerance(0.0, steep, time);
         if (rests) break;
       }
+      // and may last a while
+      for (; rests && k + 1 < law_.pieces.size() && stands(law_.pieces[k + 1]); ++k)
+        time = law_.pieces[k + 1].begin_s + law_.pieces[k + 1].duration_s;
       if (!rests) report("rest at a stop", time, i, -1, s, s);
       if (!machine_.planner.whole_ticks || !rests) continue;
       const double off = std::fabs(time - std::floor(time / tau + 0.5) * tau);
@@ -352,9 +361,13 @@ class Verifier {
       const SegmentPlan& row = plan_.segments[i];
       if (row.begin_time_s != time || !(row.end_time_s >= time))
         report("table times", time, i, -1, row.begin_time_s, time);
-      if (!(row.peak_u_s >= std::max(speed, row.end_u_s)))
+      if (!(row.peak_u_s >= std::max(speed, row.end_u_s) * (1.0 - options_.relative_tolerance)))
         report("table peak", time, i, -1, row.peak_u_s, speed);
-      while (hint + 1 < law_.pieces.size() && law_.pieces[hint + 1].begin_s <= row.end_time_s) ++hint;
+      // where the speed jumps, the row tells the one before
+      const double jump = blocks_.stated_jump_u_s(row.end_time_s);
+      while (hint + 1 < law_.pieces.size() && (jump == 0.0 ? law_.pieces[hint + 1].begin_s <= row.end_time_s
+                                                           : law_.pieces[hint + 1].begin_s < row.end_time_s))
+        ++hint;
       const JerkPiece& p = law_.pieces[hint];
       const State x = at(p, std::clamp(row.end_time_s - p.begin_s, 0.0, p.duration_s));
       if (!(std::fabs(x.s - path_.start_s_u[i + 1]) <= 1e2 * way_tolerance(p)))
@@ -362,7 +375,7 @@ class Verifier {
       if (!(std::fabs(x.v - row.end_u_s) <= 1e-6 * top_speed_))
         report("table speed", row.end_time_s, i, -1, row.end_u_s, x.v);
       time = row.end_time_s;
-      speed = row.end_u_s;
+      speed = row.end_u_s + jump;
     }
   }
 
@@ -371,6 +384,7 @@ class Verifier {
   const MotionLaw& law_;
   const machine::MachineModel& machine_;
   const VerifyOptions& options_;
+  StatedJumps blocks_;
   double tolerance_s_ = 0;  // s can't be told apart below this
   double top_speed_ = 0;
   std::size_t segment_ = 0;

@@ -99,6 +99,13 @@ void PieceWriter::add(const std::vector<Element>& run, double stretch, double en
   lost_s_ = 0.0;
 }
 
+void PieceWriter::rest(double s_u, double end_time_s) {
+  if (!(end_time_s > time_s_)) return;
+  law_.pieces.push_back({time_s_, end_time_s - time_s_, s_u, 0.0, 0.0, 0.0, LimitedBy::stop, -1});
+  time_s_ = end_time_s;
+  lost_s_ = 0.0;
+}
+
 void fill_segment_table(const Path& path, const PathLimitTable& table, FeedPlan& plan) {
   const std::vector<JerkPiece>& pieces = plan.law.pieces;
   plan.segments.resize(path.size());

@@ -15,6 +15,8 @@ class PieceWriter {
   /// @param stretch    factor on all its times: v/k, a/k^2, j/k^3
   /// @param end_time_s its prescribed end, or a negative number: what the elements last
   void add(const std::vector<Element>& run, double stretch, double end_time_s);
+  /// Stands at s until a time that is not before the present one.
+  void rest(double s_u, double end_time_s);
   double time_s() const { return time_s_; }
 
  private:

@@ -18,6 +18,27 @@ double slope(double v, double w, RampLimits l) {
   return 0.5 * ramp_time_s(dv, l) + 0.5 * (v + w) * rate;
 }
 
+/// Highest w in [low, high] with way(w) <= distance; `way` increases, slope is its derivative.
+template <class Way, class Slope>
+double highest_speed(double low, double high, double distance, Way way, Slope slope_at) {
+  if (way(high) <= distance) return high;
+  double w = high;
+  for (int i = 0; i < 64 && high - low > 1e-15 * high; ++i) {
+    const double excess = way(w) - distance;
+    (excess <= 0.0 ? low : high) = w;
+    if (std::fabs(excess) <= 1e-15 * distance) break;
+    const double next = w - excess / slope_at(w);
+    w = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  // Newton mostly comes from above: the last bits below its result are tried until the inequality holds
+  for (double step = 1e-15; step < 1e-9; step *= 4.0) {
+    w = high * (1.0 - step);
+    if (w <= low) break;
+    if (way(w) <= distance) return w;
+  }
+  return low;
+}
+
 }  // namespace
 
 double peak_speed_u_s(double v0_u_s, double v1_u_s, double distance_u, RampLimits limits, double floor_u_s,
@@ -25,24 +46,19 @@ double peak_speed_u_s(double v0_u_s, double v1_u_s, double distance_u, RampLimit
   // without a jerk limit w^2 = a d + (v0^2 + v1^2)/2; with one it is lower
   const double bound =
       std::sqrt(limits.accel_u_s2 * distance_u + 0.5 * (v0_u_s * v0_u_s + v1_u_s * v1_u_s)) * (1.0 + 1e-15);
-  double low = floor_u_s;
-  double high = std::max(std::min(ceiling_u_s, bound), low);
-  if (two_ramps(v0_u_s, v1_u_s, high, limits) <= distance_u) return high;
-  double w = high;
-  for (int i = 0; i < 64 && high - low > 1e-15 * high; ++i) {
-    const double excess = two_ramps(v0_u_s, v1_u_s, w, limits) - distance_u;
-    (excess <= 0.0 ? low : high) = w;
-    if (std::fabs(excess) <= 1e-15 * distance_u) break;
-    const double next = w - excess / (slope(v0_u_s, w, limits) + slope(v1_u_s, w, limits));
-    w = next > low && next < high ? next : 0.5 * (low + high);
-  }
-  // Newton mostly comes from above: the last bits below its result are tried until the inequality holds
-  for (double step = 1e-15; step < 1e-9; step *= 4.0) {
-    w = high * (1.0 - step);
-    if (w <= low) break;
-    if (two_ramps(v0_u_s, v1_u_s, w, limits) <= distance_u) return w;
-  }
-  return low;
+  const double high = std::max(std::min(ceiling_u_s, bound), floor_u_s);
+  return highest_speed(
+      floor_u_s, high, distance_u, [&](double w) { return two_ramps(v0_u_s, v1_u_s, w, limits); },
+      [&](double w) { return slope(v0_u_s, w, limits) + slope(v1_u_s, w, limits); });
+}
+
+double reach_speed_u_s(double v_u_s, double distance_u, RampLimits limits, double ceiling_u_s) {
+  // without a jerk limit w^2 = v^2 + 2 a d
+  const double bound = std::sqrt(v_u_s * v_u_s + 2.0 * limits.accel_u_s2 * distance_u) * (1.0 + 1e-15);
+  return highest_speed(
+      v_u_s, std::max(std::min(ceiling_u_s, bound), v_u_s), distance_u,
+      [&](double w) { return ramp_length_u(v_u_s, w, limits); },
+      [&](double w) { return slope(v_u_s, w, limits); });
 }
 
 }  // namespace kadr::planner

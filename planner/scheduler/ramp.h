@@ -33,6 +33,10 @@ inline double ramp_length_u(double low_u_s, double high_u_s, RampLimits l) {
 double peak_speed_u_s(double v0_u_s, double v1_u_s, double distance_u, RampLimits limits, double floor_u_s,
                       double ceiling_u_s);
 
+/// Highest speed w up to `ceiling` with S(v -> w) <= d; as peak_speed_u_s.
+/// @pre ceiling >= v
+double reach_speed_u_s(double v_u_s, double distance_u, RampLimits limits, double ceiling_u_s);
+
 /// A stretch of constant speed (v0 == v1) or one ramp between two speeds with acceleration zero at both ends
 /// (a jump of acceleration where jerk is inf).
 struct Element {

@@ -4,6 +4,8 @@
 
 #include "machine/base/require.h"
 #include "planner/planner.h"
+#include "planner/scheduler/block_writer.h"
+#include "planner/scheduler/blockwise.h"
 #include "planner/scheduler/limits.h"
 #include "planner/scheduler/pieces.h"
 #include "planner/scheduler/run_planner.h"
@@ -121,6 +123,16 @@ tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineM
   if (path.size() == 0) return result;
   auto limits = limit_table(path, machine);
   if (!limits) return tl::unexpected(std::move(limits.error()));
+  if (machine.planner.scheduler == machine::SchedulerKind::blockwise) {
+    BlockWriter writer(path, machine.clock.tau_s(), result);
+    BlockScheduler blocks(path, *limits, machine);
+    for (BlockDiagram block; blocks.next(block);) {
+      const double time = writer.time_s() + block.time_s();
+      if (!(time < kLongest_s)) return tl::unexpected(too_long(path, {0, blocks.segment()}, time));
+      writer.add(block, blocks.reasons());
+    }
+    return result;
+  }
   PieceWriter writer(result.law);
   std::int64_t ticks = 0;
   const double tau = machine.clock.tau_s();
@@ -147,6 +159,15 @@ tl::expected<double, PlanError> motion_time_s(const Path& path, const machine::M
   if (!limits) return tl::unexpected(std::move(limits.error()));
   std::int64_t ticks = 0;
   double time = 0.0;
+  if (machine.planner.scheduler == machine::SchedulerKind::blockwise) {
+    BlockScheduler blocks(rest, *limits, machine);
+    for (BlockDiagram block; blocks.next(block);) {
+      time += block.time_s();
+      if (!(time < kLongest_s)) return tl::unexpected(too_long(rest, {0, blocks.segment()}, time));
+      ticks += block.ticks;
+    }
+    return machine.planner.whole_ticks ? static_cast<double>(ticks) * machine.clock.tau_s() : time;
+  }
   RunMaker runs(rest, machine, *limits);
   while (runs.next()) {
     time += runs.time_s() * runs.whole().stretch;

@@ -12,7 +12,7 @@
 namespace kadr {
 namespace {
 
-machine::MachineModel bench_machine(bool jerk) {
+machine::MachineModel bench_machine(bool jerk, bool blocks = false) {
   machine::MachineModel m;
   m.name = "bench";
   for (const char letter : {'X', 'Y', 'Z'}) {
@@ -26,6 +26,7 @@ machine::MachineModel bench_machine(bool jerk) {
     m.axis.push_back(axis);
   }
   m.path.centripetal_accel_mm_s2 = 2000.0;
+  if (blocks) m.planner.scheduler = machine::SchedulerKind::blockwise;
   return m;
 }
 
@@ -76,7 +77,7 @@ long resident_kB() {
 }
 
 void plan_million(benchmark::State& state) {
-  const machine::MachineModel machine = bench_machine(state.range(1) != 0);
+  const machine::MachineModel machine = bench_machine(state.range(1) != 0, state.range(2) != 0);
   const auto blocks = make_blocks(static_cast<Shape>(state.range(0)), 1'000'000);
   const long before = resident_kB();
   double duration = 0, pieces = 0, after = 0;
@@ -98,12 +99,16 @@ void plan_million(benchmark::State& state) {
   state.counters["peak_process_MB"] = static_cast<double>(use.ru_maxrss) / 1024.0;
 }
 BENCHMARK(plan_million)
-    ->ArgNames({"shape", "jerk"})
-    ->Args({0, 1})
-    ->Args({1, 1})
-    ->Args({2, 1})
-    ->Args({0, 0})
-    ->Args({1, 0})
+    ->ArgNames({"shape", "jerk", "blockwise"})
+    ->Args({0, 1, 0})
+    ->Args({1, 1, 0})
+    ->Args({2, 1, 0})
+    ->Args({0, 0, 0})
+    ->Args({1, 0, 0})
+    ->Args({0, 1, 1})
+    ->Args({1, 1, 1})
+    ->Args({2, 1, 1})
+    ->Args({0, 0, 1})
     ->Unit(benchmark::kMillisecond);
 
 void law_source_tick(benchmark::State& state) {
