@@ -297,12 +297,12 @@ class Verifier {
   void check_joint(const JerkPiece& p, std::size_t i) {
     const double s = path_.start_s_u[i];
     const double t = time_of(p, s);
-    // where speed changes within the last bits of s, the lowest of the speeds there counts
+    // where speed changes within the last bits of s or of time, the lowest of the speeds there counts
     double v = at(p, t).v;
     const double t0 = time_of(p, s - tolerance_s_);
     const double t1 = time_of(p, s + tolerance_s_);
-    v = std::min({v, at(p, t0).v, at(p, t1).v});
     const double time = p.begin_s + t;
+    v = std::min({v, at(p, t0).v, at(p, t1).v}) - 16.0 * kUlp * time * std::fabs(at(p, t).a);
     const Derivatives before = derivatives(path_, i - 1, path_.segments[i - 1].length_u);
     const Derivatives after = derivatives(path_, i, 0.0);
     const double tau = machine_.clock.tau_s();

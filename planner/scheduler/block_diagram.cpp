@@ -12,13 +12,14 @@ constexpr double kWhole = 1e-12;
 constexpr double kNoHold = 1e-14;
 // relative error of the sum of a few correctly rounded times
 constexpr double kRounding = 4e-15;
-constexpr int kHalvings = 60;
+constexpr int kHalvings = 60;  // fewer where no number lies between
 
 /// Halves between a value that is good and one that is not; the last good one.
 template <class Good>
 double bisect(double good, double bad, Good is_good) {
   for (int i = 0; i < kHalvings; ++i) {
     const double mid = 0.5 * (good + bad);
+    if (mid == good || mid == bad) break;
     (is_good(mid) ? good : bad) = mid;
   }
   return good;
@@ -107,9 +108,11 @@ double append_elements(const BlockDiagram& block, double s_u, double tau_s, cons
 
   const double up = ramp_length_u(entry, main, limits);
   const double down = ramp_length_u(end, main, brake);
-  const double tail = end * left;
+  double tail = end * left;
   double hold = block.length_u - up - down - tail;
   if (!(hold > kNoHold * block.length_u)) hold = 0.0;
+  // scaled ramps keep their length but for rounding
+  if (tail > 0.0) tail = block.length_u - up - down - hold;
   const auto add_hold = [&](double length, double speed) {
     if (length > 0.0) out.push_back({s_u, length, speed, speed, {0, 0}, why.hold});
     s_u += length;
