@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "emulator/report/text.h"
 #include "emulator/report/travel.h"
@@ -22,6 +23,25 @@ std::size_t width_of(double largest, int decimals, std::size_t least) {
   return std::max(least, fixed(largest, decimals).size());
 }
 
+bool is_blockwise(const Job& job) {
+  return job.machine.model.planner.scheduler == machine::SchedulerKind::blockwise;
+}
+
+/// Rule, kl and jump of a block of one or more segments: what is furthest from none, 1 and 0.
+void add_ticks(const Job& job, std::size_t first, std::size_t end, PlanRow& row) {
+  row.blockwise = true;
+  auto rule = planner::TickRule::none;
+  for (std::size_t i = first; i < end; ++i) {
+    const planner::SegmentPlan& plan = job.plan.segments[i];
+    const planner::PathSegment& segment = job.path.segments[i];
+    rule = std::max(rule, plan.rule);
+    row.kl = std::min(row.kl, plan.kl);
+    const double jump_u_s = plan.end_jump_u_s * segment.feed_length_u / segment.length_u;
+    if (std::fabs(jump_u_s) > std::fabs(row.end_jump_u_s)) row.end_jump_u_s = jump_u_s;
+  }
+  row.rule = planner::tick_rule_name(rule);
+}
+
 }  // namespace
 
 void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>& sink) {
@@ -38,6 +58,7 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
       row.text = job.sources[block.span.file].line(row.line);
       row.motion = pause_name(block);
       row.begin_s = time_s;
+      row.blockwise = is_blockwise(job);
       time_s += row.time_s;
       sink(row);
     }
@@ -58,6 +79,7 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
     row.peak_u_s = block.peak_u_s;
     row.end_u_s = block.end_u_s;
     row.limited_by = limited_by_text(block.limited_by, block.limiting_axis, machine);
+    if (is_blockwise(job)) add_ticks(job, i, block.end_segment, row);
     time_s = block.begin_s + block.time_s;
     sink(row);
     i = block.end_segment;
@@ -65,7 +87,8 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
   pauses_before(job.path.size());
 }
 
-PlanTable::PlanTable(const Job& job) : unit_(path_unit(job.path, job.machine.model)) {
+PlanTable::PlanTable(const Job& job)
+    : blockwise_(is_blockwise(job)), unit_(path_unit(job.path, job.machine.model)) {
   double longest_u = 0, fastest_u_s = 0, slowest_s = 0;
   std::uint32_t last_line = 1;
   for_each_plan_row(job, [&](const PlanRow& row) {
@@ -85,10 +108,11 @@ std::string PlanTable::head(std::string_view name, std::string_view per) const {
 }
 
 std::string PlanTable::title() const {
-  return fmt::format("{}  {}  {}  {}  {}  {}  {}{}  limited by\n", pad_left("line", line_width_),
+  return fmt::format("{}  {}  {}  {}  {}  {}  {}{}{}  limited by\n", pad_left("line", line_width_),
                      pad_right("text", kTextWidth), pad_left(head("length"), length_width_),
                      pad_left("time s", time_width_), pad_left(head("F", "/s"), speed_width_),
                      pad_left(head("peak", "/s"), speed_width_), pad_left(head("end", "/s"), speed_width_),
+                     blockwise_ ? "  rule      kl  " + pad_left(head("jump", "/s"), speed_width_) : "",
                      mixed() ? "  unit    " : "");
 }
 
@@ -103,6 +127,9 @@ std::string PlanTable::row(const PlanRow& r) const {
       pad_left(fixed(r.time_s, 3), time_width_),
       r.motion == "rapid" ? pad_left("rapid", speed_width_) : number(r.programmed_u_s, speed_width_),
       number(r.peak_u_s, speed_width_), number(r.end_u_s, speed_width_));
+  if (blockwise_)
+    out += fmt::format("  {:<4}  {:>6}  {}", r.rule, pause ? "" : fixed(r.kl, 4),
+                       number(r.end_jump_u_s, speed_width_));
   if (mixed()) out += pause ? "          " : fmt::format("  {:<8}", fmt::format("{0} {0}/s", r.unit));
   out += "  " + (pause ? r.motion : r.limited_by);
   return out + '\n';
@@ -114,8 +141,10 @@ std::string PlanTable::footer(const Job& job, std::size_t rows) const {
                      duration_text(job.dwell_s));
 }
 
-std::string plan_csv_title() {
-  return "line,motion,unit,length_u,begin_s,time_s,programmed_u_s,peak_u_s,end_u_s,limited_by,text\n";
+std::string plan_csv_title(bool blockwise) {
+  return fmt::format(
+      "line,motion,unit,length_u,begin_s,time_s,programmed_u_s,peak_u_s,end_u_s,limited_by,{}text\n",
+      blockwise ? "rule,kl,end_jump_u_s," : "");
 }
 
 std::string plan_csv_row(const PlanRow& row) {
@@ -124,9 +153,11 @@ std::string plan_csv_row(const PlanRow& row) {
     if (c == '"') quoted += '"';
     quoted += c;
   }
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},\"{}\"\n", row.line, row.motion, row.unit, row.length_u,
+  const std::string ticks =
+      row.blockwise ? fmt::format("{},{},{},", row.rule, row.kl, row.end_jump_u_s) : std::string();
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}\"{}\"\n", row.line, row.motion, row.unit, row.length_u,
                      row.begin_s, row.time_s, row.programmed_u_s, row.peak_u_s, row.end_u_s, row.limited_by,
-                     quoted);
+                     ticks, quoted);
 }
 
 }  // namespace kadr::emulator

@@ -22,6 +22,11 @@ struct PlanRow {
   double peak_u_s = 0;        ///< highest speed reached
   double end_u_s = 0;         ///< speed at the block's end
   std::string limited_by;     ///< what held the peak; empty for a pause
+  // of a plan made block by block
+  bool blockwise = false;
+  std::string rule;         ///< how the block came to whole control ticks: "a" to "d", or ""
+  double kl = 1;            ///< lowest factor on its speeds (paper 003, eq. 3)
+  double end_jump_u_s = 0;  ///< largest jump of speed at its end, or at an inner joint of a curve
 };
 
 /// Calls `sink` for each row in program order. Nothing is kept, so a program of a million lines costs no
@@ -42,12 +47,14 @@ class PlanTable {
   bool mixed() const { return unit_ == "mm+deg"; }
   std::string head(std::string_view name, std::string_view per = {}) const;
 
+  bool blockwise_ = false;
   std::string unit_;  ///< of all rows; "mm+deg": rows of both kinds, each tells its own
   std::size_t line_width_ = 0, length_width_ = 0, time_width_ = 0, speed_width_ = 0;
 };
 
-/// "line,motion,unit,length_u,begin_s,..."; `_u` is in the row's own unit.
-std::string plan_csv_title();
+/// "line,motion,unit,length_u,begin_s,..."; `_u` is in the row's own unit. A plan made block by block has
+/// rule, kl and jump before the text.
+std::string plan_csv_title(bool blockwise);
 /// Dot, comma, LF; shortest digits that read back to the same number; text in quotes.
 std::string plan_csv_row(const PlanRow& row);
 

@@ -256,6 +256,21 @@ TEST_CASE("kadr plan prints a row a block, as table, CSV and JSON with the same 
   CHECK(j["rows"][1]["programmed_u_s"] == 10.0);
   CHECK(j["rows"][3]["motion"] == "dwell");
   CHECK(j["rows"][3]["time_s"] == 0.5);
+  SUBCASE("block by block also how each block came to whole control ticks") {
+    const std::vector<std::string> blockwise = {"plan", "square.ngc", "--set", "planner.scheduler=blockwise"};
+    const auto with = [&](const std::string& option) {
+      auto arguments = blockwise;
+      if (!option.empty()) arguments.push_back(option);
+      return call(arguments, scratch.path()).out;
+    };
+    check_golden("plan_square_blockwise.txt", with(""));
+    CHECK(contains(with("--csv"), "limited_by,rule,kl,end_jump_u_s,text\n"));
+    const Json rows = Json::parse(with("--json"))["rows"];
+    CHECK(rows[1]["rule"] == "a");
+    CHECK(rows[1]["kl"] == 1.0);
+    CHECK(rows[1]["end_jump_u_s"] == 0.0);
+    CHECK(rows[3]["rule"].is_null());
+  }
   // each row begins where the one before it ends
   double end_s = 0;
   for (const Json& row : j["rows"]) {
