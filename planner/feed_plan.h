@@ -47,20 +47,30 @@ struct SegmentPlan {
   TickRule rule = TickRule::none;
 };
 
-/// s(t) as pieces of constant jerk (jerk = 0 and jumps of acceleration where a jerk limit is infinite).
+struct MotionState {
+  double s_u, speed_u_s, accel_u_s2, jerk_u_s3;
+};
+
+/// s(t) as pieces of constant jerk (jerk = 0 and jumps of acceleration where a jerk limit is infinite), or of
+/// quintic speed with acceleration and jerk zero at both ends:
+///   v = v0 + rise (10 x^3 - 15 x^4 + 6 x^5),   s = s0 + v0 t + rise T x^4 (2.5 - 3 x + x^2),   x = t/T
 struct JerkPiece {
   double begin_s = 0;     ///< time since the law's beginning, s
   double duration_s = 0;  ///< > 0
   double s_u = 0;         ///< path length at its beginning
   double speed_u_s = 0;
   double accel_u_s2 = 0;
-  double jerk_u_s3 = 0;
+  double jerk_u_s3 = 0;  ///< of a quintic piece its largest, 10/sqrt(3) rise/T^2, with the sign of the rise
   LimitedBy limited_by = LimitedBy::program;
   std::int8_t limiting_axis = -1;
-};
+  double quintic_rise_u_s = 0;  ///< change of speed over a quintic piece; 0: constant jerk
 
-struct MotionState {
-  double s_u, speed_u_s, accel_u_s2, jerk_u_s3;
+  bool is_quintic() const { return quintic_rise_u_s != 0.0; }
+  bool is_hold() const { return accel_u_s2 == 0.0 && jerk_u_s3 == 0.0; }
+  /// Path since the piece's beginning, and state there; t in [0, duration_s].
+  double way_u(double t_s) const;
+  double speed_after_u_s(double t_s) const;
+  MotionState state_after(double t_s) const;
 };
 
 /// s(t), ds/dt >= 0, from rest to rest; s and ds/dt continuous, d2s/dt2 too where every jerk limit is finite;

@@ -24,7 +24,9 @@ struct PlanError {
 /// docs/papers.md: paper 003 section 1.2), then jerk-limited ramps that may span many segments (acceleration
 /// continuous over inner joints), zero acceleration at every plateau. With jerk = inf the ramps are those of
 /// trapezoidal motion, segment by segment. With planner.whole_ticks each rest-to-rest run lasts a whole
-/// number of control ticks (paper 003, eq. 2). Deterministic: fixed iteration counts, + - * / sqrt only.
+/// number of control ticks (paper 003, eq. 2). With planner.law = quintic ramps are polynomials of the fifth
+/// degree in speed, whose jerk does not jump either (ramp_time_s); they need a jerk limit. Deterministic:
+/// fixed iteration counts, + - * / sqrt only.
 ///
 /// With planner.scheduler = blockwise ramps end with their segment, acceleration being zero at every joint,
 /// and each segment lasts a whole number of control ticks (BlockScheduler); speed jumps only where the plan's

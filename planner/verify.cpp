@@ -145,6 +145,8 @@ class Verifier {
     const double tolerance = options_.relative_tolerance * scale + 32.0 * kUlp * q.begin_s * std::fabs(end.j);
     if (!(std::fabs(end.a - q.accel_u_s2) <= tolerance) && jerk_limited_around(q.s_u))
       report("continuity of acceleration", q.begin_s, segment_, -1, end.a, q.accel_u_s2);
+    if (machine_.planner.law == machine::RampLaw::quintic && (end.j != 0.0 || at(q, 0.0).j != 0.0))
+      report("continuity of jerk", q.begin_s, segment_, -1, end.j, at(q, 0.0).j);
   }
 
   bool jerk_limited_around(double s) const {
@@ -189,7 +191,13 @@ class Verifier {
     const double end = p.duration_s;
     look(p, 0.0);
     look(p, end);
-    if (p.jerk_u_s3 != 0.0) look_inside(p, -p.accel_u_s2 / p.jerk_u_s3);
+    if (p.quintic_rise_u_s != 0.0) {
+      // largest acceleration in the middle, largest jerks where 1 - 6 x + 6 x^2 = 0
+      for (const double x : {0.5, 0.5 - std::sqrt(1.0 / 12.0), 0.5 + std::sqrt(1.0 / 12.0)})
+        look_inside(p, x * end);
+    } else if (p.jerk_u_s3 != 0.0) {
+      look_inside(p, -p.accel_u_s2 / p.jerk_u_s3);
+    }
     // samples on a fixed grid of time, so that short pieces do not each get their own
     const double first = std::ceil(p.begin_s / options_.sample_s);
     const double count = std::min((p.begin_s + end) / options_.sample_s - first, 1e7);

@@ -93,6 +93,13 @@ class BlockVerifier {
 }  // namespace
 
 VerifiedState verified_state(const JerkPiece& p, double t) {
+  if (p.quintic_rise_u_s != 0.0) {
+    const double d = p.quintic_rise_u_s, T = p.duration_s, x = t / T;
+    const double x2 = x * x, x3 = x2 * x, x4 = x3 * x, x5 = x4 * x, x6 = x5 * x;
+    return {p.s_u + p.speed_u_s * t + d * T * (2.5 * x4 - 3.0 * x5 + x6),
+            p.speed_u_s + d * (10.0 * x3 - 15.0 * x4 + 6.0 * x5), d / T * (30.0 * x2 - 60.0 * x3 + 30.0 * x4),
+            d / (T * T) * (60.0 * x - 180.0 * x2 + 120.0 * x3)};
+  }
   const double j = p.jerk_u_s3;
   return {p.s_u + p.speed_u_s * t + p.accel_u_s2 * t * t / 2.0 + j * t * t * t / 6.0,
           p.speed_u_s + p.accel_u_s2 * t + j * t * t / 2.0, p.accel_u_s2 + j * t, j};

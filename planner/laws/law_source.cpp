@@ -11,15 +11,25 @@ namespace {
 /// tick.
 constexpr double kEndSlack_s = 1e-9;
 
+/// Time within a quintic piece at which it has a speed, or the end of [from, to] that is nearest to it: its
+/// speed only rises, or only falls.
+double time_of_speed(const JerkPiece& p, double speed, double from_s, double to_s) {
+  const bool rises = p.quintic_rise_u_s > 0.0;
+  for (int i = 0; i < 50; ++i) {
+    const double mid = 0.5 * (from_s + to_s);
+    ((p.speed_after_u_s(mid) < speed) == rises ? from_s : to_s) = mid;
+  }
+  return from_s;
+}
+
 /// Largest distance between the law and a path that moves from s_begin at a constant speed, over [begin,
 /// end]. Extremes lie where the law has that speed, and at the ends of its pieces.
 double largest_gap_u(const MotionLaw& law, std::size_t hint, double begin_s, double end_s, double s_begin,
                      double speed) {
   double largest = 0.0;
   const auto look = [&](const JerkPiece& p, double t) {
-    const double s = p.s_u + t * (p.speed_u_s + t * (0.5 * p.accel_u_s2 + t * p.jerk_u_s3 / 6.0));
     const double held = s_begin + speed * (p.begin_s + t - begin_s);
-    largest = std::max(largest, std::fabs(held - s));
+    largest = std::max(largest, std::fabs(held - (p.s_u + p.way_u(t))));
   };
   for (; hint < law.pieces.size() && law.pieces[hint].begin_s < end_s; ++hint) {
     const JerkPiece& p = law.pieces[hint];
@@ -28,6 +38,10 @@ double largest_gap_u(const MotionLaw& law, std::size_t hint, double begin_s, dou
     if (!(to >= from)) continue;
     look(p, from);
     look(p, to);
+    if (p.is_quintic()) {
+      look(p, time_of_speed(p, speed, from, to));
+      continue;
+    }
     // speed + a t + j t^2/2 = held speed
     const double c = p.speed_u_s - speed;
     const double a = p.accel_u_s2;

@@ -69,11 +69,17 @@ double BlockDiagram::time_s() const { return planner::time_s(*this, main_u_s, en
 
 double lowest_exit_u_s(double v0_u_s, double distance_u, RampLimits limits) {
   const auto fits = [&](double drop) { return ramp_length_u(v0_u_s - drop, v0_u_s, limits) <= distance_u; };
-  const double full = limits.accel_u_s2 * limits.accel_u_s2 / limits.jerk_u_s3;  // drop that reaches a
-  const double drop = 2.0 / 3.0 * v0_u_s;
-  const double longest = drop <= full ? drop : std::max(v0_u_s - 0.5 * full, 0.0);
-  if (fits(longest)) return 0.0;
-  return v0_u_s - bisect(0.0, longest, fits);
+  const bool quintic = limits.law == machine::RampLaw::quintic;
+  // drop at which the ramp comes to a
+  const double share = quintic ? kQuinticJerk / (kQuinticAccel * kQuinticAccel) : 1.0;
+  const double full = share * limits.accel_u_s2 * limits.accel_u_s2 / limits.jerk_u_s3;
+  double longest = 2.0 / 3.0 * v0_u_s;
+  if (longest > full) longest = quintic ? v0_u_s : std::max(v0_u_s - 0.5 * full, 0.0);
+  if (!fits(longest)) return v0_u_s - bisect(0.0, longest, fits);
+  // beyond a quintic ramp's drop to a the path grows again, down to rest
+  if (quintic && full < v0_u_s && !fits(v0_u_s))
+    return v0_u_s - bisect(std::max(full, longest), v0_u_s, fits);
+  return 0.0;
 }
 
 void fill_block_ticks(BlockDiagram& block, double tau_s, machine::BlockTicks how) {

@@ -46,7 +46,8 @@ void fill_block_ticks(BlockDiagram& block, double tau_s, machine::BlockTicks how
 /// within the distance, acceleration zero at both ends.
 ///
 /// With a jerk limit the braking path S(v0 -> v1) is longest at some v1 > 0: at v1 = v0/3 while the ramp does
-/// not reach a, else at a^2/2j. Below that exits may fit again; the search stops there.
+/// not reach a, else at a^2/2j. Below that exits may fit again; the search stops there. A quintic ramp's path
+/// is longest at v0/3 while it does not reach a, and grows again beyond a drop that does.
 /// @return within 1e-15 v0 of the exact value, [0, v0]
 double lowest_exit_u_s(double v0_u_s, double distance_u, RampLimits limits);
 

@@ -29,7 +29,7 @@ class BlockScheduler {
   BlockReasons reasons() const;
 
  private:
-  RampLimits limits(std::size_t i) const { return {table_.accel_u_s2[i], table_.jerk_u_s3[i]}; }
+  RampLimits limits(std::size_t i) const { return {table_.accel_u_s2[i], table_.jerk_u_s3[i], table_.law}; }
 
   const Path& path_;
   const PathLimitTable& table_;

@@ -20,6 +20,8 @@ constexpr double kTurningJerkShare = 0.4;
 constexpr double kTangentJerkShare = 0.8;
 constexpr double kNormalJerkShare = 0.6;
 
+constexpr const char* kNoJerkLimit = "nothing limits the jerk";
+
 using AxisVector = std::array<double, kProgramAxes>;
 
 struct Ends {
@@ -128,6 +130,7 @@ class TableMaker {
     table_.signature.resize(2 * n + 1);
     table_.accel_u_s2.resize(n);
     table_.jerk_u_s3.resize(n);
+    table_.law = machine_.planner.law;
     table_.cap_u_s.front() = 0.0;
     table_.signature.front() = {LimitedBy::stop, -1};
     Ends ends[2];
@@ -245,14 +248,18 @@ class TableMaker {
     if (!(caps.accel > 0.0)) return "acceleration limit is zero";
     if (!(caps.accel < kInfinity)) return "nothing limits the acceleration";
     if (!(caps.jerk > 0.0)) return "jerk limit is zero";
+    if (machine_.planner.law == machine::RampLaw::quintic && !(caps.jerk < kInfinity)) return kNoJerkLimit;
     return nullptr;
   }
 
   PlanError refuse(std::size_t i, const std::string& wrong) const {
     const PathSegment& seg = path_.segments[i];
     const bool feed = wrong == "feed";
+    const bool quintic = wrong == kNoJerkLimit;
     Diagnostic d{};
-    d.code = feed ? Code::feed_not_plannable : Code::limit_not_plannable;
+    d.code = feed      ? Code::feed_not_plannable
+             : quintic ? Code::quintic_without_jerk
+                       : Code::limit_not_plannable;
     d.span = seg.span;
     d.message = std::string(code_entry(d.code).title);
     if (feed) {
@@ -265,8 +272,14 @@ class TableMaker {
         if (path_.node(i)[j] != path_.node(i + 1)[j] || seg.kind == SegmentKind::arc)
           moving += machine_.axis[j].letter;
       d.label = wrong + " for this move of " + moving;
-      d.notes.push_back("needed: speed and acceleration limits above 0 and finite, jerk above 0 or inf");
-      d.help = "correct the limits of these axes (or of [path]) in the machine file";
+      if (quintic) {
+        d.notes.push_back(
+            "needed: a finite jerk limit of the axes or of [path] (planner.law is \"quintic\")");
+        d.help = "give these axes a max_jerk, or set planner.law to \"jerk_limited\"";
+      } else {
+        d.notes.push_back("needed: speed and acceleration limits above 0 and finite, jerk above 0 or inf");
+        d.help = "correct the limits of these axes (or of [path]) in the machine file";
+      }
     }
     return {std::move(d)};
   }

@@ -24,7 +24,8 @@ struct PathLimitTable {
   std::vector<double> cap_u_s;       ///< [2 segments + 1], >= 0; 0 at a stop
   std::vector<Signature> signature;  ///< [2 segments + 1]
   std::vector<double> accel_u_s2;    ///< [segments], of s; > 0, finite
-  std::vector<double> jerk_u_s3;     ///< [segments], of s; > 0, may be inf
+  std::vector<double> jerk_u_s3;     ///< [segments], of s; > 0, inf only with jerk_limited ramps
+  machine::RampLaw law = machine::RampLaw::jerk_limited;
 };
 
 /// Computes all caps.

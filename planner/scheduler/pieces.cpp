@@ -6,26 +6,19 @@
 namespace kadr::planner {
 namespace {
 
-double speed_at(const JerkPiece& p, double t) {
-  return p.speed_u_s + t * (p.accel_u_s2 + 0.5 * t * p.jerk_u_s3);
-}
-double way_at(const JerkPiece& p, double t) {
-  return t * (p.speed_u_s + t * (0.5 * p.accel_u_s2 + t * p.jerk_u_s3 / 6.0));
-}
-
 /// Time within a piece at which it has gone `way`: closed form at constant speed, else Newton in a bracket.
 double time_of_way(const JerkPiece& p, double way) {
   if (!(way > 0.0)) return 0.0;
-  if (p.accel_u_s2 == 0.0 && p.jerk_u_s3 == 0.0) return std::min(way / p.speed_u_s, p.duration_s);
+  if (p.is_hold()) return std::min(way / p.speed_u_s, p.duration_s);
   double low = 0.0, high = p.duration_s;
-  if (way >= way_at(p, high)) return high;
-  const double mean = 0.5 * (p.speed_u_s + speed_at(p, high));
+  if (way >= p.way_u(high)) return high;
+  const double mean = 0.5 * (p.speed_u_s + p.speed_after_u_s(high));
   double t = std::clamp(way / mean, low, high);
   for (int i = 0; i < 80; ++i) {
-    const double excess = way_at(p, t) - way;
+    const double excess = p.way_u(t) - way;
     (excess > 0.0 ? high : low) = t;
     if (high - low <= 1e-16 * high) break;
-    const double v = speed_at(p, t);
+    const double v = p.speed_after_u_s(t);
     const double next = t - excess / v;
     if (next == t) break;
     t = v > 0.0 && next > low && next < high ? next : 0.5 * (low + high);
@@ -35,7 +28,7 @@ double time_of_way(const JerkPiece& p, double way) {
 
 }  // namespace
 
-void PieceWriter::piece(double duration, double s, double v, double a, double j, Signature why) {
+void PieceWriter::piece(double duration, double s, double v, double a, double j, Signature why, double rise) {
   if (!(duration > 0.0)) return;
   if (stretch_ != 1.0) {
     const double k = stretch_;
@@ -43,8 +36,9 @@ void PieceWriter::piece(double duration, double s, double v, double a, double j,
     v /= k;
     a /= k * k;
     j /= k * k * k;
+    rise /= k;
   }
-  law_.pieces.push_back({time_s_, duration, s, v, a, j, why.reason, why.axis});
+  law_.pieces.push_back({time_s_, duration, s, v, a, j, why.reason, why.axis, rise});
   const double y = duration - lost_s_;
   const double next = time_s_ + y;
   lost_s_ = (next - time_s_) - y;
@@ -56,6 +50,10 @@ void PieceWriter::ramp(const Element& e) {
   const double sign = e.v1_u_s > e.v0_u_s ? 1.0 : -1.0;
   const RampLimits l = e.limits;
   const double total = ramp_time_s(dv, l);
+  if (l.law == machine::RampLaw::quintic) {
+    const double rise = e.v1_u_s - e.v0_u_s;
+    return piece(total, e.s_u, e.v0_u_s, 0.0, kQuinticJerk * rise / (total * total), e.signature, rise);
+  }
   if (!(l.jerk_u_s3 < machine::kInfinity))
     return piece(total, e.s_u, e.v0_u_s, sign * l.accel_u_s2, 0.0, e.signature);
   const bool full = dv * l.jerk_u_s3 > l.accel_u_s2 * l.accel_u_s2;
@@ -101,7 +99,7 @@ void PieceWriter::add(const std::vector<Element>& run, double stretch, double en
 
 void PieceWriter::rest(double s_u, double end_time_s) {
   if (!(end_time_s > time_s_)) return;
-  law_.pieces.push_back({time_s_, end_time_s - time_s_, s_u, 0.0, 0.0, 0.0, LimitedBy::stop, -1});
+  law_.pieces.push_back({time_s_, end_time_s - time_s_, s_u, 0.0, 0.0, 0.0, LimitedBy::stop, -1, 0.0});
   time_s_ = end_time_s;
   lost_s_ = 0.0;
 }
@@ -121,7 +119,7 @@ void fill_segment_table(const Path& path, const PathLimitTable& table, FeedPlan&
     while (p + 1 < pieces.size() && pieces[p + 1].s_u < end) {
       ++p;
       const JerkPiece& next = pieces[p];
-      const bool holds = next.accel_u_s2 == 0.0 && next.jerk_u_s3 == 0.0;
+      const bool holds = next.is_hold();
       if (next.speed_u_s > seg.peak_u_s || (next.speed_u_s == seg.peak_u_s && holds)) {
         seg.peak_u_s = pieces[p].speed_u_s;
         why = {pieces[p].limited_by, pieces[p].limiting_axis};
@@ -141,7 +139,7 @@ void fill_segment_table(const Path& path, const PathLimitTable& table, FeedPlan&
     } else {
       const double t = time_of_way(pieces[p], end - pieces[p].s_u);
       time = pieces[p].begin_s + t;
-      speed = speed_at(pieces[p], t);
+      speed = pieces[p].speed_after_u_s(t);
       if (speed > seg.peak_u_s) seg.peak_u_s = speed, why = {pieces[p].limited_by, pieces[p].limiting_axis};
     }
     seg.end_u_s = speed;

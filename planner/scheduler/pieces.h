@@ -7,7 +7,7 @@
 
 namespace kadr::planner {
 
-/// Turns elements into pieces of constant jerk and keeps the time, exactly where a run has whole ticks.
+/// Turns elements into pieces of the law and keeps the time, exactly where a run has whole ticks.
 class PieceWriter {
  public:
   explicit PieceWriter(MotionLaw& law) : law_(law) {}
@@ -20,7 +20,7 @@ class PieceWriter {
   double time_s() const { return time_s_; }
 
  private:
-  void piece(double duration, double s, double v, double a, double j, Signature why);
+  void piece(double duration, double s, double v, double a, double j, Signature why, double rise = 0.0);
   void ramp(const Element& e);
 
   MotionLaw& law_;

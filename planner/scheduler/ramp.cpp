@@ -13,6 +13,11 @@ double two_ramps(double v0, double v1, double w, RampLimits l) {
 double slope(double v, double w, RampLimits l) {
   const double dv = w - v;
   if (!(dv > 0.0)) return 0.0;
+  if (l.law == machine::RampLaw::quintic) {
+    const double time = ramp_time_s(dv, l);
+    const bool full = kQuinticAccel * dv >= time * l.accel_u_s2;
+    return 0.5 * time + 0.5 * (v + w) * (full ? time / dv : 0.5 * time / dv);
+  }
   const bool full = !(dv * l.jerk_u_s3 <= l.accel_u_s2 * l.accel_u_s2);
   const double rate = full ? 1.0 / l.accel_u_s2 : 1.0 / std::sqrt(dv * l.jerk_u_s3);
   return 0.5 * ramp_time_s(dv, l) + 0.5 * (v + w) * rate;

@@ -8,15 +8,25 @@
 /// Ramps and holds: what a plan is made of before it becomes pieces of time.
 namespace kadr::planner {
 
+/// Shape of a ramp, and what it may ask for.
 struct RampLimits {
   double accel_u_s2;
-  double jerk_u_s3;  // may be inf
+  double jerk_u_s3;  // may be inf with jerk_limited
+  machine::RampLaw law = machine::RampLaw::jerk_limited;
 };
 
+/// A quintic ramp's largest acceleration is kQuinticAccel dv/T (in its middle), its largest jerk kQuinticJerk
+/// dv/T^2 (at x = (3 +- sqrt(3))/6).
+inline constexpr double kQuinticAccel = 1.875;
+inline constexpr double kQuinticJerk = 5.773502691896258;  // 10/sqrt(3)
+
 /// Shortest time to change speed by dv with acceleration zero at both ends:
-///   T = 2 sqrt(dv/j) if dv <= a^2/j, else dv/a + a/j   (dv/a where j is inf)
+///   jerk_limited   T = 2 sqrt(dv/j) if dv <= a^2/j, else dv/a + a/j   (dv/a where j is inf)
+///   quintic        T = max(1.875 dv/a, sqrt(10/sqrt(3) dv/j))
 inline double ramp_time_s(double dv_u_s, RampLimits l) {
   if (!(dv_u_s > 0.0)) return 0.0;
+  if (l.law == machine::RampLaw::quintic)
+    return std::fmax(kQuinticAccel * dv_u_s / l.accel_u_s2, std::sqrt(kQuinticJerk * dv_u_s / l.jerk_u_s3));
   if (dv_u_s * l.jerk_u_s3 <= l.accel_u_s2 * l.accel_u_s2) return 2.0 * std::sqrt(dv_u_s / l.jerk_u_s3);
   return dv_u_s / l.accel_u_s2 + l.accel_u_s2 / l.jerk_u_s3;
 }

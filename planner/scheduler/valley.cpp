@@ -108,8 +108,9 @@ struct ValleyPlanner::Impl {
   // -----------------------------------------------------
 
   RampLimits limits_between(std::size_t first, std::size_t last) const {
-    if (uniform) return {table.accel_u_s2.front(), table.jerk_u_s3.front()};
-    return {accels.min(first, last), jerks.min(first, last)};
+    if (uniform) return {table.accel_u_s2.front(), table.jerk_u_s3.front(), table.law};
+    if (first == last) return {table.accel_u_s2[first], table.jerk_u_s3[first], table.law};
+    return {accels.min(first, last), jerks.min(first, last), table.law};
   }
 
   /// Ramp between a.v and w that begins at a and goes towards b: grows until the segments it spans carry it.
@@ -118,7 +119,7 @@ struct ValleyPlanner::Impl {
     if (uniform) return make_ramp(a.v, w, limits_between(first, first));
     const std::size_t most = std::max(first, b.last_inside() / 2);
     std::size_t covered = first;
-    Ramp r = make_ramp(a.v, w, {table.accel_u_s2[first], table.jerk_u_s3[first]});
+    Ramp r = make_ramp(a.v, w, limits_between(first, first));
     for (int i = 0; i < kReachRounds; ++i) {
       if (covered == most || a.s + r.length <= path.start_s_u[covered + 1]) return r;
       const double reach = std::min(a.s + kReachMargin * r.length, b.s);
@@ -133,7 +134,7 @@ struct ValleyPlanner::Impl {
     if (uniform) return make_ramp(b.v, w, limits_between(last, last));
     const std::size_t least = std::min(last, a.first_inside() / 2);
     std::size_t covered = last;
-    Ramp r = make_ramp(b.v, w, {table.accel_u_s2[last], table.jerk_u_s3[last]});
+    Ramp r = make_ramp(b.v, w, limits_between(last, last));
     for (int i = 0; i < kReachRounds; ++i) {
       if (covered == least || b.s - r.length >= path.start_s_u[covered]) return r;
       const double reach = std::max(b.s - kReachMargin * r.length, a.s);
@@ -332,7 +333,7 @@ struct ValleyPlanner::Impl {
       if (!(found.up.length + found.down.length <= b.s - a.s)) {
         // too high to be reached: the peak two ramps can have, a little below to leave a plateau
         const RampLimits both{std::min(found.up.limits.accel_u_s2, found.down.limits.accel_u_s2),
-                              std::min(found.up.limits.jerk_u_s3, found.down.limits.jerk_u_s3)};
+                              std::min(found.up.limits.jerk_u_s3, found.down.limits.jerk_u_s3), table.law};
         const double floor = std::max(a.v, b.v);
         if (!(ramp_length_u(std::min(a.v, b.v), floor, both) <= b.s - a.s)) return false;
         w = peak_speed_u_s(a.v, b.v, b.s - a.s, both, floor, w) * (1.0 - 1e-12);
@@ -390,6 +391,12 @@ struct ValleyPlanner::Impl {
     const bool rising = q.v > p.v;
     // measured from the low end; the second half mirrors the first about its middle
     const double t = time * (rising ? fraction : 1.0 - fraction);
+    if (l.law == machine::RampLaw::quintic) {
+      const JerkPiece piece{0.0, time, 0.0, low, 0.0, 0.0, {}, -1, dv};
+      v = piece.speed_after_u_s(t);
+      s = rising ? p.s + piece.way_u(t) : q.s - piece.way_u(t);
+      return;
+    }
     const double half = 0.5 * time;
     const double x = t <= half ? t : time - t;
     const double t_jerk = l.jerk_u_s3 * dv <= l.accel_u_s2 * l.accel_u_s2 ? half : l.accel_u_s2 / l.jerk_u_s3;

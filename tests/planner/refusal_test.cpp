@@ -59,6 +59,19 @@ TEST_CASE("an axis that may not accelerate is K4002") {
   CHECK(refused(machine, 10.0).label == "nothing limits the acceleration for this move of X");
 }
 
+TEST_CASE("quintic ramps on axes without a jerk limit are K4007") {
+  auto machine = trapezoid_machine();
+  machine.planner.law = machine::RampLaw::quintic;
+  check_text(refused(machine, 10.0));
+  machine.planner.scheduler = machine::SchedulerKind::blockwise;
+  CHECK(refused(machine, 10.0).code == Code::quintic_without_jerk);
+  // one finite limit is enough
+  machine.path.max_jerk_mm_s3 = 1e5;
+  ProgramWriter w(machine);
+  w.line(xyz(10), 10.0);
+  CHECK(planner::plan(w.take(), machine));
+}
+
 TEST_CASE("a motion of more than 1e9 s is K4003 at its slowest move") {
   check_text(refused(plain_machine(), 1e-9));
 }
