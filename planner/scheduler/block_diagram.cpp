@@ -10,6 +10,8 @@ namespace {
 constexpr double kWhole = 1e-12;
 // holds shorter than this share of their block are rounding
 constexpr double kNoHold = 1e-14;
+// ramps by less than this share of their speed are the last bits of a bisection
+constexpr double kNoRamp = 1e-13;
 // relative error of the sum of a few correctly rounded times
 constexpr double kRounding = 4e-15;
 constexpr int kHalvings = 60;  // fewer where no number lies between
@@ -112,8 +114,10 @@ double append_elements(const BlockDiagram& block, double s_u, double tau_s, cons
   brake.accel_u_s2 /= block.brake_factor;
   brake.jerk_u_s3 /= block.brake_factor * block.brake_factor;
 
-  const double up = ramp_length_u(entry, main, limits);
-  const double down = ramp_length_u(end, main, brake);
+  const bool rises = main - entry > kNoRamp * main;
+  const bool falls = main - end > kNoRamp * main;
+  const double up = rises ? ramp_length_u(entry, main, limits) : 0.0;
+  const double down = falls ? ramp_length_u(end, main, brake) : 0.0;
   double tail = end * left;
   double hold = block.length_u - up - down - tail;
   if (!(hold > kNoHold * block.length_u)) hold = 0.0;
@@ -123,10 +127,10 @@ double append_elements(const BlockDiagram& block, double s_u, double tau_s, cons
     if (length > 0.0) out.push_back({s_u, length, speed, speed, {0, 0}, why.hold});
     s_u += length;
   };
-  if (entry < main) out.push_back({s_u, up, entry, main, limits, why.up});
+  if (rises) out.push_back({s_u, up, entry, main, limits, why.up});
   s_u += up;
-  add_hold(main == end ? hold + tail : hold, main);
-  if (end < main) {
+  add_hold(falls ? hold : hold + tail, main);
+  if (falls) {
     out.push_back({s_u, down, main, end, brake, why.down});
     s_u += down;
     add_hold(tail, end);

@@ -29,11 +29,22 @@ double total_time_s(const std::vector<Element>& run) {
 }
 
 struct PlateauShape {
-  double v0, v1, length;
+  double v0, v1, w0, length;
   RampLimits up, down;
   double time_s(double w) const {
-    const double hold = length - ramp_length_u(v0, w, up) - ramp_length_u(v1, w, down);
-    return ramp_time_s(w - v0, up) + ramp_time_s(w - v1, down) + std::max(hold, 0.0) / w;
+    const RampLimits u = lowered(up, v0, w), d = lowered(down, v1, w);
+    const double hold = length - ramp_length_u(v0, w, u) - ramp_length_u(v1, w, d);
+    return ramp_time_s(w - v0, u) + ramp_time_s(w - v1, d) + std::max(hold, 0.0) / w;
+  }
+  /// Limits of a ramp between v and a plateau lowered from w0 to w. A quintic ramp keeps its time: a shorter
+  /// one would begin steeper and could pass a cap that the higher ramp keeps below. With the same time it is
+  /// slower at every place: r w(t') <= w(t) where r W(t') <= W(t) and t' >= t, as W, the path above v, is
+  /// log-concave.
+  RampLimits lowered(RampLimits l, double v, double w) const {
+    if (l.law != machine::RampLaw::quintic || !(w0 > v)) return l;
+    l.accel_u_s2 *= (w - v) / (w0 - v);
+    l.jerk_u_s3 *= (w - v) / (w0 - v);
+    return l;
   }
 };
 
@@ -42,7 +53,7 @@ PlateauShape shape_of(const std::vector<Element>& run, const Plateau& p) {
   const Element& down = run[p.down];
   double length = 0.0;
   for (std::size_t i = p.up; i <= p.down; ++i) length += run[i].length_u;
-  return {up.v0_u_s, down.v1_u_s, length, up.limits, down.limits};
+  return {up.v0_u_s, down.v1_u_s, up.v1_u_s, length, up.limits, down.limits};
 }
 
 /// The longest plateau (in path) that can be lowered, keeping its anchors, so far that it lasts `more_s`
@@ -83,6 +94,8 @@ void lower_plateau(std::vector<Element>& run, const Plateau& p, double more_s) {
   // of s
   const double before = up.length_u;
   const double behind = down.length_u;
+  up.limits = shape.lowered(up.limits, shape.v0, w);
+  down.limits = shape.lowered(down.limits, shape.v1, w);
   up.v1_u_s = down.v0_u_s = w;
   up.length_u = ramp_length_u(up.v0_u_s, w, up.limits);
   down.length_u = ramp_length_u(down.v1_u_s, w, down.limits);
