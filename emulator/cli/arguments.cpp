@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string_view>
 
@@ -39,6 +40,7 @@ class Reader {
     add_canon();
     add_fmt();
     add_info();
+    add_diff();
     add_machine();
     add_explain();
     add_scenario();
@@ -54,6 +56,7 @@ class Reader {
       app_.parse(argc, argv);
       if (arguments_.command == Command::run && arguments_.files.empty() && arguments_.scenario.empty())
         throw CLI::RequiredError("PROG");
+      if (arguments_.command == Command::diff) check_diff();
     } catch (const CLI::CallForHelp&) {
       const CLI::App* asked = &app_;
       std::string before;
@@ -123,20 +126,21 @@ class Reader {
   }
 
   template <class Enum>
-  void choice(CLI::App* sub, const std::string& name, Enum& value, std::map<std::string, Enum> names,
-              const std::string& description) {
-    sub->add_option_function<std::string>(
-           name,
-           [&value, names, name](const std::string& text) {
-             const auto it = names.find(text);
-             if (it == names.end()) {
-               std::string known;
-               for (const auto& entry : names) known += (known.empty() ? "" : ", ") + entry.first;
-               throw CLI::ValidationError(fmt::format("{} knows {}; got '{}'", name, known, text));
-             }
-             value = it->second;
-           },
-           description)
+  CLI::Option* choice(CLI::App* sub, const std::string& name, Enum& value, std::map<std::string, Enum> names,
+                      const std::string& description) {
+    return sub
+        ->add_option_function<std::string>(
+            name,
+            [&value, names, name](const std::string& text) {
+              const auto it = names.find(text);
+              if (it == names.end()) {
+                std::string known;
+                for (const auto& entry : names) known += (known.empty() ? "" : ", ") + entry.first;
+                throw CLI::ValidationError(fmt::format("{} knows {}; got '{}'", name, known, text));
+              }
+              value = it->second;
+            },
+            description)
         ->type_name("WORD")
         ->group("Output");
   }
@@ -327,6 +331,62 @@ class Reader {
     output(sub);
   }
 
+  void add_diff() {
+    CLI::App* sub =
+        command(app_, "diff", Command::diff,
+                "Compare two logs: the first control tick at which they differ, what differs, what is\n"
+                "around it; exit 1 if anything but the inputs differs");
+    for (const char* name : {"A", "B"})
+      sub->add_option_function<std::string>(
+             name, [this](const std::string& file) { arguments_.files.push_back(file); },
+             "Log written by kadr run")
+          ->required()
+          ->type_name("");
+    choice(sub, "--align", arguments_.diff.align,
+           {{"tick", emulator::DiffAlign::tick}, {"path", emulator::DiffAlign::path}},
+           "What is put side by side: tick|path (path: same path length, whatever the override)")
+        ->group("Options");
+    repeated(
+        sub, "--tolerance", "KEY=VALUE",
+        "Allowed difference with unit, e.g. load=0.5um; keys load, base, link, base_rate, link_rate, force,\n"
+        "and with --align path feed; default: none; repeatable",
+        [this](const std::string& text) { return emulator::add_tolerance(arguments_.diff.tolerance, text); });
+    repeated(
+        sub, "--ignore", "CHANNEL/FIELD",
+        "Leave out a channel (KADR_EVENT), a field (KADR_EVENT/text) or a group (load, feed); repeatable",
+        [this](const std::string& text) { return emulator::add_ignored(arguments_.diff, text); });
+    sub->add_option_function<std::string>(
+           "--context",
+           [this](const std::string& text) {
+             int& context = arguments_.diff.context;
+             if (!read_number(text, context) || context < 0 || context > emulator::kMostContext)
+               throw CLI::ValidationError(fmt::format("--context takes a whole number from 0 to {}; got '{}'",
+                                                      emulator::kMostContext, text));
+           },
+           "Control ticks shown before and after the first difference (default 2)")
+        ->type_name("N");
+    sub->add_flag("--all", arguments_.diff.all, "Every difference, not only the first");
+    sub->add_flag("--strict", arguments_.strict, "Inputs that differ count too (exit 1)");
+    output(sub);
+    sub->footer("Example: kadr diff golden.lcmlog new.lcmlog --tolerance load=0.5um");
+  }
+
+  /// An option whose every value is handed to `take`, which may find fault with it.
+  void repeated(CLI::App* sub, const std::string& name, const char* type, const std::string& description,
+                std::function<tl::expected<void, std::string>(const std::string&)> take) {
+    sub->add_option_function<std::vector<std::string>>(
+           name,
+           [name, take](const std::vector<std::string>& texts) {
+             for (const std::string& text : texts)
+               if (const auto taken = take(text); !taken)
+                 throw CLI::ValidationError(fmt::format("{} {}", name, taken.error()));
+           },
+           description)
+        ->type_name(type)
+        ->allow_extra_args(false)
+        ->take_all();
+  }
+
   void add_machine() {
     CLI::App* group = app_.add_subcommand("machine", "Show, check and make machine files");
     group->require_subcommand(1);
@@ -386,6 +446,17 @@ class Reader {
     CLI::App* list = command(*group, "list", Command::scenario_list, "List scenarios");
     list->add_option("DIR", arguments_.files, "Scenario files or folders; default: scenarios")->type_name("");
     output(list);
+  }
+
+  /// Commands are compared to the last bit by ticks: only between places of the path there is something to
+  /// allow.
+  void check_diff() const {
+    const auto feed = static_cast<std::size_t>(emulator::ToleranceKey::feed);
+    const emulator::Tolerances& tolerance = arguments_.diff.tolerance;
+    if (arguments_.diff.align == emulator::DiffAlign::tick &&
+        (tolerance.linear[feed] || tolerance.rotary[feed]))
+      throw CLI::ValidationError(
+          "--tolerance feed goes with --align path: by tick, commands are compared exactly");
   }
 
   std::string command_names() const {

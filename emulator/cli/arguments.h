@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "emulator/diff/diff_options.h"
 #include "gcode/gcode.h"
 #include "machine/machine.h"
 
@@ -18,6 +19,7 @@ enum class Command : std::uint8_t {
   canon,
   fmt,
   info,
+  diff,
   machine_show,
   machine_list,
   machine_check,
@@ -68,6 +70,7 @@ struct Arguments {
   bool update = false;
   bool only_check = false;  ///< fmt --check
   bool in_place = false;    ///< fmt --in-place
+  emulator::DiffOptions diff;
   std::string junit_path;
   double until_s = machine::kInfinity;
   int threads = 1;

@@ -22,6 +22,8 @@ int dispatch(const Arguments& arguments, Console& console) {
       return canon_program(arguments, console);
     case Command::fmt:
       return format_programs(arguments, console);
+    case Command::diff:
+      return diff_logs(arguments, console);
     case Command::info:
       return log_info(arguments, console);
     case Command::machine_show:

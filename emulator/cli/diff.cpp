@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include "emulator/cli/commands.h"
+#include "emulator/cli/exit_codes.h"
+#include "emulator/diff/diff_report.h"
+
+namespace kadr::cli {
+namespace {
+
+using emulator::DiffAlign;
+using emulator::DiffOptions;
+using emulator::Json;
+
+/// One JSON document, written piece by piece so that the list of `--all` is never held: the logs and their
+/// inputs, the list, the rest.
+class StreamedDocument {
+ public:
+  explicit StreamedDocument(Console& console) : console_(console) {}
+
+  void begin(Json head) {
+    const std::string text = emulator::json_text(head);
+    console_.data(text.substr(0, text.size() - 2));  // without "\n}"
+  }
+  void begin_list(const char* name) { console_.data(fmt::format(",\n  \"{}\": [", name)); }
+  void entry(const Json& entry) {
+    console_.data((first_ ? "\n    " : ",\n    ") + emulator::json_line(entry));
+    first_ = false;
+  }
+  void end_list() { console_.data(first_ ? "]" : "\n  ]"); }
+  void end(const Json& tail) { console_.data("," + emulator::json_text(tail).substr(1) + '\n'); }
+
+ private:
+  Console& console_;
+  bool first_ = true;
+};
+
+template <class Diff>
+Json head(const Diff& diff, const char* align) {
+  return {{"align", align}, {"a", json_of(diff.a)}, {"b", json_of(diff.b)}, {"inputs", json_of(diff.inputs)}};
+}
+
+/// What a comparison answers: inputs count under --strict alone.
+template <class Diff>
+int answer(const Diff& diff, const Arguments& arguments) {
+  return diff.differ() || (arguments.strict && diff.inputs_differ()) ? kNo : kYes;
+}
+
+int unreadable(const emulator::LogReadError& error, Console& console) {
+  console.error(fmt::format("{}: {}", error.path, error.reason));
+  return kNotStarted;
+}
+
+int by_tick(const Arguments& arguments, Console& console) {
+  const DiffOptions& options = arguments.diff;
+  const bool json = console.options().json, text = !json && !console.options().quiet;
+  StreamedDocument document(console);
+  const emulator::LogDiff* logs = nullptr;
+  emulator::TickDiffSinks sinks;
+  sinks.begin = [&](const emulator::LogDiff& diff) {
+    logs = &diff;
+    if (text) console.data(emulator::render_input_differences(diff.inputs));
+    if (json) document.begin(head(diff, "tick"));
+    if (json && options.all) document.begin_list("differences");
+  };
+  sinks.each = [&](const emulator::TickDifference& d) {
+    if (text) console.data(emulator::render_tick_difference(d, *logs));
+    if (json) document.entry(emulator::json_of(d, logs->a.header));
+  };
+  const auto diff = emulator::diff_logs(arguments.files[0], arguments.files[1], options, sinks);
+  if (!diff) return unreadable(diff.error(), console);
+  if (json && options.all) document.end_list();
+  if (json) document.end(emulator::json_of(*diff));
+  if (text) console.data(emulator::render_log_diff(*diff));
+  return answer(*diff, arguments);
+}
+
+int by_path(const Arguments& arguments, Console& console) {
+  const DiffOptions& options = arguments.diff;
+  const bool json = console.options().json, text = !json && !console.options().quiet;
+  StreamedDocument document(console);
+  const emulator::PathDiff* logs = nullptr;
+  emulator::PathDiffSinks sinks;
+  sinks.begin = [&](const emulator::PathDiff& diff) {
+    logs = &diff;
+    if (text) console.data(emulator::render_input_differences(diff.inputs));
+    if (json) document.begin(head(diff, "path"));
+    if (json && options.all) document.begin_list("differences");
+  };
+  sinks.block = [&](const emulator::BlockDifference& d) {
+    if (text) console.data(emulator::render_block_difference(d, logs->a.header));
+    if (json) document.entry(emulator::json_of(d, logs->a.header));
+  };
+  sinks.span = [&](const emulator::FeedSpan& span) {
+    if (text) console.data(emulator::render_feed_span(span, *logs));
+    if (json) document.entry(emulator::json_of(span, logs->a.header));
+  };
+  const auto diff = emulator::diff_paths(arguments.files[0], arguments.files[1], options, sinks);
+  if (!diff) return unreadable(diff.error(), console);
+  if (json && options.all) document.end_list();
+  if (json) document.end(emulator::json_of(*diff));
+  if (text) console.data(emulator::render_path_diff(*diff));
+  return answer(*diff, arguments);
+}
+
+}  // namespace
+
+int diff_logs(const Arguments& arguments, Console& console) {
+  return arguments.diff.align == DiffAlign::path ? by_path(arguments, console) : by_tick(arguments, console);
+}
+
+}  // namespace kadr::cli

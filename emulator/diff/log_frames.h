@@ -1,0 +1,69 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "emulator/log/log_reader.h"
+
+namespace kadr::emulator {
+
+/// What stands in a log between its ticks and is compared in order.
+using LogItem = std::variant<BlockRecord, EventRecord, LogDiagnostic>;
+
+/// Everything that a log says of one control tick. Copies are cheap: the exact data are shared.
+struct LogFrame {
+  std::int64_t control_tick = 0;
+  std::shared_ptr<const TickBlock> ticks;    ///< null: KADR_TICKS does not hold this tick
+  std::size_t tick_index = 0;                ///< in `ticks`
+  std::shared_ptr<const StepBlock> steps;    ///< null: KADR_STEPS does not hold this tick
+  std::size_t step_index = 0;                ///< in `steps`
+  std::vector<LogItem> items;                ///< in the log's order
+  std::shared_ptr<const BlockRecord> block;  ///< the motion block begun last; null before the first
+
+  const StepBatch* batch() const { return steps ? &steps->batches[step_index] : nullptr; }
+};
+
+/// A log as a row of control ticks, ascending; memory is that of one log block, whatever the log's length.
+/// An event belongs to the control tick that its stamp falls in. Of a log that was cut off only ticks whose
+/// exact data are complete are given.
+class LogFrames {
+ public:
+  static tl::expected<LogFrames, LogReadError> open(const std::string& path);
+
+  const LogHeader& header() const { return reader_.header(); }
+  /// The next control tick; nothing at the end of what is valid.
+  bool next(LogFrame& frame);
+  /// How the log ends, and its summary; only after next() said no.
+  const LogEnd& end() const { return reader_.end(); }
+  const std::optional<LogSummary>& summary() const { return summary_; }
+
+ private:
+  explicit LogFrames(LogReader reader) : reader_(std::move(reader)) {}
+  bool read();
+  void flush_block();
+  void flush_items(std::int64_t before_tick);
+  void add_frame(LogFrame frame);
+  std::int64_t control_tick_of(const LogItem& item) const;
+
+  LogReader reader_;
+  std::shared_ptr<const TickBlock> ticks_;  // read, its frames not given yet
+  std::shared_ptr<const StepBlock> steps_;
+  std::deque<LogItem> items_;
+  std::deque<LogFrame> ready_;
+  std::shared_ptr<const BlockRecord> block_;
+  std::optional<LogSummary> summary_;
+  bool ended_ = false;
+};
+
+/// Base tick at which an item stands, 0 to 2^62; a diagnostic of before the run has 0.
+Ticks tick_of(const LogItem& item);
+/// A stamp of a log of unknown origin, brought into 0 to 2^62.
+Ticks sane_tick(Ticks tick);
+
+}  // namespace kadr::emulator
