@@ -127,16 +127,22 @@ void StepSequence::match_order() {
       continue;
     }
     order_parted_ = true;
-    std::size_t more_a = 0, more_b = 0;
-    for (std::size_t n = 0; n < axes_.size(); ++n) {
-      if (u[n] - a.base[n] > v[n] - b.base[n]) more_a = n;
-      if (u[n] - a.base[n] < v[n] - b.base[n]) more_b = n;
-    }
-    under_way_.order =
-        fmt::format("pulse {} of {} and pulse {} of {} come in the other order: {} first | {} first",
-                    v[more_a] - b.base[more_a] + 1, axes_[more_a].name, u[more_b] - a.base[more_b] + 1,
-                    axes_[more_b].name, axes_[more_a].name, axes_[more_b].name);
+    if (under_way_.order.empty()) under_way_.order = order_text(u, v);
+    return;
   }
+}
+
+/// Where the order parts: A is ahead with one axis, B with another one.
+std::string StepSequence::order_text(const Counts& u, const Counts& v) const {
+  const Counts &base_a = side_[0].base, &base_b = side_[1].base;
+  std::size_t more_a = 0, more_b = 0;
+  for (std::size_t n = 0; n < axes_.size(); ++n) {
+    if (u[n] - base_a[n] > v[n] - base_b[n]) more_a = n;
+    if (u[n] - base_a[n] < v[n] - base_b[n]) more_b = n;
+  }
+  return fmt::format("pulse {} of {} and pulse {} of {} come in the other order: {} first | {} first",
+                     v[more_a] - base_b[more_a] + 1, axes_[more_a].name, u[more_b] - base_a[more_b] + 1,
+                     axes_[more_b].name, axes_[more_a].name, axes_[more_b].name);
 }
 
 void StepSequence::match_signs() {

@@ -77,6 +77,7 @@ class StepSequence {
   void settle_marks(Side& side, Ticks until);
   void match();
   void match_order();
+  std::string order_text(const Counts& u, const Counts& v) const;
   void match_signs();
   bool end_block();
   void close_block(const Counts* low_a, const Counts* high_a, const Counts* low_b, const Counts* high_b);
