@@ -28,11 +28,26 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 
 std::string quoted(std::string_view line) { return "'" + one_line(line, kShownWidth) + "'"; }
 
-/// "[feed] " of the table that a line of a TOML text stands in.
+std::string_view without_indent(std::string_view line) {
+  const auto begin = line.find_first_not_of(" \t");
+  return begin == std::string_view::npos ? std::string_view{} : line.substr(begin);
+}
+
+/// "[feed] " of the table that a line of a TOML text stands in; of an array's entry with its name:
+/// "[axis.plant] of "X" ".
 std::string section_of(const std::vector<std::string_view>& lines, std::size_t at) {
-  for (std::size_t i = std::min(at, lines.size()); i-- > 0;)
-    if (!lines[i].empty() && lines[i].front() == '[') return one_line(lines[i], kShownWidth) + " ";
-  return "";
+  std::string section, name;
+  for (std::size_t i = std::min(at, lines.size()); i-- > 0;) {
+    const std::string_view line = without_indent(lines[i]);
+    if (line.starts_with("name =") && name.empty()) name = one_line(line.substr(6), kShownWidth);
+    if (!line.starts_with('[')) continue;
+    if (section.empty()) section = one_line(line, kShownWidth);
+    const bool entry = line.starts_with("[[");
+    if (entry && !name.empty()) return section + " of " + name + " ";
+    // the table of an array's entry is indented or has the array's name before a dot
+    if (entry || section.find('.') == std::string::npos) break;
+  }
+  return section.empty() ? "" : section + " ";
 }
 
 /// The first line that differs, and how many more do.

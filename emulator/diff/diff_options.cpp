@@ -137,7 +137,8 @@ tl::expected<void, std::string> add_tolerance(Tolerances& tolerances, std::strin
     for (const Key key : keys) list[static_cast<std::size_t>(key)] = *number * entry.factor;
     return {};
   }
-  return fault(fmt::format("{} takes a number >= 0 with a unit ({}); got '{}'", name, units_of(quantity), value));
+  return fault(
+      fmt::format("{} takes a number >= 0 with a unit ({}); got '{}'", name, units_of(quantity), value));
 }
 
 tl::expected<void, std::string> add_ignored(DiffOptions& options, std::string_view text) {

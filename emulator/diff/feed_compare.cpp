@@ -63,7 +63,9 @@ void FeedCompare::match() {
 
 void FeedCompare::compare(const FeedPoint& a, const FeedPoint& b, double slack) {
   const double size_u_s = std::fabs(b.feed_u_s - a.feed_u_s);
-  if (size_u_s <= tolerance_u_s_ + slack) return end_span();
+  // a stretch goes on until the feeds are clearly together again: no row of short ones near the tolerance
+  const double allowed_u_s = tolerance_u_s_ + slack;
+  if (size_u_s <= (span_ ? allowed_u_s / 2 : allowed_u_s)) return end_span();
   if (!span_) span_ = FeedSpan{a.path_u, a.path_u, a, b, 0, 0};
   span_->to_u = a.path_u;
   if (size_u_s > span_->largest_u_s) {

@@ -34,7 +34,8 @@ struct FeedSpan {
 /// The other log's feed there is that of constant acceleration between its control ticks:
 ///   v^2 = v0^2 + (v1^2 - v0^2) (s - s0) / (s1 - s0)
 /// If its acceleration changes by da within that tick of length tau, this is wrong by at most da tau / 4,
-/// which is added to the tolerance.
+/// which is added to the tolerance. A stretch that differs ends where the difference is below half of that
+/// sum.
 class FeedCompare {
  public:
   /// @param tolerance_u_s  >= 0

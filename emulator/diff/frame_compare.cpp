@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace kadr::emulator {
 namespace {
@@ -86,8 +87,11 @@ struct FrameCompare::Sink {
   template <class Record>
   void fields(DiffChannel channel, std::span<const LogField<Record>> table, const Record& a, const Record& b,
               const AxisPair* axis, Ticks tick) {
+    bool tolerated = false;
+    if constexpr (std::is_same_v<Record, EventRecord>) tolerated = compare.within_tolerance(a, b);
     for (const auto& field : table) {
       if (!compare.compares(channel, field.name)) continue;
+      if (tolerated && (field.name == "value" || field.name == "text")) continue;
       const FieldValue x = field.get(a), y = field.get(b);
       if (!same_value(x, y)) add(channel, field, axis, x, y, tick);
     }
@@ -140,6 +144,17 @@ ChannelMask FrameCompare::compare(const LogFrame& a, const LogFrame& b, std::vec
   if (steps_) compare_steps(a, b, sink);
   if (ticks_) compare_load(a, b, sink);
   return sink.mask;
+}
+
+bool FrameCompare::within_tolerance(const EventRecord& a, const EventRecord& b) const {
+  if (a.kind != "residual" || b.kind != "residual") return false;
+  if (options_.ignores(DiffChannel::load, "link_u")) return true;
+  for (const AxisPair& axis : axes_)
+    if (a.axis == static_cast<int>(axis.a) && b.axis == static_cast<int>(axis.b)) {
+      const auto tolerance = options_.tolerance.of(ToleranceKey::link, axis.rotary);
+      return tolerance && std::fabs(b.value - a.value) <= *tolerance;
+    }
+  return false;
 }
 
 void FrameCompare::compare_items(const LogFrame& a, const LogFrame& b, Sink& sink) const {

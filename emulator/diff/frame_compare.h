@@ -65,6 +65,10 @@ class FrameCompare {
     return !options_.ignores(channel, field);
   }
 
+  /// True if value and text of an event that is in both logs are not compared: the residual vibration of an
+  /// axis, whose value follows from the plant, within the tolerance of `link`, or with `link` ignored.
+  bool within_tolerance(const EventRecord& a, const EventRecord& b) const;
+
  private:
   struct Sink;
   void compare_items(const LogFrame& a, const LogFrame& b, Sink& sink) const;

@@ -207,6 +207,37 @@ TEST_CASE("an event that one log lacks is told, and the input before a differenc
   CHECK(!compare(renamed.a, renamed.b, ignoring({"KADR_EVENT/text"})).differ());
 }
 
+TEST_CASE("the residual vibration of a stop has the tolerance of the link") {
+  const auto residual = [](double value_u) {
+    return [value_u](ChangeableTick& tick) {
+      if (tick.number == 300)
+        tick.events.push_back({Ticks{tick.number * 10'000},
+                               3,
+                               {0, 0, 0, 0},
+                               "residual",
+                               Code{},
+                               1,
+                               value_u,
+                               0,
+                               "residual vibration " + std::to_string(value_u)});
+    };
+  };
+  const TestFolder folder;
+  const machine::MachineModel machine = log_machine(3);
+  write_changed(folder / "a", log_header(machine), kTicks, residual(0.002));
+  write_changed(folder / "b", log_header(machine), kTicks, residual(0.0023));
+  const auto differ = [&](const DiffOptions& options) {
+    return compare(folder / "a", folder / "b", options).differ();
+  };
+  CHECK(differ({}));
+  CHECK(!differ(ignoring({"load"})));
+  DiffOptions narrow, wide;
+  REQUIRE(add_tolerance(narrow.tolerance, "link=0.2um").has_value());
+  REQUIRE(add_tolerance(wide.tolerance, "load=0.4um").has_value());
+  CHECK(differ(narrow));
+  CHECK(!differ(wide));
+}
+
 TEST_CASE("a longer log differs from a shorter one, which is compared as far as it goes") {
   const Two two({}, kTicks + 55);
   const LogDiff diff = compare(two.a, two.b);
@@ -273,8 +304,8 @@ TEST_CASE("inputs are compared first: what differs in program, settings, clock a
   machine::MachineModel machine = log_machine(2), other = log_machine(3);
   other.clock.base_hz = 20'000'000;
   RunHeader a = log_header(machine), b = log_header(other);
-  a.settings_toml = "[feed]\nmax_mm_s = 60\n[axis.X]\nmax_mm_s = 10\n";
-  b.settings_toml = "[feed]\nmax_mm_s = 60\n[axis.X]\nmax_mm_s = 20\n";
+  a.settings_toml = "[feed]\nmax_mm_s = 60\n[[axis]]\n  name = \"X\"\n  [axis.plant]\n  link_mass_kg = 8\n";
+  b.settings_toml = "[feed]\nmax_mm_s = 60\n[[axis]]\n  name = \"X\"\n  [axis.plant]\n  link_mass_kg = 9\n";
   b.program_text = "N10 G1 X10 F100 (скругление)\nM30\n";
   b.scenario_toml = "format = 1\n";
   write_changed(folder / "a", a, 50);
@@ -289,7 +320,7 @@ TEST_CASE("inputs are compared first: what differs in program, settings, clock a
     return std::string("no such input");
   };
   CHECK(detail("program") == "line 2: 'M2' | 'M30'");
-  CHECK(detail("settings") == "[axis.X] 'max_mm_s = 10' | 'max_mm_s = 20'");
+  CHECK(detail("settings") == "[axis.plant] of \"X\" 'link_mass_kg = 8' | 'link_mass_kg = 9'");
   CHECK(detail("scenario") == "none | there");
   CHECK(detail("machine").empty());
   CHECK(detail("clock") == "10 000 000 Hz, control tick 10 000 | 20 000 000 Hz, control tick 10 000");
