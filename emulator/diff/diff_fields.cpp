@@ -18,7 +18,7 @@ using Key = ToleranceKey;
 std::int64_t whole(std::int64_t v) { return v; }
 
 std::string_view limit_word(std::int64_t number) {
-  if (number < 0 || number > static_cast<std::int64_t>(planner::LimitedBy::stop)) return "unknown";
+  if (number < 0 || number > static_cast<std::int64_t>(planner::LimitedBy::limiter)) return "unknown";
   return planner::limited_by_name(static_cast<planner::LimitedBy>(number));
 }
 
@@ -32,6 +32,12 @@ constexpr std::array kTickFields = {
                      [](const TickAt& t) -> FieldValue { return t.block.path_u[t.index]; }},
     LogField<TickAt>{"override_used", Unit::none,
                      [](const TickAt& t) -> FieldValue { return t.block.override_used[t.index]; }},
+    LogField<TickAt>{"override_requested", Unit::none,
+                     [](const TickAt& t) -> FieldValue { return t.block.override_requested[t.index]; }},
+    LogField<TickAt>{"limiter", Unit::none,
+                     [](const TickAt& t) -> FieldValue { return t.block.limiter[t.index]; }},
+    LogField<TickAt>{"override_note", Unit::none,
+                     [](const TickAt& t) -> FieldValue { return whole(t.block.override_note[t.index]); }},
     LogField<TickAt>{"limited_by", Unit::none,
                      [](const TickAt& t) -> FieldValue { return whole(t.block.limited_by[t.index]); },
                      Key::none, limit_word},

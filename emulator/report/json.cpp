@@ -99,6 +99,8 @@ Json json_of(const RunSummary& s, const SummaryContext& c) {
     axes.push_back(axis_json(s.axis[a], model.axis[a], model, c.plant));
   j["axes"] = std::move(axes);
   j["limited_by"] = json_of(s.limited_by);
+  j["planned_s"] = s.planned_s;
+  j["lost_by"] = json_of(s.lost_by);
   j["alarms"] = s.alarms;
   Json counts = Json::object();
   for (const auto& [code, count] : c.alarm_counts) counts[code_name(code)] = count;

@@ -164,6 +164,15 @@ std::string render_limits(const std::vector<LimitShare>& shares) {
   return head("limited by", text + "   (of time)");
 }
 
+/// Against the plan at 100 %, by reason; nothing in a run without operator and spindle.
+static std::string render_losses(const RunSummary& s) {
+  if (s.lost_by.empty()) return {};
+  std::string text;
+  for (const LimitShare& share : s.lost_by)
+    text += fmt::format("{}{} {:+.3f} s", text.empty() ? "" : "   ", share.limited_by, share.time_s);
+  return head("time lost", text + fmt::format("   (planned {})", duration_text(s.planned_s)));
+}
+
 std::string render_summary(const RunSummary& s, const SummaryContext& c) {
   const machine::MachineModel& model = *c.model;
   const double time_s = seconds(s.ticks, model);
@@ -187,6 +196,7 @@ std::string render_summary(const RunSummary& s, const SummaryContext& c) {
     out += head("feed held", fmt::format("path error {} um along the path (tick_feed = \"constant\")",
                                          error_number(s.held_error_u)));
   out += render_limits(s.limited_by);
+  out += render_losses(s);
   out += alarm_lines(s, c);
   out += head("steps hash", hash_text(s.steps_hash));
   if (!c.log_path.empty()) out += head("log", fmt::format("{}   {}", c.log_path, bytes_text(c.log_bytes)));

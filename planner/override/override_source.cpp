@@ -28,6 +28,27 @@ PathLimitTable caps_of(const Path& path, const FeedPlan& plan, const machine::Ma
   return std::move(*table);
 }
 
+/// A speed and its acceleration after a time on the shortest way to another speed.
+MotionState towards(MotionState x, double wanted_u_s, RampLimits l, double time_s) {
+  constexpr int kParts = 16;  // of a tick, each of constant jerk
+  const double dt = time_s / kParts;
+  for (int i = 0; i < kParts; ++i) {
+    const double left = wanted_u_s - x.speed_u_s;
+    if (!(l.jerk_u_s3 < machine::kInfinity)) {
+      const double step = std::clamp(left, -l.accel_u_s2 * dt, l.accel_u_s2 * dt);
+      x.speed_u_s += step;
+      continue;
+    }
+    // the highest acceleration from which the jerk still brings it to 0 in time
+    const double best = std::sqrt(2.0 * l.jerk_u_s3 * std::fabs(left));
+    const double a = std::copysign(std::min({best, l.accel_u_s2, std::fabs(left) / dt}), left);
+    const double change = std::clamp(a - x.accel_u_s2, -l.jerk_u_s3 * dt, l.jerk_u_s3 * dt);
+    x.speed_u_s += dt * (x.accel_u_s2 + 0.5 * change);
+    x.accel_u_s2 += change;
+  }
+  return x;
+}
+
 }  // namespace
 
 OverrideSource::OverrideSource(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
@@ -37,7 +58,8 @@ OverrideSource::OverrideSource(const Path& path, const FeedPlan& plan, const mac
       machine_(machine),
       terrain_(path, machine, caps_of(path, plan, machine, most_percent)),
       law_(plan.law, machine),
-      tracker_(terrain_) {}
+      trackers_{FeedTracker(terrain_), FeedTracker(terrain_)},
+      tangent_(machine.axis.size()) {}
 
 bool OverrideSource::finished() const { return tracking_ ? false : law_.finished(); }
 
@@ -63,13 +85,13 @@ bool OverrideSource::leave_law(const Percent& percent) {
       break;
     }
   }
-  return tracking_ = tracker_.start(segment_, x, percent, jerk);
+  return tracking_ = tracker().start(segment_, x, percent, jerk);
 }
 
 /// The tracker stands at the end of its run: the law goes on from there with the next control tick.
 void OverrideSource::return_to_law() {
-  law_.seek(plan_.segments[tracker_.segment()].end_time_s, s_u_, tick_);
-  segment_ = terrain_.segment_at(s_u_, tracker_.segment());
+  law_.seek(plan_.segments[tracker().segment()].end_time_s, s_u_, tick_);
+  segment_ = terrain_.segment_at(s_u_, tracker().segment());
   tracking_ = false;
 }
 
@@ -99,6 +121,7 @@ TickMotion OverrideSource::advance(const OperatorInput& input) {
     m.override_requested = percent.feed;
     m.note = note;
     s_u_ = m.s_end_u;
+    speed_u_s_ = m.speed_end_u_s;
     segment_ = terrain_.segment_at(s_u_, segment_);
     ++tick_;
     return m;
@@ -110,25 +133,108 @@ TickMotion OverrideSource::advance(const OperatorInput& input) {
 }
 
 void OverrideSource::advance_tracker(TickMotion& m, const Percent& percent, bool emergency) {
-  const double tau = machine_.clock.tau_s();
-  const double ticks = static_cast<double>(machine_.clock.control_tick.value);
   m.s_begin_u = s_u_;
-  m.speed_begin_u_s = tracker_.state().speed_u_s;
-  if (emergency) tracker_.stop_now();
-  tracker_.set_percent(percent);
-  const bool waits = !(tracker_.percent().feed == percent.feed && tracker_.percent().rapid == percent.rapid);
-  if (waits) m.note = tracker_.locked() ? OverrideNote::locked : OverrideNote::deferred;
-  tracker_.advance(tau);
-  const MotionState& x = tracker_.state();
+  m.speed_begin_u_s = speed_u_s_;
+  m.override_requested = percent.feed;
+  if (emergency) {
+    if (limited_) take_back(percent);
+    tracker().stop_now();
+  }
+  const bool limits = machine_.feed_override.limiter != machine::LimiterKind::off && !emergency;
+  if (limits && advance_limited(m, percent)) return;
+  tracker().set_percent(percent);
+  const bool waits =
+      !(tracker().percent().feed == percent.feed && tracker().percent().rapid == percent.rapid);
+  if (waits) m.note = tracker().locked() ? OverrideNote::locked : OverrideNote::deferred;
+  tracker().advance(machine_.clock.tau_s());
+  const MotionState& x = tracker().state();
   // the last bits of the polynomials do not turn the path back
-  m.s_end_u = s_u_ = std::max(x.s_u, s_u_);
+  m.s_end_u = std::max(x.s_u, s_u_);
   m.speed_end_u_s = x.speed_u_s;
   m.accel_end_u_s2 = x.accel_u_s2;
-  m.override_requested = percent.feed;
-  m.override_used = tracker_.percent().feed;
-  const Signature why = tracker_.limited_by();
+  m.override_used = tracker().percent().feed;
+  const Signature why = tracker().limited_by();
   m.limited_by = why.reason;
   m.limiting_axis = why.axis;
+  finish_tick(m);
+  if (emergency && x.speed_u_s == 0.0) stopped_ = true;
+  if (limits) limit_ = tracker().braking() ? LimitedFeed{} : limiter_at(m.s_end_u, m.speed_end_u_s);
+  if (tracker().run_ended()) return_to_law();
+}
+
+/// The tracker goes on from the motion as it is.
+void OverrideSource::take_back(const Percent& percent) {
+  limited_ = false;
+  limit_ = {};
+  const std::size_t segment = terrain_.segment_at(s_u_, segment_);
+  tracker().start(segment, {s_u_, speed_u_s_, 0.0, 0.0}, percent, machine::kInfinity, speed_u_s_);
+}
+
+bool OverrideSource::advance_limited(TickMotion& m, const Percent& percent) {
+  const double tau = machine_.clock.tau_s();
+  const bool predictive = machine_.feed_override.predictive;
+  if (!limited_) {
+    if (tracker().run_ended() || tracker().braking()) return false;
+    const MotionState& x = tracker().state();
+    if (predictive) {
+      // a feed that this tick can come to
+      const RampLimits l = terrain_.limits(tracker().segment(), tracker().segment());
+      limit_ = limiter_at(x.s_u + x.speed_u_s * tau, x.speed_u_s + l.accel_u_s2 * percent.feed * tau);
+    }
+    if (!(limit_.factor < 1.0)) return false;
+    demand_ = x;
+    segment_ = tracker().segment();
+    limited_ = true;
+  }
+  segment_ = terrain_.segment_at(s_u_, segment_);
+  // has the limited feed to brake for a place ahead?
+  FeedTracker& probe = trackers_[1 - active_];
+  const bool started = probe.start(segment_, {s_u_, speed_u_s_, 0.0, 0.0}, percent, machine::kInfinity,
+                                   std::max(speed_u_s_, 1e-6));
+  probe.advance(tau);
+  if (!started || probe.braking() || probe.run_ended()) {
+    take_back(percent);
+    return false;
+  }
+  const double wanted = terrain_.cap_u_s(2 * segment_ + 1, percent);
+  RampLimits l = terrain_.limits(segment_, segment_);
+  const double scale = terrain_.limit_scale(percent, segment_, demand_.speed_u_s);
+  l = {l.accel_u_s2 * scale, l.jerk_u_s3 * scale};
+  const double before = demand_.speed_u_s;
+  demand_ = towards(demand_, wanted, l, tau);
+  const double mean = 0.5 * (before + demand_.speed_u_s);
+  if (predictive) limit_ = limiter_at(s_u_ + limit_.factor * mean * tau, demand_.speed_u_s);
+  m.s_end_u = s_u_ + limit_.factor * mean * tau;
+  m.speed_end_u_s = limit_.factor * demand_.speed_u_s;
+  m.accel_end_u_s2 = (m.speed_end_u_s - m.speed_begin_u_s) / tau;
+  m.override_used = percent.feed;
+  m.limiter = limit_.factor;
+  m.note = OverrideNote::limited;
+  m.limited_by = LimitedBy::limiter;
+  m.limiting_axis = static_cast<std::int8_t>(limit_.axis);
+  finish_tick(m);
+  if (!predictive) limit_ = limiter_at(m.s_end_u, demand_.speed_u_s);
+  if (!(limit_.factor < 1.0)) {
+    limited_ = false;
+    segment_ = terrain_.segment_at(s_u_, segment_);
+    if (!tracker().start(segment_, {s_u_, demand_.speed_u_s, demand_.accel_u_s2, 0.0}, percent, l.jerk_u_s3))
+      take_back(percent);
+  }
+  return true;
+}
+
+LimitedFeed OverrideSource::limiter_at(double s_u, double feed_u_s) {
+  const std::size_t i = terrain_.segment_at(std::min(s_u, path_.length_u()), segment_);
+  eval_tangent(path_, i, std::clamp(s_u - path_.start_s_u[i], 0.0, path_.segments[i].length_u), tangent_);
+  return limited_feed(machine_, tangent_, feed_u_s);
+}
+
+/// Shape of the tick, and what the next one begins with.
+void OverrideSource::finish_tick(TickMotion& m) {
+  const double tau = machine_.clock.tau_s();
+  s_u_ = m.s_end_u;
+  speed_u_s_ = m.speed_end_u_s;
+  const double ticks = static_cast<double>(machine_.clock.control_tick.value);
   if (machine_.planner.tick_feed == machine::TickFeed::constant) {
     m.ramp_begin_u_s = m.ramp_end_u_s = (m.s_end_u - m.s_begin_u) / tau;
     m.move_end_ticks = ticks;
@@ -136,8 +242,6 @@ void OverrideSource::advance_tracker(TickMotion& m, const Percent& percent, bool
   } else {
     shape_linear_feed(m, tau, ticks);
   }
-  if (emergency && x.speed_u_s == 0.0) stopped_ = true;
-  if (tracker_.run_ended()) return_to_law();
 }
 
 std::unique_ptr<MotionSource> override_source(const Path& path, const FeedPlan& plan,

@@ -1,6 +1,7 @@
 #pragma once
 #include "planner/feed_plan.h"
 #include "planner/motion_source.h"
+#include "planner/override/axis_limiter.h"
 #include "planner/override/feed_terrain.h"
 #include "planner/override/feed_tracker.h"
 
@@ -12,6 +13,10 @@ namespace kadr::planner {
 ///
 /// While the law brakes for a place ahead, or a move is locked, a change waits (paper 003: the percent is not
 /// changed while braking); the log tells it by OverrideNote. An emergency stop does not wait.
+///
+/// Where an axis would be asked for more than its highest speed, an axis limiter lowers the feed to K_max
+/// times the one demanded, in the control tick after it was measured (eq. 12) or in the same one
+/// (predictive). Braking begins from the limited feed.
 class OverrideSource final : public MotionSource {
  public:
   /// @param most_percent  highest ratio that advance() will be given, >= 1
@@ -27,16 +32,27 @@ class OverrideSource final : public MotionSource {
   bool leave_law(const Percent& percent);
   void return_to_law();
   void advance_tracker(TickMotion& motion, const Percent& percent, bool emergency);
+  /// A tick in which the axis limiter lowers the feed; false: it does not, or the motion has to brake.
+  bool advance_limited(TickMotion& motion, const Percent& percent);
+  LimitedFeed limiter_at(double s_u, double feed_u_s);
+  void finish_tick(TickMotion& motion);
+  void take_back(const Percent& percent);
+  FeedTracker& tracker() { return trackers_[active_]; }
 
   const Path& path_;
   const FeedPlan& plan_;
   const machine::MachineModel& machine_;
   FeedTerrain terrain_;
   LawSource law_;
-  FeedTracker tracker_;
+  FeedTracker trackers_[2];  ///< the one under way, and one that asks whether a limited feed has to brake
+  int active_ = 0;
+  LimitedFeed limit_;     ///< of the last tick: it counts in the next one (eq. 12)
+  MotionState demand_{};  ///< feed before the limiter, while limited
+  bool limited_ = false;
+  std::vector<double> tangent_;
   bool tracking_ = false, stopped_ = false;
-  std::size_t segment_ = 0;  ///< of the law
-  double s_u_ = 0;           ///< at the end of the last tick
+  std::size_t segment_ = 0;         ///< of the law
+  double s_u_ = 0, speed_u_s_ = 0;  ///< at the end of the last tick
   ControlTicks tick_;
 };
 

@@ -65,6 +65,10 @@ TEST_CASE("docs/gcode.md: every command gives the output that stands below it") 
   check_document("docs/gcode.md");
 }
 
+TEST_CASE("docs/override.md: every command gives the output that stands below it") {
+  check_document("docs/override.md");
+}
+
 TEST_CASE("docs/diff.md: every command gives the output that stands below it") {
   check_document("docs/diff.md");
 }

@@ -298,4 +298,48 @@ TEST_CASE("S15: blocks shorter than a control tick lose no path and no tick") {
   CHECK(changed.count() > 500);
 }
 
+TEST_CASE("an axis limiter takes back what multiplying asks of an axis, a tick late or at once") {
+  auto m = paper_machine(OverrideMode::proportional);
+  const Steps steps{{0, 1.0}, {300, 1.2}};
+  const double tick_rise = 2000 * 1.2 * 1e-3;  // of the demand in one control tick
+  for (const auto kind :
+       {machine::LimiterKind::threshold, machine::LimiterKind::paper, machine::LimiterKind::matched}) {
+    m.feed_override.limiter = kind;
+    m.feed_override.predictive = false;
+    const Ride late = ride(m, kLine, steps);
+    CHECK(late.top_feed() > 109.0);
+    CHECK(late.top_feed() <= 110.0 + tick_rise);
+    CHECK(late.noted(OverrideNote::limited) > 100);
+    m.feed_override.predictive = true;
+    CHECK(ride(m, kLine, steps).top_feed() <= 110.0 + 1e-6);
+  }
+}
+
+TEST_CASE("a limiter whose slope is matched jerks less than a sixth of one with a threshold") {
+  // the demand rises from 105 to 126 mm/s with at most 500 mm/s2 (specified: band 6 mm/s)
+  auto m = paper_machine(OverrideMode::proportional);
+  m.path.max_accel_mm_s2 = 500.0 / 1.2;
+  const auto line = [](ProgramWriter& w) { w.line(xyz(300), 105); };
+  const auto jerk_of = [&](machine::LimiterKind kind, double band) {
+    m.feed_override.limiter = kind;
+    m.feed_override.limiter_band_u_s = band;
+    const Ride r = ride(m, line, {{0, 1.0}, {700, 1.2}});
+    double a = 0.0, v = r.end_feed(699), jerk = 0.0;
+    for (std::size_t k = 700; k < 900; ++k) {
+      const double next = (r.end_feed(k) - v) / 1e-3;
+      jerk = std::max(jerk, std::fabs(next - a) / 1e-3);
+      v = r.end_feed(k);
+      a = next;
+    }
+    return jerk;
+  };
+  const double threshold = jerk_of(machine::LimiterKind::threshold, 6),
+               paper = jerk_of(machine::LimiterKind::paper, 3),
+               matched = jerk_of(machine::LimiterKind::matched, 6);
+  MESSAGE("largest jerk: threshold ", threshold, ", paper ", paper, ", matched ", matched, " mm/s3");
+  CHECK(matched <= 0.15 * threshold);
+  CHECK(paper <= 0.5 * threshold);
+  CHECK(paper >= matched);
+}
+
 }  // namespace kadr::test

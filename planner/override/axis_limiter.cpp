@@ -1,0 +1,29 @@
+#include "planner/override/axis_limiter.h"
+
+#include <cmath>
+
+namespace kadr::planner {
+
+double axis_factor(machine::LimiterKind kind, double speed, double most, double band) {
+  using machine::LimiterKind;
+  if (kind == LimiterKind::off) return 1.0;
+  if (kind == LimiterKind::threshold) return speed > most ? most / speed : 1.0;
+  const double above = speed - most + band;
+  if (above < 0.0) return 1.0;
+  if (above > 2.0 * band) return most / speed;
+  const double x = above / (2.0 * band);
+  const double k = kind == LimiterKind::paper ? 0.5 * x * x * (3.0 - 2.0 * x) : x * x * (1.0 - 0.5 * x);
+  return (most - band + (1.0 - k) * above) / speed;
+}
+
+LimitedFeed limited_feed(const machine::MachineModel& machine, std::span<const double> tangent, double feed) {
+  LimitedFeed result;
+  for (std::size_t j = 0; j < tangent.size(); ++j) {
+    const double factor = axis_factor(machine.feed_override.limiter, std::fabs(tangent[j]) * feed,
+                                      machine.axis[j].max_feed_u_s, machine.feed_override.limiter_band_u_s);
+    if (factor < result.factor) result = {factor, static_cast<int>(j)};
+  }
+  return result;
+}
+
+}  // namespace kadr::planner
