@@ -470,7 +470,7 @@ TEST_CASE("kadr version names version, compiler and log format") {
   CHECK(version.code == 0);
   CHECK(version.out.substr(0, 5) == "kadr ");
   const Json j = Json::parse(call({"version", "--json"}).out);
-  CHECK(j["log_format"] == 1);
+  CHECK(j["log_format"] == 2);
   CHECK(version.out.substr(0, 10) == call({"--version"}).out.substr(0, 10));
 }
 

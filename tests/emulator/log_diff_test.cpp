@@ -183,9 +183,9 @@ TEST_CASE("at one tick events come before feed, feed before pulses, pulses befor
   REQUIRE(diff.first);
   std::vector<std::string> names;
   for (const FieldDifference& f : diff.first->tick.fields) names.push_back(f.name());
-  CHECK(names ==
-        std::vector<std::string>{"value", "override_used", "X pulse 1 offset_ticks", "X motor_force"});
-  CHECK(diff.first->tick.fields[3].unit == "N");
+  CHECK(names == std::vector<std::string>{"value", "override_used", "override_requested",
+                                          "X pulse 1 offset_ticks", "X motor_force"});
+  CHECK(diff.first->tick.fields[4].unit == "N");
 }
 
 TEST_CASE("an event that one log lacks is told, and the input before a difference is named") {
