@@ -124,5 +124,33 @@ void law_source_tick(benchmark::State& state) {
 }
 BENCHMARK(law_source_tick);
 
+/// The control law of one tick: the plan played as it is, a settled percent, one that changes in every tick.
+enum class Hand { none, settled, restless };
+
+void control_tick(benchmark::State& state, Hand hand) {
+  const auto machine = bench_machine(true);
+  planner::PathBuilder builder(machine, {});
+  for (const gcode::Block& b : make_blocks(Shape::curve, 100'000)) builder.add(b);
+  const planner::Path path = builder.take();
+  const auto plan = planner::plan(path, machine);
+  if (!plan) return state.SkipWithError("no plan");
+  std::unique_ptr<planner::MotionSource> source;
+  std::int64_t tick = 0;
+  planner::OperatorInput input;
+  for (auto _ : state) {
+    if (!source || source->finished()) {
+      state.PauseTiming();
+      source = planner::override_source(path, *plan, machine, 1.2);
+      state.ResumeTiming();
+    }
+    if (hand == Hand::settled) input.feed_override = 0.7;
+    if (hand == Hand::restless) input.feed_override = 0.7 + 0.001 * static_cast<double>(++tick % 300);
+    benchmark::DoNotOptimize(source->advance(input).s_end_u);
+  }
+}
+BENCHMARK_CAPTURE(control_tick, law, Hand::none);
+BENCHMARK_CAPTURE(control_tick, settled_percent, Hand::settled);
+BENCHMARK_CAPTURE(control_tick, percent_changes_each_tick, Hand::restless);
+
 }  // namespace
 }  // namespace kadr
