@@ -127,10 +127,10 @@ BENCHMARK(law_source_tick);
 /// The control law of one tick: the plan played as it is, a settled percent, one that changes in every tick.
 enum class Hand { none, settled, restless };
 
-void control_tick(benchmark::State& state, Hand hand) {
+void control_tick(benchmark::State& state, Shape shape, Hand hand) {
   const auto machine = bench_machine(true);
   planner::PathBuilder builder(machine, {});
-  for (const gcode::Block& b : make_blocks(Shape::curve, 100'000)) builder.add(b);
+  for (const gcode::Block& b : make_blocks(shape, 100'000)) builder.add(b);
   const planner::Path path = builder.take();
   const auto plan = planner::plan(path, machine);
   if (!plan) return state.SkipWithError("no plan");
@@ -148,9 +148,11 @@ void control_tick(benchmark::State& state, Hand hand) {
     benchmark::DoNotOptimize(source->advance(input).s_end_u);
   }
 }
-BENCHMARK_CAPTURE(control_tick, law, Hand::none);
-BENCHMARK_CAPTURE(control_tick, settled_percent, Hand::settled);
-BENCHMARK_CAPTURE(control_tick, percent_changes_each_tick, Hand::restless);
+BENCHMARK_CAPTURE(control_tick, law, Shape::straight, Hand::none);
+BENCHMARK_CAPTURE(control_tick, straight_settled, Shape::straight, Hand::settled);
+BENCHMARK_CAPTURE(control_tick, straight_changing_each_tick, Shape::straight, Hand::restless);
+BENCHMARK_CAPTURE(control_tick, facets_settled, Shape::curve, Hand::settled);
+BENCHMARK_CAPTURE(control_tick, facets_changing_each_tick, Shape::curve, Hand::restless);
 
 }  // namespace
 }  // namespace kadr
