@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/feed_plan.h"
+#include "planner/override/motion_step.h"
 
 namespace kadr::planner {
 namespace {
@@ -17,12 +17,6 @@ constexpr double kReachMargin = 1.25;
 
 bool all_equal(const std::vector<double>& v) {
   return std::adjacent_find(v.begin(), v.end(), std::not_equal_to<>()) == v.end();
-}
-
-MotionState moved(const MotionState& x, double t) {
-  return {x.s_u + t * (x.speed_u_s + t * (0.5 * x.accel_u_s2 + t * x.jerk_u_s3 / 6.0)),
-          x.speed_u_s + t * (x.accel_u_s2 + 0.5 * t * x.jerk_u_s3), x.accel_u_s2 + t * x.jerk_u_s3,
-          x.jerk_u_s3};
 }
 
 /// Moves at 100 % whatever the percent keep their programmed feed as a hard cap.

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "machine/base/require.h"
+#include "planner/override/motion_step.h"
 
 namespace kadr::planner {
 namespace {
@@ -25,16 +26,7 @@ constexpr double kForever_s = 1e300;
 /// A percent that no programmed feed resists: what is left are the hard caps.
 constexpr Percent kUnlimited{1e100, 1.0, 1e100};
 
-/// A ramp between speeds that rounding alone tells apart would still take the root of that difference.
-bool same_speed(double a, double b) { return std::fabs(a - b) <= 1e-14 * std::max(a, b); }
-
 bool below(double a, double b) { return a < b && !same_speed(a, b); }
-
-MotionState moved(const MotionState& x, double t) {
-  return {x.s_u + t * (x.speed_u_s + t * (0.5 * x.accel_u_s2 + t * x.jerk_u_s3 / 6.0)),
-          std::max(x.speed_u_s + t * (x.accel_u_s2 + 0.5 * t * x.jerk_u_s3), 0.0),
-          x.accel_u_s2 + t * x.jerk_u_s3, x.jerk_u_s3};
-}
 
 }  // namespace
 
