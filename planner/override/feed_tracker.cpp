@@ -115,6 +115,8 @@ void FeedTracker::advance(double time_s) {
       segment_ = terrain_.segment_at(state_.s_u, segment_);
       continue;
     }
+    // a feed that was limited when it began to brake is not limited behind that
+    if (!pieces_.empty() && pieces_.back().braking) ceiling_u_s_ = kInfinity;
     state_ = end_;
     enter(end_place_);
     if (ended_) return;

@@ -23,7 +23,7 @@ class FeedTracker {
 
   /// Takes over at a state on a segment's run.
   /// @param jerk_u_s3     with which the present acceleration can be brought to 0 in time; > 0, may be inf
-  /// @param ceiling_u_s   no faster than this, besides all caps
+  /// @param ceiling_u_s   no faster than this, besides all caps, until it has braked for a valley
   /// @return false: while it moves, this percent can't be followed from there without overrunning a hard cap
   bool start(std::size_t segment, const MotionState& state, const Percent& percent, double jerk_u_s3,
              double ceiling_u_s = machine::kInfinity);

@@ -58,7 +58,8 @@ OverrideSource::OverrideSource(const Path& path, const FeedPlan& plan, const mac
       machine_(machine),
       terrain_(path, machine, caps_of(path, plan, machine, most_percent)),
       law_(plan.law, machine),
-      trackers_{FeedTracker(terrain_), FeedTracker(terrain_)},
+      tracker_(terrain_),
+      probe_(terrain_),
       tangent_(machine.axis.size()) {}
 
 bool OverrideSource::finished() const { return tracking_ ? false : law_.finished(); }
@@ -85,13 +86,13 @@ bool OverrideSource::leave_law(const Percent& percent) {
       break;
     }
   }
-  return tracking_ = tracker().start(segment_, x, percent, jerk);
+  return tracking_ = tracker_.start(segment_, x, percent, jerk);
 }
 
 /// The tracker stands at the end of its run: the law goes on from there with the next control tick.
 void OverrideSource::return_to_law() {
-  law_.seek(plan_.segments[tracker().segment()].end_time_s, s_u_, tick_);
-  segment_ = terrain_.segment_at(s_u_, tracker().segment());
+  law_.seek(plan_.segments[tracker_.segment()].end_time_s, s_u_, tick_);
+  segment_ = terrain_.segment_at(s_u_, tracker_.segment());
   tracking_ = false;
 }
 
@@ -138,28 +139,27 @@ void OverrideSource::advance_tracker(TickMotion& m, const Percent& percent, bool
   m.override_requested = percent.feed;
   if (emergency) {
     if (limited_) take_back(percent);
-    tracker().stop_now();
+    tracker_.stop_now();
   }
   const bool limits = machine_.feed_override.limiter != machine::LimiterKind::off && !emergency;
   if (limits && advance_limited(m, percent)) return;
-  tracker().set_percent(percent);
-  const bool waits =
-      !(tracker().percent().feed == percent.feed && tracker().percent().rapid == percent.rapid);
-  if (waits) m.note = tracker().locked() ? OverrideNote::locked : OverrideNote::deferred;
-  tracker().advance(machine_.clock.tau_s());
-  const MotionState& x = tracker().state();
+  tracker_.set_percent(percent);
+  const bool waits = !(tracker_.percent().feed == percent.feed && tracker_.percent().rapid == percent.rapid);
+  if (waits) m.note = tracker_.locked() ? OverrideNote::locked : OverrideNote::deferred;
+  tracker_.advance(machine_.clock.tau_s());
+  const MotionState& x = tracker_.state();
   // the last bits of the polynomials do not turn the path back
   m.s_end_u = std::max(x.s_u, s_u_);
   m.speed_end_u_s = x.speed_u_s;
   m.accel_end_u_s2 = x.accel_u_s2;
-  m.override_used = tracker().percent().feed;
-  const Signature why = tracker().limited_by();
+  m.override_used = tracker_.percent().feed;
+  const Signature why = tracker_.limited_by();
   m.limited_by = why.reason;
   m.limiting_axis = why.axis;
   finish_tick(m);
   if (emergency && x.speed_u_s == 0.0) stopped_ = true;
-  if (limits) limit_ = tracker().braking() ? LimitedFeed{} : limiter_at(m.s_end_u, m.speed_end_u_s);
-  if (tracker().run_ended()) return_to_law();
+  if (limits) limit_ = tracker_.braking() ? LimitedFeed{} : limiter_at(m.s_end_u, m.speed_end_u_s);
+  if (tracker_.run_ended()) return_to_law();
 }
 
 /// The tracker goes on from the motion as it is.
@@ -167,32 +167,31 @@ void OverrideSource::take_back(const Percent& percent) {
   limited_ = false;
   limit_ = {};
   const std::size_t segment = terrain_.segment_at(s_u_, segment_);
-  tracker().start(segment, {s_u_, speed_u_s_, 0.0, 0.0}, percent, machine::kInfinity, speed_u_s_);
+  tracker_.start(segment, {s_u_, speed_u_s_, 0.0, 0.0}, percent, machine::kInfinity, speed_u_s_);
 }
 
 bool OverrideSource::advance_limited(TickMotion& m, const Percent& percent) {
   const double tau = machine_.clock.tau_s();
   const bool predictive = machine_.feed_override.predictive;
   if (!limited_) {
-    if (tracker().run_ended() || tracker().braking()) return false;
-    const MotionState& x = tracker().state();
+    if (tracker_.run_ended() || tracker_.braking()) return false;
+    const MotionState& x = tracker_.state();
     if (predictive) {
       // a feed that this tick can come to
-      const RampLimits l = terrain_.limits(tracker().segment(), tracker().segment());
+      const RampLimits l = terrain_.limits(tracker_.segment(), tracker_.segment());
       limit_ = limiter_at(x.s_u + x.speed_u_s * tau, x.speed_u_s + l.accel_u_s2 * percent.feed * tau);
     }
     if (!(limit_.factor < 1.0)) return false;
     demand_ = x;
-    segment_ = tracker().segment();
+    segment_ = tracker_.segment();
     limited_ = true;
   }
   segment_ = terrain_.segment_at(s_u_, segment_);
   // has the limited feed to brake for a place ahead?
-  FeedTracker& probe = trackers_[1 - active_];
-  const bool started = probe.start(segment_, {s_u_, speed_u_s_, 0.0, 0.0}, percent, machine::kInfinity,
-                                   std::max(speed_u_s_, 1e-6));
-  probe.advance(tau);
-  if (!started || probe.braking() || probe.run_ended()) {
+  const bool started = probe_.start(segment_, {s_u_, speed_u_s_, 0.0, 0.0}, percent, machine::kInfinity,
+                                    std::max(speed_u_s_, 1e-6));
+  probe_.advance(tau);
+  if (!started || probe_.braking() || probe_.run_ended()) {
     take_back(percent);
     return false;
   }
@@ -217,7 +216,7 @@ bool OverrideSource::advance_limited(TickMotion& m, const Percent& percent) {
   if (!(limit_.factor < 1.0)) {
     limited_ = false;
     segment_ = terrain_.segment_at(s_u_, segment_);
-    if (!tracker().start(segment_, {s_u_, demand_.speed_u_s, demand_.accel_u_s2, 0.0}, percent, l.jerk_u_s3))
+    if (!tracker_.start(segment_, {s_u_, demand_.speed_u_s, demand_.accel_u_s2, 0.0}, percent, l.jerk_u_s3))
       take_back(percent);
   }
   return true;

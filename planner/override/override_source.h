@@ -37,15 +37,14 @@ class OverrideSource final : public MotionSource {
   LimitedFeed limiter_at(double s_u, double feed_u_s);
   void finish_tick(TickMotion& motion);
   void take_back(const Percent& percent);
-  FeedTracker& tracker() { return trackers_[active_]; }
 
   const Path& path_;
   const FeedPlan& plan_;
   const machine::MachineModel& machine_;
   FeedTerrain terrain_;
   LawSource law_;
-  FeedTracker trackers_[2];  ///< the one under way, and one that asks whether a limited feed has to brake
-  int active_ = 0;
+  FeedTracker tracker_;
+  FeedTracker probe_;     ///< asks whether a limited feed has to brake
   LimitedFeed limit_;     ///< of the last tick: it counts in the next one (eq. 12)
   MotionState demand_{};  ///< feed before the limiter, while limited
   bool limited_ = false;
