@@ -85,7 +85,10 @@ TEST_CASE(
       axis.junction_accel_u_s2 = 1500;
     }
     machine.feed_override.mode = static_cast<machine::OverrideMode>(dice.whole(0, 2));
+    machine.feed_override.limiter = static_cast<machine::LimiterKind>(dice.whole(0, 3));
+    machine.feed_override.predictive = dice.chance(0.5);
     CAPTURE(static_cast<int>(machine.feed_override.mode));
+    CAPTURE(static_cast<int>(machine.feed_override.limiter));
     const planner::Path path = random_program(dice, machine);
     const auto plan = planner::plan(path, machine);
     REQUIRE(plan.has_value());
