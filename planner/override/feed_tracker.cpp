@@ -37,6 +37,7 @@ FeedTracker::FeedTracker(const FeedTerrain& terrain)
   pieces_.reserve(16);
   valleys_.reserve(256);
   hard_.reserve(256);
+  all_hard_.reserve(256);
   kept_.reserve(16);
 }
 
@@ -262,13 +263,20 @@ bool FeedTracker::passed_too_fast(double w) {
 /// A ramp to w passes a hard valley too fast, or leaves no room for one: a long way down may meet lower
 /// limits than braking for the valley does.
 bool FeedTracker::overruns(double w) {
+  collect_hard();
+  hard_.swap(all_hard_);
+  const bool passes = passed_too_fast(w);
+  hard_.swap(all_hard_);
+  return passes || broken(w, hard_) != nullptr;
+}
+
+void FeedTracker::collect_hard() {
   hard_.clear();
   // multiplied, every cap moves with the percent: the one under which the speed came about is what counts
   const Percent multiplied{scale_, std::max(scale_, percent_.rapid), scale_};
   terrain_.valleys(segment_, fastest_u_s_, seen_u_, terrain_.proportional() ? multiplied : kUnlimited, hard_);
-  const bool passes = passed_too_fast(w);
+  all_hard_ = hard_;
   terrain_.thin_out(hard_, scale_);
-  return passes || broken(w, hard_) != nullptr;
 }
 
 /// Highest speed of [low, high] that breaks no valley; low is one.
@@ -277,7 +285,7 @@ double FeedTracker::highest(double low, double high) {
   for (int i = 0; i < kBisections; ++i) {
     const double w = 0.5 * (low + high);
     if (w <= low || w >= high) break;
-    (broken(w, valleys_) ? high : low) = w;
+    (broken(w, valleys_) || (guarded_ && broken(w, hard_)) ? high : low) = w;
   }
   allowed_u_ = slack_u_;
   return low;
@@ -329,8 +337,13 @@ bool FeedTracker::decide(bool may_refuse) {
   if (late) {  // a percent fell too late for a place ahead: towards it at once
     towards = &following(*broken(std::min(flared, cap), valleys_));
     w = towards->cap_u_s;
-  } else if (broken(cap, valleys_)) {
-    w = highest(flared, cap);
+  } else if (flared <= cap) {
+    // braking for a lower speed can be shorter: a way to a percent's valley must leave one to the hard ones
+    guarded_ =
+        !stopping_ && std::any_of(valleys_.begin(), valleys_.end(), [](const Valley& q) { return !q.hard; });
+    if (guarded_) collect_hard();
+    if (broken(cap, valleys_) || (guarded_ && broken(cap, hard_))) w = highest(flared, cap);
+    guarded_ = false;
   }
   if ((late || w < std::max(v, flared)) && !stopping_ && overruns(w)) {
     if (may_refuse) return false;

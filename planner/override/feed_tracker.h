@@ -82,6 +82,7 @@ class FeedTracker {
   double reach_u(const Approach& way, double w_u_s) const;
   const Valley* broken(double w_u_s, const std::vector<Valley>& valleys) const;
   bool overruns(double w_u_s);
+  void collect_hard();
   bool passed_too_fast(double w_u_s);
   bool braking_fits(double end_u, double w_u_s, const Valley& valley) const;
   static const Valley& following(const Valley& valley);
@@ -110,12 +111,14 @@ class FeedTracker {
   std::vector<Piece> pieces_;  ///< under way and decided
   std::size_t at_ = 0;
   double in_piece_s_ = 0;
-  MotionState end_{};            ///< at the end of the last piece, exact
-  std::size_t end_place_ = 0;    ///< place that it lies at, or 0
-  std::vector<Piece> kept_;      ///< while another way is looked for
-  std::vector<Valley> valleys_;  ///< under the percent
-  std::vector<Valley> hard_;     ///< whatever the percent
-  double fastest_u_s_ = 0;       ///< that the present decision can come to
+  MotionState end_{};             ///< at the end of the last piece, exact
+  std::size_t end_place_ = 0;     ///< place that it lies at, or 0
+  std::vector<Piece> kept_;       ///< while another way is looked for
+  std::vector<Valley> valleys_;   ///< under the percent
+  std::vector<Valley> hard_;      ///< whatever the percent, and
+  std::vector<Valley> all_hard_;  ///< with those that any braking passes below
+  bool guarded_ = false;          ///< the highest speed must leave a way to the hard ones too
+  double fastest_u_s_ = 0;        ///< that the present decision can come to
   std::size_t run_end_joint_ = 0;
   double seen_u_ = 0;  ///< up to here a hold is safe from valleys that were not looked at
 };
