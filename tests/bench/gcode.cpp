@@ -37,8 +37,8 @@ std::string short_moves() {
   return text;
 }
 
-const SourceSet& sources() {
-  static const SourceSet set = [] {
+SourceSet& sources() {
+  static SourceSet set = [] {
     SourceSet s;
     s.add(SourceText("short_moves.ngc", short_moves()));
     return s;
@@ -55,10 +55,10 @@ void parse(benchmark::State& state) {
   for (auto _ : state) {
     Diagnostics diagnostics;
     gcode::Report report(diagnostics);
-    gcode::Program program(sources(), 0, report);
-    gcode::Line line;
+    gcode::Names names;
+    gcode::Program program(sources(), 0, gcode::Bounds{}, names, report);
     std::size_t items = 0;
-    while (program.next(line)) items += line.items.size();
+    while (const gcode::Line* line = program.next()) items += line->items.size();
     benchmark::DoNotOptimize(items);
   }
   count_lines(state);
