@@ -18,7 +18,7 @@ struct LimitedFeed {
 ///                        k = (3 x^2 - 2 x^3) / 2;  1 below,  F_max / f above
 ///   matched              the same with k = x^2 - x^3 / 2, so that the slope of the limited feed is
 ///   continuous
-///                        at both ends too (erratum E6)
+///                        at both ends too (docs/papers.md)
 double axis_factor(machine::LimiterKind kind, double axis_speed_u_s, double max_u_s, double band_u_s);
 
 /// Of a feed in a direction e = dx/ds [axes].

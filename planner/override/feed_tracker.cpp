@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "machine/base/require.h"
 #include "planner/override/motion_step.h"
@@ -95,7 +93,7 @@ void FeedTracker::advance(double time_s) {
   int decisions = 0;
   while (!ended_) {
     const double left_s = pieces_[at_].duration_s - in_piece_s_;
-    if (record_) run(std::min(time_s, left_s));
+    if (record_) write_down(std::min(time_s, left_s));
     if (time_s < left_s) {
       in_piece_s_ += time_s;
       state_ = moved(pieces_[at_].begin, in_piece_s_);
@@ -127,7 +125,7 @@ void FeedTracker::advance(double time_s) {
 }
 
 /// Writes down a part of the piece under way.
-void FeedTracker::run(double time_s) {
+void FeedTracker::write_down(double time_s) {
   if (!(time_s > 0.0)) return;
   const Piece& p = pieces_[at_];
   const MotionState x = in_piece_s_ > 0.0 ? moved(p.begin, in_piece_s_) : p.begin;

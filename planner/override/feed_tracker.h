@@ -8,15 +8,16 @@
 namespace kadr::planner {
 
 /// Moves along a path under a percent that may change at every control tick: one tracker of the lowest cap,
-/// limited in acceleration and jerk (paper 003, eq. 6-8; errata E2, E4, E11 of docs/papers.md).
+/// limited in acceleration and jerk (paper 003, eq. 6-8 as corrected in docs/papers.md).
 ///
 /// From any state (s, v, a) it decides the shortest way to the cap here, as high as all valleys ahead allow
 /// to be braked for:
 ///   [bring a to 0] [ramp to w] [hold w] [brake to the valley that comes first]
 /// and does so again where that ends. Braking for a valley is not disturbed by a percent; everything else
-/// is decided anew as the percent changes. Hard caps are never passed; a percent that falls too late for the
-/// place ahead is followed as fast as the ramp goes. Closed forms and bracketed bisections of fixed count,
-/// + - * / sqrt only; nothing is allocated after construction.
+/// is decided anew as the percent changes, but only for a way that keeps every hard cap; a percent that falls
+/// too late for the place ahead is followed as fast as the ramp goes. Multiplied (proportional mode) nothing
+/// is promised. Closed forms and bracketed bisections of fixed count, + - * / sqrt only. Storage is kept from
+/// decision to decision; it grows only where more than 256 valleys lie within one look ahead.
 class FeedTracker {
  public:
   explicit FeedTracker(const FeedTerrain& terrain);
@@ -65,7 +66,7 @@ class FeedTracker {
     double end_u = 0;        ///< s at its end
   };
 
-  void run(double time_s);
+  /// What set_percent() puts back if no other way is found.
   struct Decision {
     Percent percent;
     double scale;
@@ -75,6 +76,7 @@ class FeedTracker {
     std::size_t end_place;
   };
 
+  void write_down(double time_s);
   bool decide(bool may_refuse);
   RampLimits limits(std::size_t first, std::size_t last) const;
   Approach approach(double w_u_s) const;

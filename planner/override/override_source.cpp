@@ -62,7 +62,7 @@ OverrideSource::OverrideSource(const Path& path, const FeedPlan& plan, const mac
       probe_(terrain_),
       tangent_(machine.axis.size()) {}
 
-bool OverrideSource::finished() const { return tracking_ ? false : law_.finished(); }
+bool OverrideSource::finished() const { return !tracking_ && law_.finished(); }
 
 /// A pause, or the end: nothing that a percent would change.
 bool OverrideSource::law_rests() const {
@@ -86,7 +86,7 @@ bool OverrideSource::leave_law(const Percent& percent) {
       break;
     }
   }
-  return tracking_ = tracker_.start(segment_, x, percent, jerk);
+  return tracker_.start(segment_, x, percent, jerk);
 }
 
 /// The tracker stands at the end of its run: the law goes on from there with the next control tick.
@@ -104,14 +104,15 @@ TickMotion OverrideSource::advance(const OperatorInput& input) {
   if (!tracking_ && !law_.finished() && (!plain || input.emergency_stop)) {
     if (!law_rests()) {
       const bool moving = law_.state().speed_u_s > 0.0;
-      if (input.emergency_stop)
-        leave_law(Percent{}), tracking_ = true;
-      else if (moving && terrain_.locked(segment_))
+      if (input.emergency_stop) {
+        leave_law(Percent{});  // whatever way it would go: it stops at once
+        tracking_ = true;
+      } else if (moving && terrain_.locked(segment_)) {
         note = OverrideNote::locked;
-      else if (moving && law_brakes())
-        note = OverrideNote::deferred;
-      else if (!leave_law(percent))
-        note = OverrideNote::deferred;
+      } else {
+        tracking_ = !(moving && law_brakes()) && leave_law(percent);
+        if (!tracking_) note = OverrideNote::deferred;
+      }
     } else if (input.emergency_stop) {
       stopped_ = true;
     }

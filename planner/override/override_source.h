@@ -29,6 +29,7 @@ class OverrideSource final : public MotionSource {
  private:
   bool law_rests() const;
   bool law_brakes() const;
+  /// Whether the tracker could take over.
   bool leave_law(const Percent& percent);
   void return_to_law();
   void advance_tracker(TickMotion& motion, const Percent& percent, bool emergency);
