@@ -47,6 +47,15 @@ std::int64_t whole_ticks(double time_ms, double tau_s) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::floor(time_ms / (1000 * tau_s) + 0.5)));
 }
 
+EventRecord panel_event(Ticks tick, const char* kind, double value, std::string text) {
+  EventRecord e;
+  e.tick = tick;
+  e.kind = kind;
+  e.value = value;
+  e.text = std::move(text);
+  return e;
+}
+
 }  // namespace
 
 void place_on_path(Job& job, Diagnostics& diagnostics) {
@@ -124,53 +133,39 @@ const planner::OperatorInput& OperatorPanel::advance(ControlTicks tick, double s
                   placed_.end());
   const double before = spindle_percent_;
   spindle_percent_ = reactor_.advance(load_);
-  if (spindle_percent_ != before) {
-    EventRecord e;
-    e.tick = begin;
-    e.kind = "spindle_override";
-    e.value = spindle_percent_ * 100;
-    e.text = fmt::format("spindle load {:.6g} %: feed at {:.6g} %", load_ * 100, spindle_percent_ * 100);
-    events.push_back(std::move(e));
-  }
+  if (spindle_percent_ != before)
+    events.push_back(panel_event(
+        begin, "spindle_override", spindle_percent_ * 100,
+        fmt::format("spindle load {:.6g} %: feed at {:.6g} %", load_ * 100, spindle_percent_ * 100)));
   input_.feed_override = operator_percent_ * spindle_percent_;
   return input_;
 }
 
 void OperatorPanel::take(const OperatorStep& step, Ticks tick, std::vector<EventRecord>& events) {
-  EventRecord e;
-  e.tick = tick;
-  e.value = step.value * 100;
+  const double percent = step.value * 100;
+  const auto tell = [&](const char* kind, double value, std::string text) {
+    events.push_back(panel_event(tick, kind, value, std::move(text)));
+  };
   switch (step.action) {
     case OperatorAction::feed_override:
       operator_percent_ = step.value;
-      e.kind = "override";
-      e.text = fmt::format("feed override {:.6g} %", step.value * 100);
-      break;
+      return tell("override", percent, fmt::format("feed override {:.6g} %", percent));
     case OperatorAction::rapid_override:
       input_.rapid_override = step.value;
-      e.kind = "rapid_override";
-      e.text = fmt::format("rapid override {:.6g} %", step.value * 100);
-      break;
+      return tell("rapid_override", percent, fmt::format("rapid override {:.6g} %", percent));
     case OperatorAction::hold:
+      input_.hold = true;
+      return tell("hold", 1, "feed hold");
     case OperatorAction::resume:
-      input_.hold = step.action == OperatorAction::hold;
-      e.value = input_.hold ? 1 : 0;
-      e.kind = input_.hold ? "hold" : "resume";
-      e.text = input_.hold ? "feed hold" : "feed goes on";
-      break;
+      input_.hold = false;
+      return tell("resume", 0, "feed goes on");
     case OperatorAction::spindle_load:
       load_ = step.value;
-      e.kind = "spindle_load";
-      e.text = fmt::format("spindle load {:.6g} %", step.value * 100);
-      break;
+      return tell("spindle_load", percent, fmt::format("spindle load {:.6g} %", percent));
     case OperatorAction::emergency_stop:
       input_.emergency_stop = true;
-      e.value = 1;
-      e.kind = "emergency_stop";
-      e.text = "emergency stop";
-      break;
+      return tell("emergency_stop", 1, "emergency stop");
   }
-  events.push_back(std::move(e));
 }
 
 bool OperatorPanel::at_its_end() const { return next_ == timed_ && !reactor_.unsettled(load_); }

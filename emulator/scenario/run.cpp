@@ -137,7 +137,7 @@ void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions
     return;
   }
   AlarmList alarms(nullptr);
-  SignalRecorder signals(job.machine.model, alarms);
+  SignalRecorder signals(job.machine.model, &alarms);
   auto summary = run(job, &signals, options);
   if (!summary) {
     result.failure = summary.error().what;

@@ -33,8 +33,8 @@ std::string signal_unit(std::string_view signal, const machine::MachineModel& ma
   return rotary ? "deg/s" : "mm/s";
 }
 
-SignalRecorder::SignalRecorder(const machine::MachineModel& machine, RunLog& next)
-    : machine_(machine), next_(next), columns_(kFirstAxis + machine.axis.size()) {}
+SignalRecorder::SignalRecorder(const machine::MachineModel& machine, RunLog* next)
+    : ForwardingLog(next), machine_(machine), columns_(kFirstAxis + machine.axis.size()) {}
 
 std::optional<Bounds> SignalRecorder::range(std::string_view signal, double from_s, double to_s) const {
   const auto names = signal_names(machine_);
@@ -54,14 +54,12 @@ std::optional<Bounds> SignalRecorder::range(std::string_view signal, double from
   return range;
 }
 
-tl::expected<void, LogError> SignalRecorder::begin(const RunHeader& header) { return next_.begin(header); }
-
-tl::expected<void, LogError> SignalRecorder::block(const BlockRecord& record) {
+ForwardingLog::Written SignalRecorder::block(const BlockRecord& record) {
   boundaries_.push_back(record);
-  return next_.block(record);
+  return ForwardingLog::block(record);
 }
 
-tl::expected<void, LogError> SignalRecorder::tick(const TickRecord& record, const StepBatch& batch) {
+ForwardingLog::Written SignalRecorder::tick(const TickRecord& record, const StepBatch& batch) {
   const planner::TickMotion& m = *record.motion;
   const double tau_s = machine_.clock.tau_s();
   const double accel = (m.speed_end_u_s - m.speed_begin_u_s) / tau_s;
@@ -76,16 +74,7 @@ tl::expected<void, LogError> SignalRecorder::tick(const TickRecord& record, cons
   for (std::size_t a = 0; a < machine_.axis.size(); ++a)
     columns_[kFirstAxis + a].push_back(
         (batch.axis[a].command.position_end_u - batch.axis[a].command.position_begin_u) / tau_s);
-  return next_.tick(record, batch);
+  return ForwardingLog::tick(record, batch);
 }
-
-tl::expected<void, LogError> SignalRecorder::block_end(const BlockEndRecord& record) {
-  return next_.block_end(record);
-}
-tl::expected<void, LogError> SignalRecorder::event(const EventRecord& record) { return next_.event(record); }
-tl::expected<void, LogError> SignalRecorder::diagnostic(const Diagnostic& d, Ticks tick) {
-  return next_.diagnostic(d, tick);
-}
-tl::expected<void, LogError> SignalRecorder::end(const RunSummary& summary) { return next_.end(summary); }
 
 }  // namespace kadr::emulator

@@ -4,32 +4,27 @@
 #include <string_view>
 #include <vector>
 
+#include "emulator/log/forwarding_log.h"
 #include "emulator/scenario/scenario.h"
 
 namespace kadr::emulator {
 
 /// Keeps what scenarios measure over time: feed, acceleration, jerk, percents, axis speeds per control tick,
 /// and the boundaries between blocks.
-class SignalRecorder final : public RunLog {
+class SignalRecorder final : public ForwardingLog {
  public:
-  /// @param next  where the records go besides; outlives this
-  SignalRecorder(const machine::MachineModel& machine, RunLog& next);
+  /// @param next  where the records go besides; both outlive this
+  SignalRecorder(const machine::MachineModel& machine, RunLog* next);
 
   /// Least and most of a signal over the control ticks that end in (from_s, to_s]; nothing if there are none.
   std::optional<Bounds> range(std::string_view signal, double from_s, double to_s) const;
   const std::vector<BlockRecord>& boundaries() const { return boundaries_; }
 
-  tl::expected<void, LogError> begin(const RunHeader& header) override;
-  tl::expected<void, LogError> block(const BlockRecord& record) override;
-  tl::expected<void, LogError> tick(const TickRecord& record, const StepBatch& batch) override;
-  tl::expected<void, LogError> block_end(const BlockEndRecord& record) override;
-  tl::expected<void, LogError> event(const EventRecord& record) override;
-  tl::expected<void, LogError> diagnostic(const Diagnostic& d, Ticks tick) override;
-  tl::expected<void, LogError> end(const RunSummary& summary) override;
+  Written block(const BlockRecord& record) override;
+  Written tick(const TickRecord& record, const StepBatch& batch) override;
 
  private:
   const machine::MachineModel& machine_;
-  RunLog& next_;
   std::vector<std::vector<double>> columns_;  ///< [signal][control tick]
   std::vector<BlockRecord> boundaries_;
 };
