@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "planner_support.h"
+#include "verified_plan.h"
 
 // The scheduler of paper 003, a = 2000 mm/s2, j = 40000 mm/s3, tau = 1 ms: each block by itself.
 namespace kadr::test {
@@ -23,28 +23,11 @@ machine::MachineModel block_machine(BlockTicks ticks = BlockTicks::exact) {
   return m;
 }
 
-FeedPlan planned(const Path& path, const machine::MachineModel& machine) {
-  auto plan = planner::plan(path, machine);
-  REQUIRE(plan);
-  for (const auto& v : planner::verify(path, *plan, machine))
-    FAIL_CHECK(v.what << " " << v.value << " " << v.limit << " at " << v.time_s);
-  return std::move(*plan);
-}
-
-/// A straight line at 100 mm/s in equal blocks.
-Path straight(double length_mm, int blocks, const machine::MachineModel& machine) {
-  ProgramWriter w(machine);
-  for (int i = 1; i <= blocks; ++i) w.line(xyz(length_mm * i / blocks), 100.0);
-  return w.take();
-}
-
 double largest_jump(const FeedPlan& plan) {
   double jump = 0.0;
   for (const SegmentPlan& row : plan.segments) jump = std::max(jump, std::fabs(row.end_jump_u_s));
   return jump;
 }
-
-doctest::Approx near(double x) { return doctest::Approx(x).epsilon(1e-9); }
 
 }  // namespace
 
@@ -106,11 +89,7 @@ TEST_CASE("without a jerk limit blocks cost nothing: the free plan lasts as long
 TEST_CASE("blocks shorter than a control tick take one each and lose no length: 20 x 0.03 mm") {
   // 0.03 mm at 100 mm/s would last 0.3 ms; in 1 ms they pass at 30 mm/s
   const auto machine = block_machine();
-  ProgramWriter w(machine);
-  w.line(xyz(20), 100.0);
-  for (int i = 1; i <= 20; ++i) w.line(xyz(20 + 0.03 * i), 100.0);
-  w.line(xyz(40.6), 100.0);
-  const auto path = w.take();
+  const auto path = tiny_blocks(machine);
   const auto plan = planned(path, machine);
   for (std::size_t i = 1; i <= 20; ++i) {
     const SegmentPlan& row = plan.segments[i];
@@ -138,18 +117,6 @@ TEST_CASE("a motion's time from a block on is what its plan takes") {
     CHECK(*planner::motion_time_s(path, machine, 2) == near(plan.law.duration_s - begin));
   }
 }
-
-namespace {
-
-bool finds(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
-           const std::string& what) {
-  planner::VerifyOptions options;
-  options.most = 1'000'000;
-  const auto found = planner::verify(path, plan, machine, options);
-  return std::any_of(found.begin(), found.end(), [&](const auto& v) { return v.what == what; });
-}
-
-}  // namespace
 
 TEST_CASE("a jump of feed at a block's end is a violation unless the plan states it and kl explains it") {
   const auto machine = block_machine(BlockTicks::kl);

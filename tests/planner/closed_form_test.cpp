@@ -1,22 +1,9 @@
 #include <doctest/doctest.h>
 
-#include "planner_support.h"
+#include "verified_plan.h"
 
 // Trapezoidal motion (jerk = inf, whole ticks off) against its closed forms, to 0.05 % and mostly far better.
 namespace kadr::test {
-namespace {
-
-planner::FeedPlan planned(const planner::Path& path, const machine::MachineModel& machine) {
-  auto plan = planner::plan(path, machine);
-  REQUIRE(plan);
-  const auto violations = planner::verify(path, *plan, machine);
-  for (const auto& v : violations) FAIL_CHECK(v.what << " " << v.value << " " << v.limit);
-  return std::move(*plan);
-}
-doctest::Approx near(double x) { return doctest::Approx(x).epsilon(1e-9); }
-
-}  // namespace
-
 TEST_CASE("a line of 100 mm at 100 mm/s with 2000 mm/s2 takes 100/100 + 100/2000 = 1.05 s") {
   const auto machine = trapezoid_machine();
   ProgramWriter w(machine);

@@ -2,23 +2,10 @@
 
 #include <algorithm>
 
-#include "planner_support.h"
+#include "verified_plan.h"
 
 // Jerk-limited plans, a = 2000 mm/s2, j = 40000 mm/s3: a ramp by dv <= a^2/j = 100 mm/s lasts 2 sqrt(dv/j).
 namespace kadr::test {
-namespace {
-
-planner::FeedPlan planned(const planner::Path& path, const machine::MachineModel& machine) {
-  auto plan = planner::plan(path, machine);
-  REQUIRE(plan);
-  for (const auto& v : planner::verify(path, *plan, machine))
-    FAIL_CHECK(v.what << " " << v.value << " " << v.limit << " at " << v.time_s);
-  return std::move(*plan);
-}
-doctest::Approx near(double x) { return doctest::Approx(x).epsilon(1e-9); }
-
-}  // namespace
-
 TEST_CASE("G1 X100 at 100 mm/s takes 1100 control ticks exactly: 0.1 + 0.9 + 0.1 s") {
   // each ramp lasts 2 sqrt(100/40000) = 0.1 s over 5 mm
   const auto machine = plain_machine();
@@ -69,11 +56,7 @@ TEST_CASE("cutting a line into 0.1 mm pieces at an angle costs no time") {
 TEST_CASE("pieces shorter than a control tick are passed at the full feed: 20 x 0.03 mm between long lines") {
   // 40.6 mm in all at 100 mm/s: 0.406 + 0.1 s; three pieces may end in one tick
   const auto machine = plain_machine();
-  ProgramWriter w(machine);
-  w.line(xyz(20), 100.0);
-  for (int i = 1; i <= 20; ++i) w.line(xyz(20 + 0.03 * i), 100.0);
-  w.line(xyz(40.6), 100.0);
-  const auto path = w.take();
+  const auto path = tiny_blocks(machine);
   const auto plan = planned(path, machine);
   CHECK(plan.law.duration_s == near(0.506));
   for (std::size_t i = 1; i <= 20; ++i) {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "planner/scheduler/block_diagram.h"
-#include "planner_support.h"
+#include "verified_plan.h"
 
 // planner.law = quintic, a = 2000 mm/s2, j = 40000 mm/s3: ramps v = v0 + dv (10 x^3 - 15 x^4 + 6 x^5) of
 // T = max(1.875 dv/a, sqrt(10/sqrt(3) dv/j)), whose jerk does not jump.
@@ -24,30 +24,6 @@ machine::MachineModel quintic_machine(machine::SchedulerKind scheduler = machine
   m.planner.scheduler = scheduler;
   return m;
 }
-
-FeedPlan planned(const Path& path, const machine::MachineModel& machine) {
-  auto plan = planner::plan(path, machine);
-  REQUIRE(plan);
-  for (const auto& v : planner::verify(path, *plan, machine))
-    FAIL_CHECK(v.what << " " << v.value << " " << v.limit << " at " << v.time_s);
-  return std::move(*plan);
-}
-
-Path straight(double length_mm, int blocks, const machine::MachineModel& machine) {
-  ProgramWriter w(machine);
-  for (int i = 1; i <= blocks; ++i) w.line(xyz(length_mm * i / blocks), 100.0);
-  return w.take();
-}
-
-bool finds(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
-           const std::string& what) {
-  planner::VerifyOptions options;
-  options.most = 1'000'000;
-  const auto found = planner::verify(path, plan, machine, options);
-  return std::any_of(found.begin(), found.end(), [&](const auto& v) { return v.what == what; });
-}
-
-doctest::Approx near(double x) { return doctest::Approx(x).epsilon(1e-9); }
 
 }  // namespace
 

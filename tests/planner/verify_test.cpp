@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "planner_support.h"
+#include "verified_plan.h"
 
 // The judge itself: a sound plan passes, and each kind of damage is found by name.
 namespace kadr::test {
@@ -28,14 +28,6 @@ Path judged_path(const machine::MachineModel& machine) {
   w.stop();
   w.line(xyz(0, 0, 20), 100.0);
   return w.take();
-}
-
-bool finds(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
-           const std::string& what) {
-  planner::VerifyOptions options;
-  options.most = 1'000'000;
-  const auto found = planner::verify(path, plan, machine, options);
-  return std::any_of(found.begin(), found.end(), [&](const auto& v) { return v.what == what; });
 }
 
 /// The plan run k times as fast.
