@@ -277,20 +277,26 @@ void FeedTracker::collect_hard() {
   terrain_.thin_out(hard_, scale_);
 }
 
-/// Highest speed of [low, high] that breaks no valley; low is one.
+/// Highest speed of [low, high] that breaks no valley; low is one. Braking for a lower speed can be shorter,
+/// so a way to a percent's valley must leave one to the hard ones too.
 double FeedTracker::highest(double low, double high) {
+  const bool guarded =
+      !stopping_ && std::any_of(valleys_.begin(), valleys_.end(), [](const Valley& q) { return !q.hard; });
+  if (guarded) collect_hard();
+  const auto breaks = [&](double w) { return broken(w, valleys_) || (guarded && broken(w, hard_)); };
+  if (!breaks(high)) return high;
   allowed_u_ = 0.0;  // what rounding takes is left to later decisions on the same way
   for (int i = 0; i < kBisections; ++i) {
     const double w = 0.5 * (low + high);
     if (w <= low || w >= high) break;
-    (broken(w, valleys_) || (guarded_ && broken(w, hard_)) ? high : low) = w;
+    (breaks(w) ? high : low) = w;
   }
   allowed_u_ = slack_u_;
   return low;
 }
 
-/// @return false: another way would overrun a hard valley, nothing was decided
-bool FeedTracker::decide(bool may_refuse) {
+/// Takes the state, and the percent where nothing makes it wait.
+void FeedTracker::begin_decision() {
   if (at_ < pieces_.size()) limits_ = pieces_[at_].limits;
   pieces_.clear();
   at_ = 0;
@@ -309,20 +315,31 @@ bool FeedTracker::decide(bool may_refuse) {
   }
   end_ = state_;
   end_.jerk_u_s3 = 0.0;
+}
+
+/// Valleys that can matter: none lies farther ahead than the longest braking from the fastest speed.
+void FeedTracker::look_ahead(double fastest) {
+  fastest_u_s_ = fastest;
+  valleys_.clear();
+  seen_u_ = kInfinity;
+  if (stopping_) return;
+  const RampLimits weakest = limits(segment_, terrain_.run_end(segment_));
+  const double flare_s =
+      limits_.jerk_u_s3 < kInfinity ? std::fabs(state_.accel_u_s2) / limits_.jerk_u_s3 : 0.0;
+  const double longest =
+      fastest * (flare_s + 2.0 * ramp_time_s(fastest, weakest)) + 1e-9 * (1.0 + state_.s_u);
+  if (terrain_.valleys(segment_, fastest, state_.s_u + kHorizons * longest, percent_, valleys_))
+    seen_u_ = state_.s_u + (kHorizons - 1.0) * longest;
+  terrain_.thin_out(valleys_, scale_);
+}
+
+/// @return false: another way would overrun a hard valley, nothing was decided
+bool FeedTracker::decide(bool may_refuse) {
+  begin_decision();
   const double cap = stopping_ ? 0.0 : std::min(terrain_.cap_u_s(2 * segment_ + 1, percent_), ceiling_u_s_);
   const double v = state_.speed_u_s, a = state_.accel_u_s2;
   const double flared = a == 0.0 ? v : v + 0.5 * a * std::fabs(a) / limits_.jerk_u_s3;
-  // nothing farther ahead than the longest braking from the fastest of these can matter
-  const double fastest = fastest_u_s_ = std::max({cap, flared, v});
-  const RampLimits weakest = limits(segment_, terrain_.run_end(segment_));
-  const double flare_s = limits_.jerk_u_s3 < kInfinity ? std::fabs(a) / limits_.jerk_u_s3 : 0.0;
-  const double longest =
-      fastest * (flare_s + 2.0 * ramp_time_s(fastest, weakest)) + 1e-9 * (1.0 + state_.s_u);
-  valleys_.clear();
-  seen_u_ = kInfinity;
-  if (!stopping_ && terrain_.valleys(segment_, fastest, state_.s_u + kHorizons * longest, percent_, valleys_))
-    seen_u_ = state_.s_u + (kHorizons - 1.0) * longest;
-  terrain_.thin_out(valleys_, scale_);
+  look_ahead(std::max({cap, flared, v}));
 
   const auto is_late = [&] { return broken(cap, valleys_) && (flared > cap || broken(flared, valleys_)); };
   bool late = is_late();
@@ -336,28 +353,26 @@ bool FeedTracker::decide(bool may_refuse) {
     towards = &following(*broken(std::min(flared, cap), valleys_));
     w = towards->cap_u_s;
   } else if (flared <= cap) {
-    // braking for a lower speed can be shorter: a way to a percent's valley must leave one to the hard ones
-    guarded_ =
-        !stopping_ && std::any_of(valleys_.begin(), valleys_.end(), [](const Valley& q) { return !q.hard; });
-    if (guarded_) collect_hard();
-    if (broken(cap, valleys_) || (guarded_ && broken(cap, hard_))) w = highest(flared, cap);
-    guarded_ = false;
+    w = highest(flared, cap);
   }
   if ((late || w < std::max(v, flared)) && !stopping_ && overruns(w)) {
     if (may_refuse) return false;
-    scale_ = std::max(scale_, 1.0);
-    overruns(w);
-    // the percent can't be followed yet: hold what there is to the hard valley ahead
-    valleys_ = hard_;
-    const Valley* q = broken(flared, valleys_);
-    q ? drop_to(following(*q)) : track(flared, cap);
-    return true;
-  }
-  if (towards)
+    hold_to_hard_valley(flared, cap);
+  } else if (towards) {
     drop_to(*towards);
-  else
+  } else {
     track(w, cap);
+  }
   return true;
+}
+
+/// The percent can't be followed yet: what there is, to the hard valley ahead.
+void FeedTracker::hold_to_hard_valley(double flared, double cap) {
+  scale_ = std::max(scale_, 1.0);
+  collect_hard();
+  valleys_ = hard_;
+  const Valley* q = broken(flared, valleys_);
+  q ? drop_to(following(*q)) : track(flared, cap);
 }
 
 /// Ramp to w and hold it to the next valley's braking, or to where the cap rises.

@@ -78,6 +78,9 @@ class FeedTracker {
 
   void write_down(double time_s);
   bool decide(bool may_refuse);
+  void begin_decision();
+  void look_ahead(double fastest_u_s);
+  void hold_to_hard_valley(double flared_u_s, double cap_u_s);
   RampLimits limits(std::size_t first, std::size_t last) const;
   Approach approach(double w_u_s) const;
   bool ramp_on(Approach& way, double w_u_s, RampLimits limits) const;
@@ -119,7 +122,6 @@ class FeedTracker {
   std::vector<Valley> valleys_;   ///< under the percent
   std::vector<Valley> hard_;      ///< whatever the percent, and
   std::vector<Valley> all_hard_;  ///< with those that any braking passes below
-  bool guarded_ = false;          ///< the highest speed must leave a way to the hard ones too
   double fastest_u_s_ = 0;        ///< that the present decision can come to
   std::size_t run_end_joint_ = 0;
   double seen_u_ = 0;  ///< up to here a hold is safe from valleys that were not looked at
