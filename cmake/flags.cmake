@@ -15,7 +15,7 @@ if(KADR_FUZZ)
   target_link_options(kadr_flags INTERFACE -fsanitize=float-cast-overflow)
 endif()
 if(KADR_SANITIZE OR KADR_FUZZ)
-  target_compile_options(kadr_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+  target_compile_options(kadr_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(kadr_flags INTERFACE -fsanitize=address,undefined)
 endif()
 

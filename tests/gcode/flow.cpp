@@ -204,11 +204,11 @@ TEST_CASE("predefined parameters tell the state as rs274 does") {
                                                           {"_motion_mode", "0"},
                                                           {"_selected_tool", "1"},
                                                           {"_call_level", "0"}};
-  for (const auto& [name, value] : expected) {
-    CAPTURE(name);
-    const Texts texts = printed(state + "(PRINT,#<" + name + ">)\nM2\n");
+  for (const auto& parameter : expected) {
+    CAPTURE(parameter.first);
+    const Texts texts = printed(state + "(PRINT,#<" + parameter.first + ">)\nM2\n");
     REQUIRE(texts.size() == 1);
-    CHECK(std::stod(texts[0]) == std::stod(value));
+    CHECK(std::stod(texts[0]) == std::stod(parameter.second));
   }
   CHECK(printed("O1 call\nM2\nO1 sub\n(PRINT,#<_call_level>)\nO1 endsub\n") == Texts{"1.000000"});
 }

@@ -80,7 +80,6 @@ class Generator {
   Modes modes_, stored_;
   bool is_stored_ = false;
   bool number_set_ = false;  ///< M61 since the last M6: rs274 keeps the old tool's data
-  bool moved_ = false;
 };
 
 }  // namespace kadr::gcode::test
