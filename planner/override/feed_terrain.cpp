@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/override/motion_step.h"
-
 namespace kadr::planner {
 namespace {
 
@@ -12,7 +10,6 @@ using machine::kInfinity;
 using machine::LockedFeed;
 
 constexpr int kReachRounds = 12;
-constexpr int kBisections = 60;
 constexpr double kReachMargin = 1.25;
 
 bool all_equal(const std::vector<double>& v) {
@@ -77,23 +74,15 @@ double rising_u(double low, double high, RampLimits l) {
   return first + 0.5 * (high - v) * (high + v) / l.accel_u_s2;
 }
 
-/// Way and speed of a ramp up from low to high after a time within it.
-MotionState ramp_point(double low, double high, RampLimits l, double t) {
+/// Path after which a ramp up from low to high has a speed between them.
+double speed_at_u(double low, double high, RampLimits l, double speed) {
   const double dv = high - low;
-  const bool full = dv * l.jerk_u_s3 > l.accel_u_s2 * l.accel_u_s2;
-  const double part = full                      ? l.accel_u_s2 / l.jerk_u_s3
-                      : l.jerk_u_s3 < kInfinity ? std::sqrt(dv / l.jerk_u_s3)
-                                                : 0.0;
-  const double hold = full ? dv / l.accel_u_s2 - part : 0.0;
-  MotionState x{0.0, low, 0.0, l.jerk_u_s3 < kInfinity ? l.jerk_u_s3 : 0.0};
-  if (t <= part) return moved(x, t);
-  x = moved(x, part);
-  x.accel_u_s2 = full ? l.accel_u_s2 : x.accel_u_s2;
-  x.jerk_u_s3 = 0.0;
-  if (t <= part + hold) return moved(x, t - part);
-  x = moved(x, hold);
-  x.jerk_u_s3 = -l.jerk_u_s3;
-  return part > 0.0 ? moved(x, std::min(t - part - hold, part)) : x;
+  if (!(l.jerk_u_s3 < kInfinity)) return rising_u(low, speed, l);
+  const double a2 = l.accel_u_s2 * l.accel_u_s2;
+  const double rounded = 0.5 * (dv * l.jerk_u_s3 > a2 ? a2 / l.jerk_u_s3 : dv);  // of dv, at either end
+  if (high - speed >= rounded) return rising_u(low, speed, l);
+  const double left = std::sqrt(2.0 * (high - speed) / l.jerk_u_s3);
+  return ramp_length_u(low, high, l) - left * (high - l.jerk_u_s3 * left * left / 6.0);
 }
 
 }  // namespace
@@ -244,7 +233,7 @@ void FeedTerrain::thin_out(std::vector<Valley>& valleys, double scale) const {
     valley.tight = braking_u(valley.cap_u_s, after, scale, l) > way;
     l = scaled(valley.place / 2, (after.place - 1) / 2, scale);
     for (std::size_t t = kept; t < next && !valley.tight; ++t)
-      valley.tight = passing_u_s(valley.cap_u_s, valley.s_u, valleys[t], after, scale) > valleys[t].cap_u_s;
+      valley.tight = passes_above(valley.cap_u_s, valley.s_u, valleys[t], after, scale);
     if (valley.tight && !(rising_u(after.cap_u_s, valley.cap_u_s, l) < way)) continue;
     valleys[--kept] = valley;
     if (!valley.tight) next = kept;
@@ -252,20 +241,12 @@ void FeedTerrain::thin_out(std::vector<Valley>& valleys, double scale) const {
   valleys.erase(valleys.begin(), valleys.begin() + static_cast<std::ptrdiff_t>(kept));
 }
 
-double FeedTerrain::passing_u_s(double w, double begin_u, const Valley& tight, const Valley& next,
-                                double scale) const {
+bool FeedTerrain::passes_above(double w, double begin_u, const Valley& tight, const Valley& next,
+                               double scale) const {
   RampLimits l;
-  const double brake_u = next.s_u - braking_u(w, next, scale, l);
-  if (brake_u < begin_u) return kInfinity;
-  if (tight.s_u <= brake_u) return w;
-  // backwards from the next valley the ramp rises: bisection in time
-  const double way = next.s_u - tight.s_u, low_u_s = next.cap_u_s;
-  double early = 0.0, late = ramp_time_s(w - low_u_s, l);
-  for (int i = 0; i < kBisections; ++i) {
-    const double t = 0.5 * (early + late);
-    (ramp_point(low_u_s, w, l, t).s_u < way ? early : late) = t;
-  }
-  return ramp_point(low_u_s, w, l, late).speed_u_s;
+  if (next.s_u - braking_u(w, next, scale, l) < begin_u) return true;
+  // backwards from the next valley the ramp rises
+  return w > tight.cap_u_s && speed_at_u(next.cap_u_s, w, l, tight.cap_u_s) < next.s_u - tight.s_u;
 }
 
 RampLimits FeedTerrain::scaled(std::size_t first, std::size_t last, double scale) const {

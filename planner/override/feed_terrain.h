@@ -67,10 +67,10 @@ class FeedTerrain {
   /// Path that braking from w to a valley takes, with the lowest limits on its way.
   double braking_u(double w_u_s, const Valley& valley, double scale, RampLimits& limits) const;
 
-  /// Speed at which braking from w for `next` passes a tight valley before it; w if it begins behind that
-  /// one, inf if it would have to begin before `begin_u`.
-  double passing_u_s(double w_u_s, double begin_u, const Valley& tight, const Valley& next,
-                     double scale) const;
+  /// Braking from w for `next` passes a tight valley before it faster than its cap, or would have to begin
+  /// before `begin_u`.
+  bool passes_above(double w_u_s, double begin_u, const Valley& tight, const Valley& next,
+                    double scale) const;
 
   /// Factor on accelerations and jerks: 1, or in proportional mode the percent, as the whole diagram is
   /// multiplied by it (eq. 5); while the speed is still that of a higher one, that one.

@@ -239,7 +239,7 @@ const Valley* FeedTracker::broken(double w, const std::vector<Valley>& valleys) 
     if (!below(q.cap_u_s, w)) continue;
     // from a valley that is not tight the way leads from valley to valley
     if (!q.tight) return braking_fits(end_u, w, q) ? nullptr : &q;
-    if (terrain_.passing_u_s(w, end_u, q, following(q), scale_) > q.cap_u_s) return &q;
+    if (terrain_.passes_above(w, end_u, q, following(q), scale_)) return &q;
   }
   return nullptr;
 }
