@@ -1,0 +1,26 @@
+#pragma once
+#include "planner/time_law/solver.h"
+
+namespace kadr::planner {
+
+/// Least J with the jerk along the path limited at every node, rest ends included:
+///   |u_(i+1) - u_i| <= j (dt_i + dt_(i+1))/2,   u = dv/dt of an interval.
+/// dt is convex in the squared speeds, so its tangent at a law that keeps the limit lies below it: each
+/// convex problem made with it admits only laws that keep the limit, and its optimum is the next tangent
+/// point. A local optimum of a problem that is not convex. From rest to rest.
+class JerkLimitedLaw final : public LawSolver {
+ public:
+  explicit JerkLimitedLaw(double jerk_u_s3) : jerk_u_s3_(jerk_u_s3) {}
+  std::string_view name() const override { return "jerk-limited"; }
+  LawResult solve(const LawProblem& problem) override;
+  std::uint32_t tangents() const { return tangents_; }  ///< convex problems of the last solution
+
+ private:
+  double jerk_u_s3_;
+  std::uint32_t tangents_ = 0;
+};
+
+/// Highest |u_(i+1) - u_i| / ((dt_i + dt_(i+1))/2) of a law, rest ends included (there dt counts once).
+double node_jerk_u_s3(const LawProblem& problem, const std::vector<double>& speed_u_s);
+
+}  // namespace kadr::planner
