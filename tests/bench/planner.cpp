@@ -96,7 +96,8 @@ void plan_million(benchmark::State& state) {
   }
   rusage use{};
   getrusage(RUSAGE_SELF, &use);
-  state.counters["plan_ms"] = 1e3 * plan_s / static_cast<double>(state.iterations());  // the rest makes the path
+  state.counters["plan_ms"] =
+      1e3 * plan_s / static_cast<double>(state.iterations());  // the rest makes the path
   state.counters["motion_s"] = duration;
   state.counters["pieces"] = pieces;
   state.counters["path_and_plan_MB"] = (after - static_cast<double>(before)) / 1024.0;
