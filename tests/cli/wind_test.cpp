@@ -147,7 +147,7 @@ TEST_CASE("kadr wind speaks JSON") {
 
 TEST_CASE("the commands on the page of a winding scenario write the program that it runs, and check it") {
   const Scratch scratch;
-  for (const std::string name : {"05_hoop", "06_helix"}) {
+  for (const std::string name : {"05_hoop", "06_helix", "14_dome"}) {
     CAPTURE(name);
     const std::string folder = std::string(KADR_SOURCE_DIR) + "/scenarios/" + name;
     std::ostringstream page;
