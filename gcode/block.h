@@ -46,6 +46,7 @@ enum class BlockKind : std::uint8_t {
   program_end,     ///< number 1: by a closing %, which is no call; 0: by all else
   feed_override,   ///< number: 1 enabled, 0 disabled (M48 M49 M50)
   speed_override,  ///< number: 1 enabled, 0 disabled (M48 M49 M51)
+  speed_point,     ///< value: highest speed, mm/s or deg/s along what F measures, where the next move begins
   comment,         ///< text; printed as a note only
 };
 

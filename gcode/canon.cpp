@@ -258,6 +258,7 @@ bool write(LineWriter& line, const Block& block) {
       line.text("PROGRAM_END");
       break;
     case BlockKind::message:
+    case BlockKind::speed_point:
     case BlockKind::comment:
     case BlockKind::feed_override:
     case BlockKind::speed_override:

@@ -81,6 +81,7 @@ class Interpreter {
 
   // settings.cpp: what holds from here on
   void comment();
+  void technology(std::string_view text, Span span);
   void feed_mode();
   void feed_rate();
   void plane();

@@ -2,8 +2,18 @@
 
 #include "gcode/interpreter.h"
 #include "gcode/message.h"
+#include "machine/base/parse_number.h"
 
 namespace kadr::gcode {
+namespace {
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+}  // namespace
 
 void Interpreter::parameters() {
   for (const Words::Setting& setting : words_.settings) {
@@ -20,6 +30,7 @@ void Interpreter::parameters() {
 void Interpreter::comment() {
   const Item& item = line_->items[static_cast<std::size_t>(words_.comment)];
   const ActiveComment active = active_comment(line_->slice(item.bytes));
+  if (same_letters(active.command, "TECH")) return technology(active.text, line_->span(item.bytes));
   const bool message = same_letters(active.command, "MSG");
   const bool debug = same_letters(active.command, "DEBUG");
   if (!message && !debug && !same_letters(active.command, "PRINT")) return;
@@ -28,6 +39,27 @@ void Interpreter::comment() {
       make_block(message || debug ? BlockKind::message : BlockKind::comment, line_->span(item.bytes));
   block.text = message ? valid_text(active.text) : expanded_text(active.text, state_, line_->number);
   emit(block);
+}
+
+/// (TECH s_max=200): a technological limit of speed at the place where it stands.
+void Interpreter::technology(std::string_view text, Span span) {
+  constexpr double kFastest_mm_s = 1e6;
+  const std::size_t equals = text.find('=');
+  const std::string_view name = without_blanks(text.substr(0, equals)),
+                         value = without_blanks(text.substr(equals + 1));
+  const std::optional<double> speed = parse_number(value);
+  if (same_letters(name, "S_MAX") && speed && *speed > 0 && *speed <= kFastest_mm_s) {
+    Block block = make_block(BlockKind::speed_point, span);
+    block.value = *speed;
+    emit(block);
+    return;
+  }
+  const bool known = same_letters(name, "S_MAX");
+  report_.error(problem(
+      Code::technology_comment, span,
+      known ? fmt::format("s_max is {}, allowed above 0 to {:.0f} mm/s", valid_text(value), kFastest_mm_s)
+            : fmt::format("{} is not known", valid_text(name)),
+      "write (TECH s_max=200): at most 200 mm/s where the next move begins"));
 }
 
 void Interpreter::feed_mode() {

@@ -42,6 +42,11 @@ ActiveComment active_comment(std::string_view comment) {
     const std::string_view head = comment.substr(0, alone.size());
     if (same_letters(head, alone)) return {head, {}};
   }
+  // (TECH name = value); a text that only begins like it is an ordinary comment
+  const std::string_view tech = comment.substr(0, 4);
+  if (same_letters(tech, "TECH") && comment.size() > 5 && is_blank(comment[4]) &&
+      comment.find('=') != std::string_view::npos)
+    return {tech, comment.substr(5)};
   if (comma == std::string_view::npos) return {};
   const std::string_view command = comment.substr(0, comma);
   for (const std::string_view known : {"MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND"}) {
@@ -247,7 +252,7 @@ bool Words::read_comment(const Line& line, std::uint32_t at, Report* report) {
   comment = static_cast<int>(at);
   const std::string_view command = active_comment(line.slice(line.items[at].bytes)).command;
   if (!command.empty() && !same_letters(command, "MSG") && !same_letters(command, "DEBUG") &&
-      !same_letters(command, "PRINT")) {
+      !same_letters(command, "PRINT") && !same_letters(command, "TECH")) {
     warn(line.items[at], fmt::format("kadr does not run ({}, ...)", command));
   }
   return true;

@@ -119,7 +119,7 @@ std::string g_name(int tenths);
 /// The command at the head of a comment, such as MSG in "(MSG, text)".
 struct ActiveComment {
   std::string_view command;  ///< upper or lower case as written; empty: an ordinary comment
-  std::string_view text;     ///< behind the comma
+  std::string_view text;     ///< behind the comma, or behind TECH
 };
 ActiveComment active_comment(std::string_view comment);
 bool same_letters(std::string_view text, std::string_view upper_case);

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -54,7 +55,8 @@ struct PathSegment {
   std::int32_t arc = -1;                              ///< index into Path::arcs
   std::uint32_t block = 0;  ///< running number of the motion block; a spline has many segments, a tap two
   Span span;
-  double length_u = 0;       ///< > 0
+  double length_u = 0;                          ///< > 0
+  double begin_limit_u_s = machine::kInfinity;  ///< of the speed where it begins: a technology point
   double feed_length_u = 0;  ///< the length that the programmed feed measures (gcode::FeedLength), mm or deg
   double feed_u_s =
       0;  ///< programmed speed of s (already converted by length_u / feed_length_u); inf for a rapid
@@ -119,6 +121,8 @@ class PathBuilder {
   void add(const gcode::Block& block);
   /// The last segment ends at rest (dwell, stop, spindle word follows).
   void stop();
+  /// A technology point: the next block begins at that speed at most, mm/s or deg/s along what F measures.
+  void limit_speed(double speed_u_s) { speed_limit_u_s_ = std::min(speed_limit_u_s_, speed_u_s); }
   /// The blocks from here on follow the spindle's angle, or no longer.
   void follow_spindle(bool on) { follows_spindle_ = on; }
   const Path& path() const { return path_; }
@@ -145,6 +149,7 @@ class PathBuilder {
   std::vector<int> program_axis_;  ///< [machine axes] index into AxisValues
   std::uint32_t blocks_ = 0;
   bool follows_spindle_ = false;
+  double speed_limit_u_s_ = machine::kInfinity;  ///< of the next segment's beginning
 };
 
 }  // namespace kadr::planner

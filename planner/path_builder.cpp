@@ -199,6 +199,8 @@ void PathBuilder::append(const PathSegment& segment, const gcode::Block& block, 
   path_.nodes_u.insert(path_.nodes_u.end(), end.begin(), end.begin() + static_cast<int>(axes));
   path_.start_s_u.push_back(s + segment.length_u);
   path_.segments.push_back(segment);
+  path_.segments.back().begin_limit_u_s = speed_limit_u_s_ * (segment.length_u / segment.feed_length_u);
+  speed_limit_u_s_ = machine::kInfinity;
   if (segment.kind != SegmentKind::arc) return;
   path_.segments.back().arc = static_cast<std::int32_t>(path_.arcs.size());
   path_.arcs.push_back(arc);

@@ -320,6 +320,7 @@ class Verifier {
     const Derivatives before = derivatives(path_, i - 1, path_.segments[i - 1].length_u);
     const Derivatives after = derivatives(path_, i, 0.0);
     const double tau = machine_.clock.tau_s();
+    at_most("technology point", time, i, -1, v, path_.segments[i].begin_limit_u_s);
     for (std::size_t j = 0; j < machine_.axis.size(); ++j) {
       const machine::AxisModel& axis = machine_.axis[j];
       const double allowed = std::min(axis.junction_accel_u_s2 * tau, axis.junction_jerk_u_s3 * tau * tau);

@@ -30,6 +30,8 @@ ProgramReader::ProgramReader(Job& job, Diagnostics& diagnostics, const AxisValue
 void ProgramReader::take(const Block& block) {
   if (planner::is_motion(block.kind))
     take_motion(block);
+  else if (block.kind == BlockKind::speed_point)
+    builder_.limit_speed(block.value);
   else if (is_event(block))
     take_event(block);
 }

@@ -234,6 +234,8 @@ class TableMaker {
       }
       if (v < cap) cap = v, signature = {LimitedBy::junction, static_cast<std::int8_t>(j)};
     }
+    if (path_.segments[i].begin_limit_u_s < cap)
+      cap = path_.segments[i].begin_limit_u_s, signature = {LimitedBy::program, -1};
     if (path_.segments[i - 1].stop_at_end) cap = 0.0, signature = {LimitedBy::stop, -1};
     table_.cap_u_s[2 * i] = cap;
     table_.signature[2 * i] = signature;

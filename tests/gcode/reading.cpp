@@ -91,6 +91,32 @@ TEST_CASE("the last comment of a line is the message") {
   CHECK_FALSE(outcome.diagnostics.has_errors());
 }
 
+TEST_CASE(
+    "a technology point is no call, stands before the move of its line, and a text like it is a comment") {
+  const Outcome outcome =
+      run("F600\nG1 X10\n(TECH s_max=200)\nG1 X20 (tech S_MAX = 1.5)\n(TECHNOLOGY = 5)\n(TECH)\nG1 X30\n");
+  CHECK(outcome.diagnostics.list().empty());
+  std::vector<double> speeds;
+  std::vector<std::size_t> moves_before;
+  std::size_t moves = 0;
+  for (const Block& b : outcome.blocks) {
+    if (b.kind == BlockKind::feed) ++moves;
+    if (b.kind != BlockKind::speed_point) continue;
+    speeds.push_back(b.value);
+    moves_before.push_back(moves);
+  }
+  CHECK(speeds == std::vector<double>{200, 1.5});
+  CHECK(moves_before == std::vector<std::size_t>{1, 1});
+  // under cutter compensation the corner waits for the move behind it; the point does so too
+  const Outcome offset = run("F600 G0 Z1\nG41 D4 G1 X10 Y10\nG1 X30\n(TECH s_max=3)\nG1 Y30\nG40 G1 X0\n");
+  std::size_t before = 0;
+  for (const Block& b : offset.blocks) {
+    if (b.kind == BlockKind::speed_point) break;
+    before += b.kind == BlockKind::feed && b.end[0] > 20;
+  }
+  CHECK(before == 1);
+}
+
 TEST_CASE("debug messages show parameters with six decimals, quotes and bad bytes don't break the trace") {
   const Outcome outcome = run("#7=1.5\n(DEBUG, a #7 #9999 \"q\" \xFF)\n");
   CHECK(outcome.trace[0] == "MESSAGE \" a 1.500000 ###### \\\"q\\\" \xEF\xBF\xBD\"");

@@ -1,0 +1,75 @@
+#include <doctest/doctest.h>
+
+#include "planner_support.h"
+
+namespace kadr::test {
+
+namespace {
+
+/// Two lines with a technology point between them.
+planner::Path two_lines(const machine::MachineModel& machine, double limit_mm_s) {
+  planner::PathBuilder builder(machine, {});
+  gcode::Block block;
+  block.kind = gcode::BlockKind::feed;
+  block.feed_u_s = 100.0;
+  block.length_u = 50.0;
+  block.end = xyz(50);
+  builder.add(block);
+  builder.limit_speed(limit_mm_s);
+  block.end = xyz(100);
+  builder.add(block);
+  return builder.take();
+}
+
+}  // namespace
+
+TEST_CASE("every planner passes a technology point at its speed, and verify() sees one that does not") {
+  for (const machine::PlanMethod method :
+       {machine::PlanMethod::scheduler, machine::PlanMethod::tube, machine::PlanMethod::certified})
+    for (const machine::SchedulerKind scheduler :
+         {machine::SchedulerKind::chained, machine::SchedulerKind::blockwise}) {
+      machine::MachineModel machine = plain_machine();
+      machine.planner.method = method;
+      machine.planner.scheduler = scheduler;
+      const planner::Path path = two_lines(machine, 30.0);
+      const auto plan = planner::plan(path, machine);
+      REQUIRE(plan);
+      CHECK(planner::verify(path, *plan, machine).empty());
+      CHECK(plan->segments[0].end_u_s <= 30.0 * (1.0 + 1e-12));
+      CHECK(plan->segments[0].end_u_s >= 27.0);
+      CHECK(plan->segments[0].peak_u_s > 90.0);
+
+      const auto fast = planner::plan(two_lines(machine, machine::kInfinity), machine);
+      REQUIRE(fast);
+      const auto found = planner::verify(path, *fast, machine);
+      REQUIRE(!found.empty());
+      CHECK(found.front().what == "technology point");
+      CHECK(found.front().limit == 30.0);
+    }
+}
+
+TEST_CASE(
+    "of two technology points at one place the lower counts, and one before the first move has nothing to "
+    "do") {
+  machine::MachineModel machine = plain_machine();
+  planner::PathBuilder builder(machine, {});
+  builder.limit_speed(1.0);
+  gcode::Block block;
+  block.kind = gcode::BlockKind::feed;
+  block.feed_u_s = 100.0;
+  block.length_u = 50.0;
+  block.end = xyz(50);
+  builder.add(block);
+  builder.limit_speed(40.0);
+  builder.limit_speed(20.0);
+  block.end = xyz(100);
+  builder.add(block);
+  block.end = xyz(150);
+  builder.add(block);
+  const auto plan = planner::plan(builder.path(), machine);
+  REQUIRE(plan);
+  CHECK(plan->segments[0].end_u_s == doctest::Approx(20.0).epsilon(1e-3));
+  CHECK(plan->segments[1].end_u_s > 90.0);
+}
+
+}  // namespace kadr::test
