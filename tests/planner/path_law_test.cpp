@@ -33,8 +33,8 @@ TEST_CASE("random programs on random machines under a time law break no limit") 
     CAPTURE(seed + i);
     CAPTURE(static_cast<int>(machine.planner.method));
     const auto plan = planner::plan(path, machine);
-    if (!plan) FAIL(plan.error().diagnostic.label);
-    check_plan(path, *plan, machine);
+    CHECK_MESSAGE(plan.has_value(), plan.error().diagnostic.label);
+    if (plan) check_plan(path, *plan, machine);
   }
 }
 
@@ -50,6 +50,23 @@ TEST_CASE("on one line a certified law is the trapezoid but for one interval") {
   REQUIRE(law);
   CHECK(law->law.duration_s >= trapezoid->law.duration_s);
   CHECK(law->law.duration_s <= trapezoid->law.duration_s * 1.001);
+}
+
+TEST_CASE("a run that has no time law is K4008 with its place") {
+  machine::MachineModel machine = plain_machine();
+  machine.planner.method = PlanMethod::tube;
+  ProgramWriter program(machine);
+  program.line(xyz(100), 100.0);
+  const planner::Path path = program.take();
+  auto table = planner::limit_table(path, machine);
+  REQUIRE(table);
+  table->accel_u_s2[0] = 0.0;
+  std::vector<planner::Element> elements;
+  const auto planned = planner::plan_time_law(path, *table, {0, 0}, machine, elements);
+  REQUIRE(!planned);
+  CHECK(planned.error().diagnostic.code == Code::law_not_found);
+  CHECK(planned.error().diagnostic.label.find("acceleration limit of 0") != std::string::npos);
+  CHECK(elements.empty());
 }
 
 }  // namespace kadr::test
