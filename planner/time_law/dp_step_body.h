@@ -12,7 +12,7 @@ using Lanes = double __attribute__((vector_size(kLanes * 8), aligned(8), may_ali
 constexpr double kLevelSlack = 1e-9;  ///< of a level's number: rounding of its square root
 
 inline Lanes all(double v) {
-  Lanes out;
+  Lanes out{};
   for (std::int32_t q = 0; q < kLanes; ++q) out[q] = v;
   return out;
 }
