@@ -383,7 +383,7 @@ class Reader {
         ->expected(1)
         ->type_name("");
     repeated(sub, "--method", "NAME",
-             fmt::format("Only this method: {}; repeatable; default: all that\nthe problem states",
+             fmt::format("Only this method: {};\nrepeatable; default: all that the problem states",
                          fmt::join(emulator::kLawMethods, ", ")),
              [this](const std::string& text) -> tl::expected<void, std::string> {
                if (!emulator::method_of(text))
