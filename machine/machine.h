@@ -24,6 +24,7 @@ enum class TickFeed : std::uint8_t { linear, constant };
 enum class AxisLimitRule : std::uint8_t { enforce, report };
 enum class OnAlarm : std::uint8_t { report, stop };
 enum class SchedulerKind : std::uint8_t { chained, blockwise };
+enum class PlanMethod : std::uint8_t { scheduler, tube, certified };
 enum class RampLaw : std::uint8_t { jerk_limited, quintic };
 enum class BlockTicks : std::uint8_t { exact, kl };
 enum class OverrideMode : std::uint8_t { corrected_plus, corrected, proportional };
@@ -89,6 +90,11 @@ struct PlannerSettings {
   SchedulerKind scheduler = SchedulerKind::chained;  ///< ramps over many blocks, or block by block
   BlockTicks block_ticks = BlockTicks::exact;        ///< blockwise: how a block gets its whole control ticks
   RampLaw law = RampLaw::jerk_limited;               ///< shape of a planned ramp
+  PlanMethod method = PlanMethod::scheduler;         ///< or a time law of paper 000
+  double node_mm = 1;                                ///< time laws: longest path between two nodes, > 0
+  int tube_levels = 100;                             ///< tube: speeds tried at a node, 3 to 1000
+  /// Whether plans keep the jerk limits of axes and path: paper 000 knows none.
+  bool keeps_jerk() const { return method == PlanMethod::scheduler; }
   bool operator==(const PlannerSettings&) const = default;
 };
 

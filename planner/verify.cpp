@@ -158,6 +158,7 @@ class Verifier {
     return true;
   }
   bool jerk_limited(std::size_t i) const {
+    if (!machine_.planner.keeps_jerk()) return false;
     const PathSegment& seg = path_.segments[i];
     if (seg.path_limits && machine_.path.max_jerk_mm_s3 < machine::kInfinity) return true;
     if (!axes_enforced(seg)) return false;
@@ -268,11 +269,12 @@ class Verifier {
     const PathSegment& seg = path_.segments[i];
     const machine::PathLimits& limits = machine_.path;
     const double scale = seg.feed_length_u / seg.length_u;  // of F's length per s
+    const bool keeps_jerk = machine_.planner.keeps_jerk();
     if (!seg.rapid) at_most("programmed feed", time, i, -1, x.v, seg.feed_u_s);
     if (!seg.rapid && seg.path_limits) at_most("path feed", time, i, -1, x.v * scale, limits.max_feed_mm_s);
     if (seg.path_limits) {
       at_most("path acceleration", time, i, -1, std::fabs(x.a) * scale, limits.max_accel_mm_s2);
-      at_most("path jerk", time, i, -1, std::fabs(x.j) * scale, limits.max_jerk_mm_s3);
+      if (keeps_jerk) at_most("path jerk", time, i, -1, std::fabs(x.j) * scale, limits.max_jerk_mm_s3);
     }
     const Derivatives d = derivatives(path_, i, x.s - path_.start_s_u[i]);
     if (seg.kind == SegmentKind::arc) check_centripetal(i, x, d, time);
@@ -285,6 +287,7 @@ class Verifier {
       if (!enforced) continue;
       at_most("axis acceleration", time, i, index, std::fabs(x.a * d.d1[j] + x.v * x.v * d.d2[j]),
               axis.max_accel_u_s2);
+      if (!keeps_jerk) continue;
       at_most("axis jerk", time, i, index,
               std::fabs(x.j * d.d1[j] + 3.0 * x.v * x.a * d.d2[j] + x.v * x.v * x.v * d.d3[j]),
               axis.max_jerk_u_s3);

@@ -27,9 +27,10 @@ struct VerifyOptions {
 /// end, joint, inner extreme and sample: s and speed continuous (acceleration too where jerk is limited, jerk
 /// too with quintic ramps), speed >= 0, path and axis speed, axis acceleration and jerk (normal and
 /// tangential parts together on arcs), centripetal acceleration, programmed feed, junction step per axis,
-/// rest at the ends and at every stop, total length, whole ticks where asked. Of a plan block by block also:
-/// whole ticks and acceleration zero at every block end, and a jump of speed there only if the table states
-/// it and kl explains it.
+/// rest at the ends and at every stop, total length, whole ticks where asked. Laws of paper 000 promise no
+/// jerk (PlannerSettings::keeps_jerk): theirs is not looked at. Of a plan block by block also: whole ticks
+/// and acceleration zero at every block end, and a jump of speed there only if the table states it and kl
+/// explains it.
 std::vector<Violation> verify(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
                               const VerifyOptions& options = {});
 

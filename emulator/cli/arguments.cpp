@@ -12,6 +12,7 @@
 
 #include "emulator/cli/exit_codes.h"
 #include "emulator/time_law/law_study.h"
+#include "machine/base/parse_number.h"
 
 namespace kadr::cli {
 namespace {
@@ -46,12 +47,13 @@ class Reader {
     add_machine();
     add_explain();
     add_scenario();
+    add_wind();
     output(command(app_, "version", Command::version, "Print version, compiler and log format"));
   }
 
   std::variant<Arguments, int> read(int argc, const char* const* argv) {
     if (argc > 1 && argv[1][0] != '-' && !known(argv[1])) {
-      fmt::print(stderr, "kadr: there is no command '{}'; commands: {}\n", argv[1], command_names());
+      fmt::print(stderr, "kadr: there is no command '{}'; commands: {}\n", argv[1], command_names(app_));
       return kNotStarted;
     }
     try {
@@ -79,7 +81,8 @@ class Reader {
         name += ' ' + asked->get_name();
       }
       std::string complaint = e.what();
-      if (app_.get_subcommands().empty()) complaint = "which command? " + command_names();
+      if (const std::string names = command_names(*asked); !names.empty())
+        complaint = "which command? " + names;
       fmt::print(stderr, "{}: {}\n{} --help tells more\n", name, complaint, name);
       return kNotStarted;
     }
@@ -482,6 +485,41 @@ class Reader {
     output(list);
   }
 
+  void add_wind() {
+    CLI::App* group = app_.add_subcommand("wind", "Write a filament-winding program for axes X Y A B");
+    group->require_subcommand(1);
+    group->footer(
+        "X: carriage, Y: eye (distance from the mandrel's axis), A: mandrel, B: eye roll. Feed is inverse "
+        "time (G93).\n`kadr wind hoop --help` lists the parameters.");
+    for (const scenarios::WindKind& kind : scenarios::wind_kinds()) {
+      CLI::App* sub = group->add_subcommand(std::string(kind.name), std::string(kind.meaning));
+      sub->callback([this, &kind] {
+        arguments_.command = Command::wind;
+        arguments_.wind_kind = kind.name;
+      });
+      for (const scenarios::WindParameter& p : kind.parameters) wind_parameter(sub, p);
+      sub->add_option("-o,--output", arguments_.program_path, "Program to write; default: standard output")
+          ->type_name("FILE");
+      output(sub);
+      sub->footer(fmt::format("Example: kadr wind {0} --length-mm 120 -o {0}.ngc", kind.name));
+    }
+  }
+
+  /// Bounds are left to the generator, which knows those that hang on other parameters too.
+  void wind_parameter(CLI::App* sub, const scenarios::WindParameter& p) {
+    const std::string flag = scenarios::wind_flag(p.key);
+    sub->add_option_function<std::string>(
+           flag,
+           [this, &p, flag](const std::string& text) {
+             const auto value = parse_number(text);
+             if (!value) throw CLI::ValidationError(fmt::format("{} takes a number; got '{}'", flag, text));
+             arguments_.wind_settings.emplace_back(p.key, *value);
+           },
+           fmt::format("{}; {}{} to {} (default {})", p.meaning, p.whole ? "whole, " : "",
+                       number_text(p.least), number_text(p.most), number_text(p.preset)))
+        ->type_name("N");
+  }
+
   /// Commands are compared to the last bit by ticks: only between places of the path there is something to
   /// allow.
   void check_diff() const {
@@ -493,9 +531,9 @@ class Reader {
           "--tolerance feed goes with --align path: by tick, commands are compared exactly");
   }
 
-  std::string command_names() const {
+  static std::string command_names(const CLI::App& app) {
     std::string names;
-    for (const CLI::App* sub : app_.get_subcommands({}))
+    for (const CLI::App* sub : app.get_subcommands({}))
       names += (names.empty() ? "" : ", ") + sub->get_name();
     return names;
   }

@@ -9,6 +9,7 @@
 #include "emulator/diff/diff_options.h"
 #include "gcode/gcode.h"
 #include "machine/machine.h"
+#include "scenarios/generator/wind.h"
 
 namespace kadr::cli {
 
@@ -29,6 +30,7 @@ enum class Command : std::uint8_t {
   scenario_run,
   scenario_check,
   scenario_list,
+  wind,
   version,
 };
 
@@ -60,6 +62,9 @@ struct Arguments {
   std::vector<std::string> sub_folders;  ///< --subs
   std::string scenario;
   std::string log_path;
+  std::string wind_kind;
+  scenarios::WindSettings wind_settings;
+  std::string program_path;  ///< wind -o; empty: standard output
   std::string publish_url;
   bool plant = true;
   bool log = true;

@@ -22,6 +22,7 @@ int explain_codes(const Arguments& arguments, Console& console);
 int scenario_run(const Arguments& arguments, Console& console);
 int scenario_check(const Arguments& arguments, Console& console);
 int scenario_list(const Arguments& arguments, Console& console);
+int write_winding(const Arguments& arguments, Console& console);
 int print_version(const Arguments& arguments, Console& console);
 
 }  // namespace kadr::cli

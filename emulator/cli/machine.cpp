@@ -1,13 +1,11 @@
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
+#include <algorithm>
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
+#include "emulator/cli/write_file.h"
 #include "emulator/report/text.h"
 #include "emulator/report/travel.h"
 
@@ -50,19 +48,6 @@ std::string renamed(std::string_view toml, const std::string& name) {
     out += line;
   }
   return out;
-}
-
-void write_file(const std::string& path, std::string_view text, bool overwrite) {
-  std::FILE* file = std::fopen(path.c_str(), overwrite ? "w" : "wx");
-  if (!file) {
-    const int reason = errno;
-    throw WorldError(fmt::format("{}: {}{}", path, std::strerror(reason),
-                                 reason == EEXIST ? "; --force overwrites it" : ""));
-  }
-  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  const int write_error = errno;
-  if (std::fclose(file) != 0 || !written)
-    throw WorldError(fmt::format("{}: {}", path, std::strerror(written ? errno : write_error)));
 }
 
 Json machine_json(const std::string& file, bool good, const emulator::Job& job,

@@ -44,6 +44,8 @@ int dispatch(const Arguments& arguments, Console& console) {
       return scenario_check(arguments, console);
     case Command::scenario_list:
       return scenario_list(arguments, console);
+    case Command::wind:
+      return write_winding(arguments, console);
     case Command::version:
       return print_version(arguments, console);
   }

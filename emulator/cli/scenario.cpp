@@ -1,13 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <system_error>
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
+#include "emulator/cli/write_file.h"
 #include "emulator/report/text.h"
 #include "emulator/scenario/scenario.h"
 
@@ -15,13 +13,6 @@ namespace kadr::cli {
 namespace {
 
 using emulator::Json;
-
-void write_file(const std::string& path, std::string_view text) {
-  std::FILE* file = std::fopen(path.c_str(), "w");
-  if (!file) throw WorldError(fmt::format("{}: {}", path, std::strerror(errno)));
-  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  if (std::fclose(file) != 0 || !written) throw WorldError(fmt::format("{}: {}", path, std::strerror(errno)));
-}
 
 /// Rewrites the expectations of a scenario with what it did.
 void update(const std::string& path, const emulator::ScenarioResult& result, Console& console) {

@@ -42,8 +42,8 @@ std::string signed_percent(double ratio) {
 }
 
 std::string held_by(const planner::NodeCap& cap, const TimeLawProblem& problem) {
-  if (cap.reason == planner::NodeCap::kPathFeed) return "path";
   if (cap.reason == planner::NodeCap::kZone) return "zone";
+  if (cap.reason < 0) return "path";
   return problem.axes[static_cast<std::size_t>(cap.reason)].name;
 }
 

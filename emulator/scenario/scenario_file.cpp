@@ -81,7 +81,7 @@ class ScenarioReader {
   void read_winding(const Node& node) {
     TableReader table(&node, "wind", node.span, context_);
     const auto kind = table.choice("kind", {"hoop", "helix", "dome"});
-    const std::string_view kind_name = scenarios::wind_kinds()[kind.value];
+    const std::string_view kind_name = scenarios::wind_kinds()[kind.value].name;
     scenarios::WindSettings settings;
     for (const scenarios::WindParameter& p : scenarios::wind_parameters(kind_name)) {
       const auto value = table.number(p.key, {p.least, p.most, false, p.whole}, p.preset);

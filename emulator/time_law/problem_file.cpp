@@ -318,10 +318,9 @@ class ProblemReader {
 
   void check_end(const Reading<double>& speed, const planner::NodeCap& cap) {
     if (speed.value <= cap.speed_u_s) return;
-    const std::string by = cap.reason == planner::NodeCap::kPathFeed ? std::string("path.max_mm_s")
-                           : cap.reason == planner::NodeCap::kZone
-                               ? std::string("a zone")
-                               : "axis " + out_.axes[static_cast<std::size_t>(cap.reason)].name;
+    const std::string by = cap.reason >= 0 ? "axis " + out_.axes[static_cast<std::size_t>(cap.reason)].name
+                           : cap.reason == planner::NodeCap::kZone ? std::string("a zone")
+                                                                   : std::string("path.max_mm_s");
     tell(Code::problem_no_motion, speed.span,
          fmt::format("is {:g} mm/s, {} allows {:.6g} mm/s there", speed.value, by, cap.speed_u_s));
   }

@@ -149,6 +149,10 @@ void write_settings(TomlWriter& w, const MachineModel& m) {
   w.word("scheduler", m.planner.scheduler == SchedulerKind::chained ? "chained" : "blockwise");
   w.word("block_ticks", m.planner.block_ticks == BlockTicks::exact ? "exact" : "kl");
   w.word("law", m.planner.law == RampLaw::jerk_limited ? "jerk_limited" : "quintic");
+  constexpr std::string_view methods[] = {"scheduler", "tube", "certified"};
+  w.word("method", methods[static_cast<std::size_t>(m.planner.method)]);
+  w.number("node_mm", m.planner.node_mm);
+  w.number("tube_levels", m.planner.tube_levels);
   write_override(w, m.feed_override);
   write_spindle(w, m.spindle);
   constexpr std::string_view integrators[] = {"smooth", "reference", "oracle"};

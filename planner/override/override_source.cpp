@@ -15,10 +15,15 @@ PathLimitTable caps_of(const Path& path, const FeedPlan& plan, const machine::Ma
   const OverrideMode mode = machine.feed_override.mode;
   auto table = limit_table(path, machine, mode == OverrideMode::corrected_plus ? most_percent : 1.0);
   require(table.has_value(), "a path that was planned has limits");
-  // eq. 7 and 8 by the letter: with F_HK and F_KK of blocks that end without acceleration. Ramps that run
-  // over many blocks have no such numbers; there F itself is what is never exceeded
-  if (mode != OverrideMode::corrected || machine.planner.scheduler == machine::SchedulerKind::chained)
-    return std::move(*table);
+  // a time law's own speeds are never exceeded. Eq. 7 and 8 by the letter: with F_HK and F_KK of blocks that
+  // end without acceleration; ramps that run over many blocks have no such numbers, there F itself is what is
+  // never exceeded
+  const bool time_law = machine.planner.method != machine::PlanMethod::scheduler;
+  const bool by_block =
+      mode == OverrideMode::corrected && machine.planner.scheduler == machine::SchedulerKind::blockwise;
+  if (!time_law && !by_block) return std::move(*table);
+  // nor does what follows them keep a jerk that they do not
+  if (time_law) std::fill(table->jerk_u_s3.begin(), table->jerk_u_s3.end(), machine::kInfinity);
   for (std::size_t i = 0; i < path.size(); ++i) {
     double& peak = table->cap_u_s[2 * i + 1];
     peak = std::min(peak, plan.segments[i].peak_u_s);

@@ -9,6 +9,7 @@
 #include "planner/scheduler/limits.h"
 #include "planner/scheduler/pieces.h"
 #include "planner/scheduler/run_planner.h"
+#include "planner/time_law/path_law.h"
 
 namespace kadr::planner {
 namespace {
@@ -49,14 +50,20 @@ class RunMaker {
   RunMaker(const Path& path, const machine::MachineModel& machine, const PathLimitTable& table)
       : path_(path), machine_(machine), table_(table), valley_(path, table) {}
 
-  /// Plans the next run; false after the last one.
+  /// Plans the next run; false after the last one, or where it can't be planned: error().
   bool next() {
     if (behind_ >= path_.size()) return false;
     run_.first = run_.last = behind_;
     while (table_.cap_u_s[2 * run_.last + 2] > 0.0) ++run_.last;
     behind_ = run_.last + 1;
     elements_.clear();
-    if (all_trapezoids(table_, run_))
+    if (machine_.planner.method != machine::PlanMethod::scheduler) {
+      auto planned = plan_time_law(path_, table_, run_, machine_, elements_);
+      if (!planned) {
+        error_ = std::move(planned.error());
+        return false;
+      }
+    } else if (all_trapezoids(table_, run_))
       plan_trapezoids(path_, table_, run_, elements_);
     else
       valley_.plan(run_, elements_);
@@ -72,6 +79,7 @@ class RunMaker {
   /// What the elements last before they fill whole control ticks.
   double time_s() const { return time_s_; }
   const WholeTicks& whole() const { return whole_; }
+  std::optional<PlanError>& error() { return error_; }
 
  private:
   const Path& path_;
@@ -83,6 +91,7 @@ class RunMaker {
   std::vector<Element> elements_;
   double time_s_ = 0;
   WholeTicks whole_;
+  std::optional<PlanError> error_;
 };
 
 }  // namespace
@@ -144,6 +153,7 @@ tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineM
     const bool whole = machine.planner.whole_ticks;
     writer.add(runs.elements(), runs.whole().stretch, whole ? static_cast<double>(ticks) * tau : -1.0);
   }
+  if (runs.error()) return tl::unexpected(std::move(*runs.error()));
   result.law.duration_s = writer.time_s();
   require(!result.law.pieces.empty(), "a path that moves has a law");
   fill_segment_table(path, *limits, result);
@@ -174,6 +184,7 @@ tl::expected<double, PlanError> motion_time_s(const Path& path, const machine::M
     if (!(time < kLongest_s)) return tl::unexpected(too_long(rest, runs.run(), time));
     ticks += runs.whole().ticks;
   }
+  if (runs.error()) return tl::unexpected(std::move(*runs.error()));
   return machine.planner.whole_ticks ? static_cast<double>(ticks) * machine.clock.tau_s() : time;
 }
 

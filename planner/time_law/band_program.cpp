@@ -7,7 +7,12 @@ namespace kadr::planner {
 namespace {
 
 constexpr double kToBoundary = 0.99;  ///< part of the way to a bound that a step may take
-constexpr double kFall = 0.9;         ///< part of itself that an x may lose in a step
+constexpr double kFall = 0.5;         ///< part of itself that an x may lose in a step
+constexpr double kFalls = 0.9;        ///< a gap that falls less is at its rounding
+constexpr std::uint32_t kStill = 4;   ///< after so many steps of that kind
+constexpr double kRoundedGap = 1e-6;  ///< and below this it is taken
+constexpr double kShort = 0.1;        ///< of a predictor's step
+constexpr double kRecentre = 0.5;     ///< of the mean product, instead of a corrector
 constexpr double kLeastSlack = 1e-2;
 
 /// Symmetric matrix of bandwidth 2, factored in place into L D L^T.
@@ -181,6 +186,8 @@ BandOptimum InteriorPoint::run(const BandOptions& options) {
     slack_[k] = std::max(p_.rows[k].bound - row(k, x_), kLeastSlack);
     multiplier_[k] = cost / all / slack_[k];
   }
+  double least_gap = machine::kInfinity;
+  std::uint32_t still = 0;  // steps without progress
   for (;; ++out.steps) {
     out.bound_s = std::max(out.bound_s, bound_s(cost));
     double worst = 0, product = 0;
@@ -188,7 +195,11 @@ BandOptimum InteriorPoint::run(const BandOptions& options) {
       worst = std::max(worst, std::fabs(residual_[k]));
       product += slack_[k] * multiplier_[k];
     }
-    out.converged = worst <= options.broken && cost - out.bound_s <= options.relative_gap * cost;
+    const double gap = cost - out.bound_s;
+    still = gap < least_gap * kFalls ? 0 : still + 1;
+    least_gap = std::min(least_gap, gap);
+    const bool rounded = still >= kStill && gap <= kRoundedGap * cost;
+    out.converged = worst <= options.broken && (gap <= options.relative_gap * cost || rounded);
     if (out.converged || out.steps == options.most_steps) break;
     factor();
     const double mean = product / all;
@@ -198,7 +209,11 @@ BandOptimum InteriorPoint::run(const BandOptions& options) {
     for (std::size_t k = 0; k < rows; ++k)
       left += (slack_[k] + foreseen * slack_step_[k]) * (multiplier_[k] + foreseen * multiplier_step_[k]);
     const double ratio = left / product;
-    direction(ratio * ratio * ratio * mean, true);
+    // a predictor that comes nowhere says nothing about the second order
+    if (foreseen < kShort)
+      direction(kRecentre * mean, false);
+    else
+      direction(ratio * ratio * ratio * mean, true);
     const double length = step_length();
     for (std::size_t i = 1; i + 1 < n_; ++i) x_[i] += length * step_[i];
     for (std::size_t k = 0; k < rows; ++k) {

@@ -31,13 +31,13 @@ double lower_bound_s(const LawProblem& p, const Certificate& c) {
       r[i] += (up - down) * q1 / most;
     };
     const double h = 1.0 / (2.0 * ds);
-    limited(-h, h, p.path_accel_u_s2);
+    limited(-h, h, p.accel_limit_u_s2(i));
     for (std::size_t k = 0; k < p.axes; ++k) {
-      const double x_1 = p.slope[i * p.axes + k], x_2 = p.curvature[i * p.axes + k];
+      const double x_1 = p.slopes(i)[k], x_2 = p.curvatures(i)[k];
       limited(-x_1 * h, x_1 * h + x_2, p.max_accel_u_s2[k]);
     }
     for (std::size_t k = 0; both && k < p.axes; ++k) {
-      const double x_1 = p.slope[(i - 1) * p.axes + k], x_2 = p.curvature[(i - 1) * p.axes + k];
+      const double x_1 = p.slopes_behind(i - 1)[k], x_2 = p.curvatures_behind(i - 1)[k];
       limited(x_2 - x_1 * h, x_1 * h, p.max_accel_u_s2[k]);
     }
   }

@@ -105,7 +105,7 @@ LawResult GreedyOptimum::solve(const LawProblem& p) {
       return tl::unexpected(LawFailure{
           i - 1, p.s_u[i - 1],
           fmt::format("from no speed up to {} can the path behind it be followed", caps[i - 1].speed_u_s)});
-    reach[i - 1] = {std::max(low, 0.0), high};
+    reach[i - 1] = {std::max(low, 0.0), std::min(high, squared(caps[i - 1].speed_u_s))};
   }
   double x = squared(p.begin_u_s);
   if (x < reach[0].low - kInside || x > reach[0].high + kInside)

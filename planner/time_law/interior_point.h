@@ -8,7 +8,7 @@ namespace kadr::planner {
 class InteriorPointOptimum final : public LawSolver {
  public:
   /// @param relative_gap  between its cost and the lower bound
-  explicit InteriorPointOptimum(double relative_gap = 1e-8) : relative_gap_(relative_gap) {}
+  explicit InteriorPointOptimum(double relative_gap = 5e-8) : relative_gap_(relative_gap) {}
   std::string_view name() const override { return "optimum"; }
   LawResult solve(const LawProblem& problem) override;
   /// The same, begun at a law that is known.

@@ -20,6 +20,12 @@ std::optional<LawFailure> check_shape(const LawProblem& p) {
   if (p.slope.size() != n * p.axes || p.curvature.size() != n * p.axes)
     return wrong(fmt::format("{} slopes and {} curvatures, {} nodes of {} axes need {}", p.slope.size(),
                              p.curvature.size(), n, p.axes, n * p.axes));
+  const auto given = [](const std::vector<double>& v, std::size_t size) {
+    return v.empty() || v.size() == size;
+  };
+  if (!given(p.slope_behind, n * p.axes) || !given(p.curvature_behind, n * p.axes) || !given(p.cap_u_s, n) ||
+      !given(p.interval_accel_u_s2, n))
+    return wrong(fmt::format("values behind nodes, caps or accelerations that are not of {} nodes", n));
   if (p.max_feed_u_s.size() != p.axes || p.max_accel_u_s2.size() != p.axes)
     return wrong(fmt::format("limits of {} and {} axes, {} axes", p.max_feed_u_s.size(),
                              p.max_accel_u_s2.size(), p.axes));
@@ -57,14 +63,21 @@ std::optional<LawFailure> check_nodes(const LawProblem& p) {
       return LawFailure{i, p.s_u[i], fmt::format("s is {}, nodes must ascend", p.s_u[i])};
     bool moves = false;
     for (std::size_t c = 0; c < p.axes; ++c) {
-      const double slope = p.slope[i * p.axes + c], curvature = p.curvature[i * p.axes + c];
-      if (!std::isfinite(slope) || !std::isfinite(curvature))
+      const double slope = p.slopes(i)[c], curvature = p.curvatures(i)[c];
+      if (!std::isfinite(slope) || !std::isfinite(curvature) || !std::isfinite(p.slopes_behind(i)[c]) ||
+          !std::isfinite(p.curvatures_behind(i)[c]))
         return LawFailure{
             i, p.s_u[i],
             fmt::format("axis {}: X' {} and X'' {}, both must be finite", c + 1, slope, curvature)};
       moves = moves || slope != 0.0;
     }
-    if (!moves && !std::isfinite(p.path_feed_u_s))
+    if (!p.cap_u_s.empty() && !(p.cap_u_s[i] >= 0.0))
+      return LawFailure{i, p.s_u[i], fmt::format("a cap of {}, it may not be below 0", p.cap_u_s[i])};
+    if (!p.interval_accel_u_s2.empty() && i > 0 && !positive(p.interval_accel_u_s2[i]))
+      return LawFailure{
+          i, p.s_u[i],
+          fmt::format("an acceleration limit of {}, it must be above 0", p.interval_accel_u_s2[i])};
+    if (!moves && !std::isfinite(p.path_feed_u_s) && p.cap_u_s.empty())
       return LawFailure{i, p.s_u[i], "no axis moves here, and the path has no feed limit"};
   }
   return std::nullopt;
@@ -98,8 +111,9 @@ std::vector<NodeCap> node_caps(const LawProblem& p) {
   std::vector<NodeCap> caps(p.nodes());
   for (std::size_t i = 0; i < p.nodes(); ++i) {
     caps[i].speed_u_s = p.path_feed_u_s;
+    if (!p.cap_u_s.empty() && p.cap_u_s[i] < caps[i].speed_u_s) caps[i] = {p.cap_u_s[i], NodeCap::kGiven};
     for (std::size_t c = 0; c < p.axes; ++c) {
-      const double slope = std::fabs(p.slope[i * p.axes + c]);
+      const double slope = std::max(std::fabs(p.slopes(i)[c]), std::fabs(p.slopes_behind(i)[c]));
       if (slope * caps[i].speed_u_s <= p.max_feed_u_s[c] || slope == 0.0) continue;
       caps[i] = {p.max_feed_u_s[c] / slope, static_cast<std::int32_t>(c)};
     }
@@ -132,14 +146,14 @@ AccelRows accel_rows(const LawProblem& p) {
       rows.after[r] = after / limit;
       ++r;
     };
-    row(-h, h, p.path_accel_u_s2);
+    row(-h, h, p.accel_limit_u_s2(i));
     for (std::size_t c = 0; c < p.axes; ++c) {
-      const double slope = p.slope[i * p.axes + c] * h;
-      row(-slope, p.curvature[i * p.axes + c] + slope, p.max_accel_u_s2[c]);
+      const double slope = p.slopes(i)[c] * h;
+      row(-slope, p.curvatures(i)[c] + slope, p.max_accel_u_s2[c]);
     }
     for (std::size_t c = 0; both && c < p.axes; ++c) {
-      const double slope = p.slope[(i - 1) * p.axes + c] * h;
-      row(p.curvature[(i - 1) * p.axes + c] - slope, slope, p.max_accel_u_s2[c]);
+      const double slope = p.slopes_behind(i - 1)[c] * h;
+      row(p.curvatures_behind(i - 1)[c] - slope, slope, p.max_accel_u_s2[c]);
     }
   }
   return rows;

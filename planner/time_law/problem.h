@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -44,12 +45,31 @@ struct LawProblem {
   double begin_u_s = 0;  ///< speed at the first node, exactly
   double end_u_s = 0;    ///< and at the last
   std::vector<SpeedZone> zones;
+  // where X' or X'' jump, as at a corner: their values behind each node; empty: the same
+  std::vector<double> slope_behind, curvature_behind;  // [nodes][axes]
+  std::vector<double> cap_u_s;                         // [nodes], further speed limits of nodes; empty: none
+  std::vector<double>
+      interval_accel_u_s2;  // [nodes], of |a| in the interval that ends at a node; empty: none
   AccelTest accel_test = AccelTest::both_nodes;
   Penalty penalty;
 
   std::size_t nodes() const { return s_u.size(); }
   double length_u() const { return s_u.back() - s_u.front(); }
   double ds_u(std::size_t interval) const { return s_u[interval] - s_u[interval - 1]; }
+  /// X' and X'' of all axes at a node, and just behind it.
+  const double* slopes(std::size_t node) const { return &slope[node * axes]; }
+  const double* curvatures(std::size_t node) const { return &curvature[node * axes]; }
+  const double* slopes_behind(std::size_t node) const {
+    return slope_behind.empty() ? slopes(node) : &slope_behind[node * axes];
+  }
+  const double* curvatures_behind(std::size_t node) const {
+    return curvature_behind.empty() ? curvatures(node) : &curvature_behind[node * axes];
+  }
+  /// Highest |a| of an interval.
+  double accel_limit_u_s2(std::size_t interval) const {
+    return interval_accel_u_s2.empty() ? path_accel_u_s2
+                                       : std::min(path_accel_u_s2, interval_accel_u_s2[interval]);
+  }
   /// Factor on a^2 in the cost of an interval, s^5/u^2.
   double penalty_weight(std::size_t interval) const;
 };
@@ -66,7 +86,7 @@ std::optional<LawFailure> check_problem(const LawProblem& problem);
 
 /// Highest speed of a node, and what holds it there.
 struct NodeCap {
-  static constexpr std::int32_t kPathFeed = -1, kZone = -2;
+  static constexpr std::int32_t kPathFeed = -1, kZone = -2, kGiven = -3;  ///< kGiven: of cap_u_s
   double speed_u_s = 0;
   std::int32_t reason = kPathFeed;  ///< an axis >= 0, or one of the constants
 };

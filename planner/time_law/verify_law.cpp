@@ -50,9 +50,16 @@ class Checker {
       if (!std::isfinite(v_[i]) || v_[i] < 0.0) broken("speed below 0", s, v_[i], 0.0);
       node_limit("speed", p_.axes, s, v_[i], p_.path_feed_u_s);
       for (std::size_t c = 0; c < p_.axes; ++c)
-        node_limit("speed", c, s, std::fabs(p_.slope[i * p_.axes + c]) * v_[i], p_.max_feed_u_s[c]);
+        for (const double slope : {p_.slopes(i)[c], p_.slopes_behind(i)[c]})
+          node_limit("speed", c, s, std::fabs(slope) * v_[i], p_.max_feed_u_s[c]);
+      if (!p_.cap_u_s.empty()) given_cap(i);
       if (i > 0) interval(i);
     }
+  }
+
+  void given_cap(std::size_t i) {
+    if (v_[i] > p_.cap_u_s[i] * (1.0 + options_.tolerance))
+      broken("given cap", p_.s_u[i], v_[i], p_.cap_u_s[i]);
   }
 
   double accel(std::size_t i) const {
@@ -63,14 +70,15 @@ class Checker {
     const double a = accel(i);
     if (!(v_[i] + v_[i - 1] > 0.0)) broken("time that does not pass", p_.s_u[i], 0.0, 0.0);
     node_limit("acceleration", p_.axes, p_.s_u[i], std::fabs(a), p_.path_accel_u_s2);
+    if (!p_.interval_accel_u_s2.empty())
+      node_limit("acceleration", p_.axes, p_.s_u[i], std::fabs(a), p_.interval_accel_u_s2[i]);
     for (std::size_t end = 0; end < (p_.accel_test == AccelTest::both_nodes ? 2u : 1u); ++end) {
       const std::size_t node = i - end;
-      for (std::size_t c = 0; c < p_.axes; ++c) {
-        const std::size_t at = node * p_.axes + c;
+      const double* slope = end == 0 ? p_.slopes(node) : p_.slopes_behind(node);
+      const double* curvature = end == 0 ? p_.curvatures(node) : p_.curvatures_behind(node);
+      for (std::size_t c = 0; c < p_.axes; ++c)
         node_limit("acceleration", c, p_.s_u[node],
-                   std::fabs(p_.slope[at] * a + p_.curvature[at] * v_[node] * v_[node]),
-                   p_.max_accel_u_s2[c]);
-      }
+                   std::fabs(slope[c] * a + curvature[c] * v_[node] * v_[node]), p_.max_accel_u_s2[c]);
     }
   }
 

@@ -16,34 +16,40 @@ namespace kadr::scenarios {
 namespace {
 
 constexpr std::array kHoop = {
-    WindParameter{"radius_mm", 50, 5, 2000, false, "radius of the mandrel"},
-    WindParameter{"length_mm", 300, 10, 10000, false, "length that is covered"},
-    WindParameter{"band_mm", 6, 0.5, 500, false, "width of the fibre band"},
-    WindParameter{"layers", 2, 1, 1000, true, "layers, there and back in turn"},
-    WindParameter{"gap_mm", 20, 1, 1000, false, "eye above the mandrel's surface"},
-    WindParameter{"step_deg", 5, 0.1, 45, false, "mandrel angle of a block, at most"},
-    WindParameter{"fibre_mm_s", 200, 1, 5000, false, "speed at which fibre is laid"},
+    WindParameter{"radius_mm", 50, 5, 2000, false, "Radius of the mandrel"},
+    WindParameter{"length_mm", 300, 10, 10000, false, "Length that is covered"},
+    WindParameter{"band_mm", 6, 0.5, 500, false, "Width of the fibre band"},
+    WindParameter{"layers", 2, 1, 1000, true, "Layers, there and back in turn"},
+    WindParameter{"gap_mm", 20, 1, 1000, false, "Eye above the mandrel's surface"},
+    WindParameter{"step_deg", 5, 0.1, 45, false, "Mandrel angle of a block, at most"},
+    WindParameter{"fibre_mm_s", 200, 1, 5000, false, "Speed at which fibre is laid"},
 };
 
 constexpr std::array kHelix = {
-    WindParameter{"radius_mm", 50, 5, 2000, false, "radius of the mandrel"},
-    WindParameter{"length_mm", 300, 10, 10000, false, "length that is covered"},
-    WindParameter{"angle_deg", 45, 10, 85, false, "fibre angle to the axis"},
-    WindParameter{"band_mm", 8, 0.5, 500, false, "width of the fibre band"},
-    WindParameter{"turn_deg", 90, 30, 720, false, "least mandrel angle of a turn at the end"},
-    WindParameter{"gap_mm", 20, 1, 1000, false, "eye above the mandrel's surface"},
-    WindParameter{"step_mm", 2, 0.1, 100, false, "carriage way of a block, at most"},
-    WindParameter{"fibre_mm_s", 200, 1, 5000, false, "speed at which fibre is laid"},
+    WindParameter{"radius_mm", 50, 5, 2000, false, "Radius of the mandrel"},
+    WindParameter{"length_mm", 300, 10, 10000, false, "Length that is covered"},
+    WindParameter{"angle_deg", 45, 10, 85, false, "Fibre angle to the axis"},
+    WindParameter{"band_mm", 8, 0.5, 500, false, "Width of the fibre band"},
+    WindParameter{"turn_deg", 90, 30, 720, false, "Least mandrel angle of a turn at the end"},
+    WindParameter{"gap_mm", 20, 1, 1000, false, "Eye above the mandrel's surface"},
+    WindParameter{"step_mm", 2, 0.1, 100, false, "Carriage way of a block, at most"},
+    WindParameter{"fibre_mm_s", 200, 1, 5000, false, "Speed at which fibre is laid"},
 };
 
 constexpr std::array kDome = {
-    WindParameter{"radius_mm", 60, 5, 2000, false, "radius of cylinder and domes"},
-    WindParameter{"length_mm", 200, 10, 10000, false, "length of the cylinder"},
-    WindParameter{"polar_mm", 20, 1, 1900, false, "radius of the polar opening, below radius_mm"},
-    WindParameter{"band_mm", 8, 0.5, 500, false, "width of the fibre band"},
-    WindParameter{"free_mm", 60, 1, 1000, false, "free fibre between mandrel and eye"},
-    WindParameter{"blocks", 60, 8, 10000, true, "blocks over the cylinder, and over each dome"},
-    WindParameter{"fibre_mm_s", 150, 1, 5000, false, "speed at which fibre is laid"},
+    WindParameter{"radius_mm", 60, 5, 2000, false, "Radius of cylinder and domes"},
+    WindParameter{"length_mm", 200, 10, 10000, false, "Length of the cylinder"},
+    WindParameter{"polar_mm", 20, 1, 1900, false, "Radius of the polar opening, below radius_mm"},
+    WindParameter{"band_mm", 8, 0.5, 500, false, "Width of the fibre band"},
+    WindParameter{"free_mm", 60, 1, 1000, false, "Free fibre between mandrel and eye"},
+    WindParameter{"blocks", 60, 8, 10000, true, "Blocks over the cylinder, and over each dome"},
+    WindParameter{"fibre_mm_s", 150, 1, 5000, false, "Speed at which fibre is laid"},
+};
+
+constexpr std::array kKinds = {
+    WindKind{"hoop", "Cylinder, one band a turn, layer upon layer", kHoop},
+    WindKind{"helix", "Cylinder at a fibre angle, there and back until it is covered", kHelix},
+    WindKind{"dome", "Cylinder with two hemispheres, along geodesics", kDome},
 };
 
 // more blocks than this are a slip of the parameters
@@ -81,13 +87,18 @@ double expected_points(std::string_view kind, const WindValues& p) {
 
 }  // namespace
 
-std::vector<std::string_view> wind_kinds() { return {"hoop", "helix", "dome"}; }
+std::span<const WindKind> wind_kinds() { return kKinds; }
 
 std::span<const WindParameter> wind_parameters(std::string_view kind) {
-  if (kind == "hoop") return kHoop;
-  if (kind == "helix") return kHelix;
-  if (kind == "dome") return kDome;
+  for (const WindKind& k : kKinds)
+    if (k.name == kind) return k.parameters;
   return {};
+}
+
+std::string wind_flag(std::string_view key) {
+  std::string flag = "--" + std::string(key);
+  std::replace(flag.begin(), flag.end(), '_', '-');
+  return flag;
 }
 
 WindValues::WindValues(std::string_view kind, const WindSettings& settings)
@@ -158,13 +169,10 @@ std::string render_winding(const Winding& winding, std::string_view command) {
 }
 
 std::string wind_command(std::string_view kind, const WindSettings& settings) {
-  std::string out = fmt::format("kadr-wind {}", kind);
+  std::string out = fmt::format("kadr wind {}", kind);
   const WindValues values(kind, settings);
-  for (const WindParameter& p : wind_parameters(kind)) {
-    std::string flag(p.key);
-    std::replace(flag.begin(), flag.end(), '_', '-');
-    fmt::format_to(std::back_inserter(out), " --{} {}", flag, value_text(values[p.key]));
-  }
+  for (const WindParameter& p : wind_parameters(kind))
+    fmt::format_to(std::back_inserter(out), " {} {}", wind_flag(p.key), value_text(values[p.key]));
   return out;
 }
 

@@ -16,7 +16,7 @@
 /// (only + - * / sqrt and machine/base/numbers.h).
 namespace kadr::scenarios {
 
-/// One parameter of a winding: key as in a scenario file; on a command line with dashes ("--radius-mm").
+/// One parameter of a winding: key as in a scenario file.
 struct WindParameter {
   std::string_view key;
   double preset = 0;
@@ -26,10 +26,19 @@ struct WindParameter {
   std::string_view meaning;
 };
 
-/// "hoop", "helix", "dome".
-std::vector<std::string_view> wind_kinds();
-/// Parameters of a kind, in the order in which they are written; empty for an unknown kind.
+/// A winding by name.
+struct WindKind {
+  std::string_view name;
+  std::string_view meaning;
+  std::span<const WindParameter> parameters;  ///< in the order in which they are written
+};
+
+/// Hoop, helix and dome: the table from which scenario files and the command line read.
+std::span<const WindKind> wind_kinds();
+/// Parameters of a kind; empty for an unknown one.
 std::span<const WindParameter> wind_parameters(std::string_view kind);
+/// A parameter on the command line: "--radius-mm" for "radius_mm".
+std::string wind_flag(std::string_view key);
 
 /// A place of the winding: where the fibre touches the mandrel and where the eye stands.
 struct WindPoint {
@@ -51,8 +60,7 @@ struct Winding {
 
 using WindSettings = std::vector<std::pair<std::string, double>>;
 
-/// Cylinder, one band a turn, layer upon layer. The eye leads by atan(b/(2 pi R)); a closing turn at each
-/// end.
+/// The winding of a kind.
 /// @param settings key and value of what differs from the preset
 /// @return the points, or one sentence that names the parameter, its value and its range
 tl::expected<Winding, std::string> wind(std::string_view kind, const WindSettings& settings);
@@ -61,7 +69,7 @@ tl::expected<Winding, std::string> wind(std::string_view kind, const WindSetting
 /// @param command how it was made; stands in line 1
 std::string render_winding(const Winding& winding, std::string_view command);
 
-/// "kadr-wind hoop --radius-mm 50 ...": the command that makes this program, every parameter named.
+/// "kadr wind hoop --radius-mm 50 ...": the command that makes this program, every parameter named.
 std::string wind_command(std::string_view kind, const WindSettings& settings);
 
 }  // namespace kadr::scenarios

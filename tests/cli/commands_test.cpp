@@ -495,7 +495,7 @@ TEST_CASE("usage mistakes: exit 2, a complaint and nothing on standard output") 
       {{"run", "square.ngc", "-o", "no/such/folder/x.lcmlog"}, "No such file or directory"},
       {{"run", "square.ngc", "--no-log", "--publish", "bogus://x"}, "bogus://x"},
       {{"canon", "square.ngc", "--lines", "5-2"}, "--lines takes"},
-      {{"machine"}, "subcommand"},
+      {{"machine"}, "kadr machine: which command? show, list, check, new\n"},
       {{"check", "square.ngc", "--format", "xml"}, "--format knows"},
   };
   for (const auto& [arguments, complaint] : cases) {
@@ -516,7 +516,7 @@ TEST_CASE("help texts go to standard output, name every command and the units of
   CHECK(help.code == 0);
   CHECK(help.err.empty());
   for (const std::string command :
-       {"run", "check", "plan", "canon", "info", "machine", "explain", "scenario", "version"})
+       {"run", "check", "plan", "canon", "info", "machine", "explain", "scenario", "wind", "version"})
     CHECK(contains(help.out, "\n  " + command + " "));
   const Finished run = call({"run", "--help"});
   CHECK(run.code == 0);

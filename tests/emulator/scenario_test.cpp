@@ -190,7 +190,7 @@ wind = { kind = "hoop", length_mm = 24, layers = 1 }
   REQUIRE(s.has_value());
   CHECK(s->program_name == "wind_hoop.ngc");
   CHECK(s->generated_program.starts_with(
-      "(kadr-wind hoop --radius-mm 50 --length-mm 24 --band-mm 6 --layers 1"));
+      "(kadr wind hoop --radius-mm 50 --length-mm 24 --band-mm 6 --layers 1"));
 
   const std::string text = refusal(
       "format = 1\nname = \"hoop\"\nmachine = \"winder4\"\n"

@@ -144,7 +144,8 @@ TEST_CASE("a dome winding follows geodesics: r sin(alpha) stays the polar radius
 }
 
 TEST_CASE("G93 feeds lay fibre at the speed asked for") {
-  for (const auto kind : wind_kinds()) {
+  for (const WindKind& shape : wind_kinds()) {
+    const std::string_view kind = shape.name;
     CAPTURE(kind);
     const auto w = wind(kind, {{"fibre_mm_s", 120}});
     REQUIRE(w);
@@ -165,7 +166,7 @@ TEST_CASE("a winding program names its command, and the command's parameters mak
   const WindSettings settings = {{"layers", 1}, {"length_mm", 60}};
   const std::string command = wind_command("hoop", settings);
   CHECK(command ==
-        "kadr-wind hoop --radius-mm 50 --length-mm 60 --band-mm 6 --layers 1 --gap-mm 20 --step-deg 5 "
+        "kadr wind hoop --radius-mm 50 --length-mm 60 --band-mm 6 --layers 1 --gap-mm 20 --step-deg 5 "
         "--fibre-mm-s 200");
   const std::string once = render_winding(*wind("hoop", settings), command);
   CHECK(once == render_winding(*wind("hoop", settings), command));

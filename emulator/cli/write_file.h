@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace kadr::cli {
+
+/// Writes a whole text to a file.
+/// @param overwrite false: a file that is there already is refused, and --force named as the way out
+/// @throws WorldError with path and reason
+void write_file(const std::string& path, std::string_view text, bool overwrite = true);
+
+}  // namespace kadr::cli

@@ -1,0 +1,214 @@
+#include "planner/time_law/path_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "machine/base/numbers.h"
+#include "planner/time_law/certified.h"
+#include "planner/time_law/greedy.h"
+#include "planner/time_law/tube.h"
+
+namespace kadr::planner {
+namespace {
+
+using machine::PlanMethod;
+
+constexpr double kArcStep_rad = 2.0 * kPi / 180.0;
+constexpr double kLeastIntervals = 100.0;  ///< of a run
+constexpr double kPaperLength_u = 2846.9;
+constexpr double kRampIntervals = 8.0;
+constexpr double kWiden = 0.3;   ///< an interval's length by its distance from a slow joint
+constexpr double kSlower = 0.9;  ///< of a segment's cap: a joint that is slow
+constexpr double kAtCap = 1e-9;  ///< relative: a speed that its cap holds
+
+double arc_step_rad(const Path& path, std::size_t segment, double intervals) {
+  if (path.segments[segment].kind != SegmentKind::arc) return 0.0;
+  const ArcShape& arc = path.arcs[static_cast<std::size_t>(path.segments[segment].arc)];
+  return std::fabs(arc.sweep_rad) / intervals;
+}
+
+/// Part of a limit that an interval of so many radians may use.
+double arc_share(double step_rad) { return 1.0 / (1.0 + 6.0 * step_rad * step_rad / 8.0); }
+
+class ProblemMaker {
+ public:
+  ProblemMaker(const Path& path, const PathLimitTable& table, const Run& run,
+               const machine::MachineModel& machine)
+      : path_(path), table_(table), run_(run), machine_(machine), axes_(machine.axis.size()) {}
+
+  RunProblem make() {
+    LawProblem& p = out_.problem;
+    p.axes = axes_;
+    for (const machine::AxisModel& axis : machine_.axis) {
+      p.max_feed_u_s.push_back(axis.max_feed_u_s);
+      p.max_accel_u_s2.push_back(axis.max_accel_u_s2);
+    }
+    const double length = path_.start_s_u[run_.last + 1] - path_.start_s_u[run_.first];
+    // as much a millimetre as in the paper, whose path was one stretch of 2846.9 mm
+    p.penalty.per_length = true;
+    p.penalty.weight_s5_u2 *= length / kPaperLength_u;
+    longest_u_ = std::min(machine_.planner.node_mm, length / kLeastIntervals);
+    node(run_.first, 0.0);
+    for (std::size_t i = run_.first; i <= run_.last; ++i) segment(i);
+    // rest at both ends
+    p.cap_u_s.front() = p.cap_u_s.back() = 0.0;
+    return std::move(out_);
+  }
+
+ private:
+  void segment(std::size_t i) {
+    place_nodes(i);
+    const double length = path_.segments[i].length_u;
+    double longest = 0.0, from = 0.0;
+    for (const double local : places_) {
+      longest = std::max(longest, local - from);
+      from = local;
+    }
+    const double share = arc_share(arc_step_rad(path_, i, length / longest));
+    behind(i, 0.0, share);
+    for (const double local : places_) {
+      node(i, local);
+      LawProblem& p = out_.problem;
+      p.interval_accel_u_s2.back() = table_.accel_u_s2[i] * share;
+      at(i, local, share, p.slope, p.curvature);
+      if (local < length) behind(i, local, share);
+    }
+  }
+
+  /// Ends of a segment's intervals. Where a joint is slower than the segment, the way of the ramp between
+  /// them is kRampIntervals intervals, which widen from there on.
+  void place_nodes(std::size_t i) {
+    const double length = path_.segments[i].length_u;
+    double widest = longest_u_;
+    if (path_.segments[i].kind == SegmentKind::arc)
+      widest = std::min(widest, length * kArcStep_rad / arc_step_rad(path_, i, 1.0));
+    const auto finest = [&](std::size_t joint) {
+      const double fast = table_.cap_u_s[2 * i + 1], slow = table_.cap_u_s[2 * joint];
+      const double ramp = (fast - slow) * (fast + slow) / (2.0 * table_.accel_u_s2[i]);
+      return slow < fast * kSlower ? ramp / kRampIntervals : widest;
+    };
+    const double left = finest(i), right = finest(i + 1);
+    places_.clear();
+    for (double x = 0.0; x < length;) {
+      const double y = length - x;
+      const double step = std::min({widest, std::max(left, kWiden * x), std::max(right, kWiden * y)});
+      // what is left is one interval, or two halves rather than a short one
+      x = y <= 1.2 * step ? length : y < 2.0 * step ? x + 0.5 * y : x + step;
+      places_.push_back(x);
+    }
+  }
+
+  /// A new node on a segment; what holds behind it is set by behind().
+  void node(std::size_t i, double local) {
+    LawProblem& p = out_.problem;
+    const bool begins = local == 0.0, ends = local == path_.segments[i].length_u;
+    p.s_u.push_back(ends ? path_.start_s_u[i + 1] : path_.start_s_u[i] + local);
+    p.cap_u_s.push_back(table_.cap_u_s[2 * i + (begins ? 0 : ends ? 2 : 1)]);
+    p.interval_accel_u_s2.push_back(table_.accel_u_s2[i]);
+    for (auto* v : {&p.slope, &p.curvature, &p.slope_behind, &p.curvature_behind})
+      v->resize(v->size() + axes_, 0.0);
+    out_.segment.push_back(i);
+  }
+
+  void behind(std::size_t i, double local, double share) {
+    at(i, local, share, out_.problem.slope_behind, out_.problem.curvature_behind);
+  }
+
+  /// Derivatives of the last node, as if the axes' limits were lower by a share. Limits that are only
+  /// reported do not count: then the axes do not.
+  void at(std::size_t i, double local, double share, std::vector<double>& slope,
+          std::vector<double>& curvature) {
+    std::array<double, kProgramAxes> d1{}, d2{};
+    eval_tangent(path_, i, local, {d1.data(), axes_});
+    eval_curvature(path_, i, local, {d2.data(), axes_});
+    const bool counts =
+        machine_.planner.axis_limits == machine::AxisLimitRule::enforce || path_.segments[i].rapid;
+    for (std::size_t c = 0; c < axes_; ++c) {
+      slope[slope.size() - axes_ + c] = counts ? d1[c] / share : 0.0;
+      curvature[curvature.size() - axes_ + c] = counts ? d2[c] / share : 0.0;
+    }
+  }
+
+  const Path& path_;
+  const PathLimitTable& table_;
+  const Run& run_;
+  const machine::MachineModel& machine_;
+  std::size_t axes_;
+  double longest_u_ = 1;
+  std::vector<double> places_;
+  RunProblem out_;
+};
+
+LawResult solve(const LawProblem& problem, const machine::MachineModel& machine) {
+  if (machine.planner.method == PlanMethod::certified) return CertifiedLaw().solve(problem);
+  TubeOptions options;
+  options.levels = machine.planner.tube_levels;
+  options.grid = TubeGrid::nominal_kept;
+  TubeDp tube(options);
+  LawResult law = tube.solve(problem);
+  if (law) return law;
+  // levels over the whole range can be too coarse for short intervals: then the tube begins round the time
+  // optimum
+  const LawResult known = GreedyOptimum().solve(problem);
+  if (!known) return known;
+  const double fastest = *std::max_element(known->speed_u_s.begin(), known->speed_u_s.end());
+  return tube.refine(problem, *known, options.relative_half_width * fastest);
+}
+
+PlanError not_found(const Path& path, const RunProblem& run, const LawFailure& failure) {
+  const PathSegment& seg = path.segments[run.segment[failure.node]];
+  Diagnostic d{};
+  d.code = Code::law_not_found;
+  d.span = seg.span;
+  d.message = std::string(code_entry(d.code).title);
+  d.label = fmt::format("at {:.3f} mm of the path (node {} of {}): {}", failure.s_u, failure.node + 1,
+                        run.problem.nodes(), failure.reason);
+  d.help = "take more planner.tube_levels, a larger planner.node_mm, or planner.method = \"certified\"";
+  return {std::move(d)};
+}
+
+Signature signature_of(const PathLimitTable& table, const RunProblem& run, std::size_t node, double speed) {
+  const double cap = run.problem.cap_u_s[node];
+  if (speed < cap * (1.0 - kAtCap)) return {LimitedBy::length, -1};
+  const std::size_t i = run.segment[node];
+  return table.signature[2 * i + 1];
+}
+
+}  // namespace
+
+RunProblem run_problem(const Path& path, const PathLimitTable& table, const Run& run,
+                       const machine::MachineModel& machine) {
+  return ProblemMaker(path, table, run, machine).make();
+}
+
+tl::expected<void, PlanError> plan_time_law(const Path& path, const PathLimitTable& table, const Run& run,
+                                            const machine::MachineModel& machine, std::vector<Element>& out) {
+  RunProblem stated = run_problem(path, table, run, machine);
+  LawProblem& p = stated.problem;
+  if (const auto wrong = check_problem(p)) return tl::unexpected(not_found(path, stated, *wrong));
+  LawResult law = solve(p, machine);
+  if (!law) return tl::unexpected(not_found(path, stated, law.error()));
+  const std::vector<NodeCap> caps = node_caps(p);
+  std::vector<double>& v = law->speed_u_s;
+  // speeds that only rounding keeps off their cap are on it, so that holds are holds
+  for (std::size_t i = 1; i + 1 < v.size(); ++i)
+    if (std::fabs(v[i] - caps[i].speed_u_s) <= 1e-12 * v[i]) v[i] = caps[i].speed_u_s;
+  for (std::size_t i = 1; i < v.size(); ++i) {
+    const double length = p.ds_u(i);
+    const Signature why = signature_of(table, stated, i, std::max(v[i - 1], v[i]));
+    if (v[i - 1] == v[i]) {
+      if (!out.empty() && out.back().is_hold() && out.back().v0_u_s == v[i] && out.back().signature == why)
+        out.back().length_u += length;
+      else
+        out.push_back({p.s_u[i - 1], length, v[i], v[i], {0, 0}, why});
+    } else {
+      const double accel = std::fabs(v[i] - v[i - 1]) * (v[i] + v[i - 1]) / (2.0 * length);
+      out.push_back({p.s_u[i - 1], length, v[i - 1], v[i], {accel, machine::kInfinity}, why});
+    }
+  }
+  return {};
+}
+
+}  // namespace kadr::planner

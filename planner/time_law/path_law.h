@@ -1,0 +1,27 @@
+#pragma once
+#include <tl/expected.hpp>
+
+#include "planner/scheduler/run_planner.h"
+#include "planner/time_law/solver.h"
+
+namespace kadr::planner {
+
+/// A run of a path as a problem of paper 000: nodes at every joint and between, at most planner.node_mm apart
+/// and at most 2 degrees on arcs; X' and X'' of every axis from the segments themselves (both sides of a
+/// joint), programmed feed, corners and centripetal limit as caps of nodes (limit_table). Accelerations at
+/// both nodes of an interval; on arcs they are limited a little lower, by as much as may be exceeded between
+/// nodes:
+///   d^2/8 (5 |a_t| + a_n) with d the angle of an interval, of X' a + X'' v^2 where X is a circle.
+struct RunProblem {
+  LawProblem problem;
+  std::vector<std::size_t>
+      segment;  // [nodes], that the interval ending at a node lies on; of node 0 the first
+};
+RunProblem run_problem(const Path& path, const PathLimitTable& table, const Run& run,
+                       const machine::MachineModel& machine);
+
+/// Plans a run by planner.method: one element for every interval whose speed changes, holds joined.
+tl::expected<void, PlanError> plan_time_law(const Path& path, const PathLimitTable& table, const Run& run,
+                                            const machine::MachineModel& machine, std::vector<Element>& out);
+
+}  // namespace kadr::planner
