@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "emulator/cli/exit_codes.h"
+#include "emulator/time_law/law_study.h"
 #include "machine/base/parse_number.h"
 
 namespace kadr::cli {
@@ -42,6 +43,7 @@ class Reader {
     add_fmt();
     add_info();
     add_diff();
+    add_tube();
     add_machine();
     add_explain();
     add_scenario();
@@ -372,6 +374,38 @@ class Reader {
     sub->add_flag("--strict", arguments_.strict, "Inputs that differ count too (exit 1)");
     output(sub);
     sub->footer("Example: kadr diff golden.lcmlog new.lcmlog --tolerance load=0.5um");
+  }
+
+  void add_tube() {
+    CLI::App* sub =
+        command(app_, "tube", Command::tube,
+                "Find time laws along a stated path by several methods: times in s, how far from\n"
+                "the best, smoothness, what the check found; exit 1 if a law breaks a limit");
+    sub->add_option("PROBLEM", arguments_.files, "Problem file (docs/time_law.md); `-`: standard input")
+        ->required()
+        ->expected(1)
+        ->type_name("");
+    repeated(sub, "--method", "NAME",
+             fmt::format("Only this method: {};\nrepeatable; default: all that the problem states",
+                         fmt::join(emulator::kLawMethods, ", ")),
+             [this](const std::string& text) -> tl::expected<void, std::string> {
+               if (!emulator::method_of(text))
+                 return tl::unexpected(
+                     fmt::format("knows {}; got '{}'", fmt::join(emulator::kLawMethods, ", "), text));
+               arguments_.methods.push_back(text);
+               return {};
+             });
+    sub->add_option(
+           "--csv", arguments_.csv_path,
+           "Write a row a node: s in mm, highest speed and what holds it, speed in mm/s and time in s\n"
+           "of every law")
+        ->type_name("FILE");
+    sub->add_option("--page", arguments_.page_path, "Write charts and tables as one HTML file")
+        ->type_name("FILE");
+    sub->add_flag("--timing", arguments_.timing, "A column of wall times; two runs are then not the same");
+    diagnostics(sub);
+    output(sub);
+    sub->footer("Example: kadr tube docs/tube/laying.toml --page laying.html");
   }
 
   /// An option whose every value is handed to `take`, which may find fault with it.

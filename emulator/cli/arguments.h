@@ -21,6 +21,7 @@ enum class Command : std::uint8_t {
   fmt,
   info,
   diff,
+  tube,
   machine_show,
   machine_list,
   machine_check,
@@ -76,6 +77,9 @@ struct Arguments {
   bool only_check = false;  ///< fmt --check
   bool in_place = false;    ///< fmt --in-place
   emulator::DiffOptions diff;
+  std::vector<std::string> methods;  ///< tube --method
+  std::string csv_path, page_path;   ///< tube --csv, --page
+  bool timing = false;               ///< tube --timing
   std::string junit_path;
   double until_s = machine::kInfinity;
   int threads = 1;

@@ -12,6 +12,7 @@ int plan_program(const Arguments& arguments, Console& console);
 int canon_program(const Arguments& arguments, Console& console);
 int format_programs(const Arguments& arguments, Console& console);
 int diff_logs(const Arguments& arguments, Console& console);
+int solve_tube(const Arguments& arguments, Console& console);
 int log_info(const Arguments& arguments, Console& console);
 int machine_show(const Arguments& arguments, Console& console);
 int machine_list(const Arguments& arguments, Console& console);

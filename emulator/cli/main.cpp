@@ -24,6 +24,8 @@ int dispatch(const Arguments& arguments, Console& console) {
       return format_programs(arguments, console);
     case Command::diff:
       return diff_logs(arguments, console);
+    case Command::tube:
+      return solve_tube(arguments, console);
     case Command::info:
       return log_info(arguments, console);
     case Command::machine_show:

@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "emulator/cli/commands.h"
+#include "emulator/cli/exit_codes.h"
+#include "emulator/cli/inputs.h"
+#include "emulator/cli/output_file.h"
+#include "emulator/report/law_report.h"
+#include "emulator/report/tube_page.h"
+
+/// `kadr tube`: time laws of a stated path, by several methods side by side.
+namespace kadr::cli {
+namespace {
+
+using emulator::Json;
+using emulator::LawMethod;
+using emulator::LawStudy;
+using emulator::TimeLawProblem;
+
+/// Methods of the command line, in the order of the table; all of the problem's if none is named.
+std::vector<LawMethod> chosen_methods(const Arguments& arguments, const TimeLawProblem& problem) {
+  std::vector<LawMethod> methods;
+  for (const std::string& name : arguments.methods) methods.push_back(*emulator::method_of(name));
+  if (methods.empty()) return emulator::methods_of(problem);
+  std::sort(methods.begin(), methods.end());
+  methods.erase(std::unique(methods.begin(), methods.end()), methods.end());
+  if (methods.back() == LawMethod::jerk_limited && !problem.jerk_mm_s3)
+    throw WorldError("--method jerk-limited: the problem gives no limit; write [jerk] with max_mm_s3 = ...");
+  return methods;
+}
+
+void write_files(const Arguments& arguments, const LawStudy& study, const TimeLawProblem& problem,
+                 const std::string& name) {
+  if (!arguments.csv_path.empty()) {
+    OutputFile csv(arguments.csv_path);
+    emulator::write_law_csv(study, problem, [&](std::string_view text) { csv.write(text); });
+    csv.close();
+  }
+  if (!arguments.page_path.empty()) {
+    OutputFile page(arguments.page_path);
+    page.write(emulator::render_tube_page(study, problem, name));
+    page.close();
+  }
+}
+
+std::string tables(const Arguments& arguments, const LawStudy& study, const TimeLawProblem& problem,
+                   const std::string& name) {
+  std::string out = emulator::render_problem(problem, name);
+  const planner::LawSolution* law = nullptr;
+  for (const emulator::MethodOutcome& o : study.outcomes)
+    if (o.method == LawMethod::tube && o.law) law = &*o.law;
+  if (!study.tube.passes.empty())
+    out += '\n' + emulator::render_tube_log(study.tube, law, problem.law.length_u(), problem.tube);
+  out += '\n' + emulator::render_law_table(study, arguments.timing);
+  return out + '\n' + emulator::render_law_checks(study, problem);
+}
+
+/// Standard output has the same bytes on a terminal; times of the wall go beside it.
+void note_times(const Arguments& arguments, const LawStudy& study, Console& console) {
+  if (arguments.timing || !::isatty(STDERR_FILENO)) return;
+  std::string text = "wall";
+  for (const emulator::MethodOutcome& o : study.outcomes)
+    text += fmt::format("{} {} {:.1f} ms", o.method == study.outcomes.front().method ? "" : ",",
+                        emulator::method_name(o.method), 1000 * o.wall_s);
+  console.note(text);
+}
+
+}  // namespace
+
+int solve_tube(const Arguments& arguments, Console& console) {
+  const std::string& path = arguments.files.front();
+  const std::string name = program_text(path);
+  emulator::Job job;
+  load_program(path, job);
+  SourceSet& sources = job.sources;
+  const auto refuse = [&](const Diagnostics& diagnostics) {
+    if (console.options().json)
+      console.document({{"kadr", KADR_VERSION},
+                        {"command", "tube"},
+                        {"file", name},
+                        {"exit_code", kNotStarted},
+                        {"diagnostics", emulator::json_of(diagnostics, sources)}});
+    else
+      console.diagnostics(diagnostics, sources, name, Console::Where::errors);
+    return kNotStarted;
+  };
+  const auto problem = emulator::read_time_law_problem(sources, job.program);
+  if (!problem) return refuse(problem.error());
+  const std::vector<LawMethod> methods = chosen_methods(arguments, *problem);
+  const bool keep_profiles = !arguments.page_path.empty();
+  if (auto large = emulator::check_size(*problem, methods, keep_profiles)) {
+    Diagnostics diagnostics;
+    diagnostics.add(std::move(*large));
+    return refuse(diagnostics);
+  }
+  const LawStudy study = emulator::study_laws(*problem, methods, keep_profiles);
+  write_files(arguments, study, *problem, name);
+  const int code = study.good() ? kYes : kNo;
+  if (console.options().json) {
+    Json j = {{"kadr", KADR_VERSION}, {"command", "tube"}, {"file", name}, {"exit_code", code}};
+    j["diagnostics"] = Json::array();
+    j.update(emulator::json_of(study, *problem));
+    console.document(j);
+    return code;
+  }
+  if (!console.options().quiet) console.data(tables(arguments, study, *problem, name));
+  note_times(arguments, study, console);
+  return code;
+}
+
+}  // namespace kadr::cli

@@ -1,0 +1,53 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Line charts as SVG text: no script, no fonts of their own, the same bytes for the same numbers. Colours
+/// and dashes come from the page's style sheet by class, so that a chart reads on light and on dark ground.
+namespace kadr::emulator {
+
+struct ChartPoint {
+  double x = 0, y = 0;
+};
+
+/// A line through points of ascending x.
+struct ChartLine {
+  std::string label;  ///< in the legend; empty: none
+  std::string style;  ///< class of the style sheet
+  std::vector<ChartPoint> points;
+  double opacity = 1;
+};
+
+/// What lies between two lines over the same x.
+struct ChartBand {
+  std::string label, style;
+  std::vector<ChartPoint> lower, upper;
+};
+
+struct ChartRange {
+  double low = 0, high = 1;
+};
+
+struct LineChart {
+  std::string id;           ///< unique in a page, letters alone
+  std::string description;  ///< what a reader who does not see it is told
+  std::string x_label, y_label;
+  std::vector<ChartBand> bands;  ///< drawn below the lines, in order
+  std::vector<ChartLine> lines;
+  std::optional<ChartRange> x, y;  ///< else all of the points, y from 0
+};
+
+/// Lines of more than two points a pixel keep first, lowest, highest and last of every pixel column.
+std::string render_svg(const LineChart& chart);
+
+/// Places of ticks: multiples of 1, 2 or 5 times a power of ten, about `wanted` of them.
+std::vector<double> nice_ticks(const ChartRange& range, int wanted);
+/// A tick with as many decimals as its neighbours need: "0", "250", "0.05".
+std::string tick_text(double value, double step);
+
+/// Text with & < > and quotes as entities.
+std::string html_text(std::string_view text);
+
+}  // namespace kadr::emulator

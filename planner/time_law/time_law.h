@@ -1,0 +1,14 @@
+#pragma once
+#include "planner/time_law/certified.h"
+#include "planner/time_law/formula_path.h"
+#include "planner/time_law/greedy.h"
+#include "planner/time_law/interior_point.h"
+#include "planner/time_law/jerk_limited.h"
+#include "planner/time_law/metrics.h"
+#include "planner/time_law/table_path.h"
+#include "planner/time_law/tube.h"
+#include "planner/time_law/verify_law.h"
+
+/// How fast along a given path? State it as a LawProblem (the path by formula or by table), solve it with any
+/// LawSolver, look at the answer with verify_law() and law_metrics(). The methods are those of paper 000 and
+/// what they are measured against.
