@@ -189,7 +189,11 @@ BandOptimum InteriorPoint::run(const BandOptions& options) {
   double least_gap = machine::kInfinity;
   std::uint32_t still = 0;  // steps without progress
   for (;; ++out.steps) {
-    out.bound_s = std::max(out.bound_s, bound_s(cost));
+    if (const double bound = bound_s(cost); bound > out.bound_s) {
+      out.bound_s = bound;
+      out.x = x_;
+      out.multipliers = multiplier_;
+    }
     double worst = 0, product = 0;
     for (std::size_t k = 0; k < rows; ++k) {
       worst = std::max(worst, std::fabs(residual_[k]));
@@ -223,8 +227,10 @@ BandOptimum InteriorPoint::run(const BandOptions& options) {
     cost = cost_and_derivatives();
   }
   out.cost_s = cost;
-  out.x = std::move(x_);
-  out.multipliers = std::move(multiplier_);
+  if (out.converged || out.x.empty()) {
+    out.x = std::move(x_);
+    out.multipliers = std::move(multiplier_);
+  }
   return out;
 }
 

@@ -45,7 +45,7 @@ struct BandOptimum {
   double cost_s = 0;
   double bound_s = 0;  ///< J is not below it
   std::uint32_t steps = 0;
-  bool converged = false;
+  bool converged = false;  ///< if not, x and multipliers are those of the highest bound
 };
 
 struct BandOptions {

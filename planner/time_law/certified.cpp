@@ -27,10 +27,11 @@ LawResult CertifiedLaw::solve(const LawProblem& problem) {
   LawResult polished = TubeDp(options).refine(problem, *greedy, kPolishHalfWidth * fastest);
   if (!polished) return polished;
   InteriorPointOptimum optimum;
-  const LawResult bound = optimum.solve_from(problem, *greedy);
-  if (!bound) return bound;
+  const LawResult best = optimum.solve_from(problem, *greedy);
   certificate_ = optimum.certificate();
-  polished->lower_bound_s = bound->lower_bound_s;
+  // without an optimum there is a lower bound all the same, though one that leaves a gap
+  const double bound = best ? best->lower_bound_s : lower_bound_s(problem, certificate_);
+  polished->lower_bound_s = bound > 0.0 ? bound : 0.0;
   return polished;
 }
 

@@ -37,12 +37,6 @@ LawResult InteriorPointOptimum::solve_from(const LawProblem& problem, const LawS
   BandOptions options;
   options.relative_gap = relative_gap_;
   const BandOptimum optimum = planner::solve(program, std::move(x), options);
-  if (!optimum.converged)
-    return tl::unexpected(
-        LawFailure{0, problem.s_u[0],
-                   fmt::format("the interior point method stopped after {} steps at a cost of {} s, above "
-                               "a bound of {} s",
-                               optimum.steps, optimum.cost_s, optimum.bound_s)});
   std::vector<double> speed(n);
   for (std::size_t i = 0; i < n; ++i) speed[i] = std::sqrt(std::max(optimum.x[i], 0.0) * program.unit_u2_s2);
   speed.front() = problem.begin_u_s;
@@ -53,6 +47,12 @@ LawResult InteriorPointOptimum::solve_from(const LawProblem& problem, const LawS
   certificate_.lower.assign(rows.before.size(), 0.0);
   for (std::size_t k = 0; k < origins.size(); ++k)
     (origins[k].upper ? certificate_.upper : certificate_.lower)[origins[k].row] = optimum.multipliers[k];
+  if (!optimum.converged)
+    return tl::unexpected(
+        LawFailure{0, problem.s_u[0],
+                   fmt::format("the interior point method stopped after {} steps at a cost of {} s, above "
+                               "a bound of {} s",
+                               optimum.steps, optimum.cost_s, optimum.bound_s)});
   LawSolution out = summed(problem, std::move(speed));
   out.lower_bound_s = lower_bound_s(problem, certificate_);
   out.iterations = optimum.steps;

@@ -13,7 +13,8 @@ class InteriorPointOptimum final : public LawSolver {
   LawResult solve(const LawProblem& problem) override;
   /// The same, begun at a law that is known.
   LawResult solve_from(const LawProblem& problem, const LawSolution& known);
-  const Certificate& certificate() const { return certificate_; }  ///< of the last solution
+  /// Of the last solution; where none was reached, the best that was found on the way.
+  const Certificate& certificate() const { return certificate_; }
 
  private:
   double relative_gap_;

@@ -94,7 +94,7 @@ class Checker {
     }
     if (!(std::fabs(time - solution.time_s) <= 1e-9 * time)) broken("time", 0.0, solution.time_s, time);
     if (!(std::fabs(cost - solution.cost_s) <= 1e-9 * cost)) broken("cost", 0.0, solution.cost_s, cost);
-    if (solution.lower_bound_s > cost * (1.0 + 1e-9))
+    if (solution.lower_bound_s > cost * (1.0 + options_.tolerance))
       broken("lower bound", 0.0, solution.lower_bound_s, cost);
   }
 
