@@ -59,7 +59,7 @@ class Drawing {
         "<desc id=\"{}_d\">{}</desc>\n"
         "<clipPath id=\"{}_c\"><rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" "
         "height=\"{:.0f}\"/></clipPath>\n",
-        kWidth, height, chart_.id, chart_.id, html_text(chart_.description), chart_.id, kLeft, top_,
+        kWidth, height, chart_.id, chart_.id, xml_text(chart_.description), chart_.id, kLeft, top_,
         kPlotWidth, kPlotHeight);
     out += legend + axes();
     out += fmt::format("<g clip-path=\"url(#{}_c)\">\n", chart_.id);
@@ -87,7 +87,7 @@ class Drawing {
       }
       out += fmt::format(
           "<g transform=\"translate({:.0f},{:.0f})\">{}<text x=\"{:.0f}\" y=\"4\">{}</text></g>\n", x, y,
-          swatch, kSwatch + 8, html_text(label));
+          swatch, kSwatch + 8, xml_text(label));
       x += width;
     };
     for (const ChartLine& line : chart_.lines)
@@ -121,10 +121,10 @@ class Drawing {
     out += fmt::format("<path class=\"frame\" d=\"M{0:.1f} {1:.1f}V{2:.1f}H{3:.1f}\"/>\n", kLeft, top_,
                        bottom, kWidth - kRight);
     out += fmt::format("<text class=\"x name\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", kLeft + kPlotWidth / 2,
-                       bottom + 38, html_text(chart_.x_label));
+                       bottom + 38, xml_text(chart_.x_label));
     return out +
            fmt::format("<text class=\"x name\" transform=\"translate(14,{:.1f}) rotate(-90)\">{}</text>\n",
-                       top_ + kPlotHeight / 2, html_text(chart_.y_label));
+                       top_ + kPlotHeight / 2, xml_text(chart_.y_label));
   }
 
   /// Points that matter: those within x and a neighbour on either side, at most four a pixel column.
@@ -205,29 +205,6 @@ std::string tick_text(double value, double step) {
   int decimals = 0;
   for (double unit = 1; decimals < 6 && unit > step * (1 + 1e-9); unit /= 10) ++decimals;
   return fixed(value, decimals);
-}
-
-std::string html_text(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
 }
 
 }  // namespace kadr::emulator

@@ -47,7 +47,4 @@ std::vector<double> nice_ticks(const ChartRange& range, int wanted);
 /// A tick with as many decimals as its neighbours need: "0", "250", "0.05".
 std::string tick_text(double value, double step);
 
-/// Text with & < > and quotes as entities.
-std::string html_text(std::string_view text);
-
 }  // namespace kadr::emulator

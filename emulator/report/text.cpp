@@ -134,4 +134,34 @@ std::string TextTable::render(std::string_view indent, std::string_view gap) con
   return out;
 }
 
+std::string xml_text(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const CodePoint c = decode_utf8(text, at);
+    const bool forbidden = c.value == 0xFFFD || c.value == 0xFFFE || c.value == 0xFFFF ||
+                           (c.value < 0x20 && c.value != '\n' && c.value != '\t');
+    switch (c.value) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        if (forbidden)
+          out += "\xEF\xBF\xBD";
+        else
+          out += text.substr(at, c.bytes);
+    }
+    at += c.bytes;
+  }
+  return out;
+}
+
 }  // namespace kadr::emulator

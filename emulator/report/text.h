@@ -30,6 +30,10 @@ std::string one_line(std::string_view text, std::size_t most);
 std::string pad_left(std::string_view text, std::size_t width);   ///< text at the right end
 std::string pad_right(std::string_view text, std::size_t width);  ///< text at the left end
 
+/// Text for XML and HTML: markup escaped; what XML 1.0 can't hold (control characters, bytes that are not
+/// UTF-8) is replaced.
+std::string xml_text(std::string_view text);
+
 /// Columns that align themselves. Cells are added row by row; render() pads each column to its widest cell.
 class TextTable {
  public:

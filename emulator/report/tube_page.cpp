@@ -54,20 +54,20 @@ summary { cursor: pointer; color: var(--soft); margin: 0.25rem 0; } pre { overfl
 
 /// A table of HTML; the first row is its head.
 std::string html_table(const std::string& caption, const std::vector<std::vector<std::string>>& rows) {
-  std::string out = fmt::format("<div class=\"scroll\"><table><caption>{}</caption>\n", html_text(caption));
+  std::string out = fmt::format("<div class=\"scroll\"><table><caption>{}</caption>\n", xml_text(caption));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     out += "<tr>";
     for (std::size_t k = 0; k < rows[i].size(); ++k)
-      out += i == 0   ? fmt::format("<th scope=\"col\">{}</th>", html_text(rows[i][k]))
-             : k == 0 ? fmt::format("<th scope=\"row\">{}</th>", html_text(rows[i][k]))
-                      : fmt::format("<td>{}</td>", html_text(rows[i][k]));
+      out += i == 0   ? fmt::format("<th scope=\"col\">{}</th>", xml_text(rows[i][k]))
+             : k == 0 ? fmt::format("<th scope=\"row\">{}</th>", xml_text(rows[i][k]))
+                      : fmt::format("<td>{}</td>", xml_text(rows[i][k]));
     out += "</tr>\n";
   }
   return out + "</table></div>\n";
 }
 
 std::string folded_table(const std::string& caption, const std::vector<std::vector<std::string>>& rows) {
-  return fmt::format("<details><summary>{} as numbers</summary>\n{}</details>\n", html_text(caption),
+  return fmt::format("<details><summary>{} as numbers</summary>\n{}</details>\n", xml_text(caption),
                      html_table(caption, rows));
 }
 
@@ -79,16 +79,16 @@ class Page {
   std::string text(std::string_view file) {
     std::string out(kHead);
     out += fmt::format("<title>{} - time laws</title>\n</head>\n<body>\n<h1>{}</h1>\n<p>{}</p>\n",
-                       html_text(p_.name), html_text(p_.name), html_text(render_problem(p_, file)));
+                       xml_text(p_.name), xml_text(p_.name), xml_text(render_problem(p_, file)));
     out += methods();
     const bool passes = !study_.tube.profiles_mm_s.empty();
     out += passes ? pass_charts() : method_chart_over_path();
     out += time_chart();
     out += fmt::format("<h2>What the check found</h2>\n<pre>{}</pre>\n",
-                       html_text(render_law_checks(study_, p_)));
+                       xml_text(render_law_checks(study_, p_)));
     if (passes) out += pass_table();
     return out + fmt::format("<p>kadr {}, <code>kadr tube {}</code></p>\n</body>\n</html>\n", KADR_VERSION,
-                             html_text(file));
+                             xml_text(file));
   }
 
  private:

@@ -4,43 +4,11 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "emulator/report/text.h"
 #include "emulator/scenario/scenario.h"
-#include "machine/base/utf8.h"
 
 namespace kadr::emulator {
 namespace {
-
-/// Text for XML: markup escaped; what XML 1.0 can't hold (control characters, bytes that are not UTF-8) is
-/// replaced.
-std::string xml_text(std::string_view text) {
-  std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const CodePoint c = decode_utf8(text, at);
-    const bool forbidden = c.value == 0xFFFD || c.value == 0xFFFE || c.value == 0xFFFF ||
-                           (c.value < 0x20 && c.value != '\n' && c.value != '\t');
-    switch (c.value) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        if (forbidden)
-          out += "\xEF\xBF\xBD";
-        else
-          out += text.substr(at, c.bytes);
-    }
-    at += c.bytes;
-  }
-  return out;
-}
 
 std::size_t failures(const std::vector<ScenarioResult>& results) {
   return static_cast<std::size_t>(
