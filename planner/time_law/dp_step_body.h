@@ -29,7 +29,7 @@ inline void admissible_squares(const DpStep& d) {
       const double size = b < 0.0 ? -b : b;
       if (size < 1e-16) {  // x_k has no part in it
         const Lanes w = all(a) * x, limit = all(1.0 + kDpTolerance);
-        most = (w > limit) | (w < -limit) ? all(-1.0) : most;
+        most = ((w > limit) | (w < -limit)) ? all(-1.0) : most;
         continue;
       }
       const Lanes half = all((1.0 + kDpTolerance) / size), w = all(a / b) * x;
