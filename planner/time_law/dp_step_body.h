@@ -7,7 +7,7 @@ namespace kadr::planner {
 namespace {
 
 constexpr std::int32_t kLanes = KADR_DP_LANES;
-using Lanes = double __attribute__((vector_size(kLanes * 8), aligned(8), may_alias));
+using Lanes = double __attribute__((vector_size(kLanes * 8)));
 
 constexpr double kLevelSlack = 1e-9;  ///< of a level's number: rounding of its square root
 
@@ -16,13 +16,18 @@ inline Lanes all(double v) {
   for (std::int32_t q = 0; q < kLanes; ++q) out[q] = v;
   return out;
 }
-inline const Lanes& at(const double* p) { return *reinterpret_cast<const Lanes*>(p); }
-inline Lanes& at(double* p) { return *reinterpret_cast<Lanes*>(p); }
+/// Any place in an array: lanes need no alignment.
+inline Lanes load(const double* p) {
+  Lanes out;
+  __builtin_memcpy(&out, p, sizeof out);
+  return out;
+}
+inline void store(double* p, const Lanes& lanes) { __builtin_memcpy(p, &lanes, sizeof lanes); }
 
 /// Squares of v_k between which every limit holds, for all j.
 inline void admissible_squares(const DpStep& d) {
   for (std::int32_t j = 0; j < d.count; j += kLanes) {
-    const Lanes x = at(d.square + j);
+    const Lanes x = load(d.square + j);
     Lanes least = all(0.0), most = all(1e30);
     for (std::int32_t r = 0; r < d.rows; ++r) {
       const double b = d.row_before[r], a = d.row_after[r];
@@ -37,8 +42,8 @@ inline void admissible_squares(const DpStep& d) {
       least = low > least ? low : least;
       most = high < most ? high : most;
     }
-    at(d.least_square + j) = least;
-    at(d.most_square + j) = most;
+    store(d.least_square + j, least);
+    store(d.most_square + j, most);
   }
 }
 
@@ -81,8 +86,8 @@ inline double least_cost(const DpStep& d, std::int32_t j) {
   const Lanes vj = all(d.speed[j]), xj = all(d.square[j]), twice_ds = all(d.twice_ds),
               weight = all(d.square_weight);
   const auto costs = [&](std::int32_t k) {
-    const Lanes x = xj - at(d.before_square + k);
-    return at(d.before_cost + k) + twice_ds / (at(d.before_speed + k) + vj) + weight * x * x;
+    const Lanes x = xj - load(d.before_square + k);
+    return load(d.before_cost + k) + twice_ds / (load(d.before_speed + k) + vj) + weight * x * x;
   };
   Lanes best = all(kDpInfeasible);
   std::int32_t k = first;
