@@ -6,18 +6,21 @@ namespace kadr::test {
 
 namespace {
 
-/// Two lines with a technology point between them.
-planner::Path two_lines(const machine::MachineModel& machine, double limit_mm_s) {
-  planner::PathBuilder builder(machine, {});
+gcode::Block line_to(double x_mm) {
   gcode::Block block;
   block.kind = gcode::BlockKind::feed;
   block.feed_u_s = 100.0;
   block.length_u = 50.0;
-  block.end = xyz(50);
-  builder.add(block);
+  block.end = xyz(x_mm);
+  return block;
+}
+
+/// Two lines with a technology point between them.
+planner::Path two_lines(const machine::MachineModel& machine, double limit_mm_s) {
+  planner::PathBuilder builder(machine, {});
+  builder.add(line_to(50));
   builder.limit_speed(limit_mm_s);
-  block.end = xyz(100);
-  builder.add(block);
+  builder.add(line_to(100));
   return builder.take();
 }
 
@@ -54,18 +57,11 @@ TEST_CASE(
   machine::MachineModel machine = plain_machine();
   planner::PathBuilder builder(machine, {});
   builder.limit_speed(1.0);
-  gcode::Block block;
-  block.kind = gcode::BlockKind::feed;
-  block.feed_u_s = 100.0;
-  block.length_u = 50.0;
-  block.end = xyz(50);
-  builder.add(block);
+  builder.add(line_to(50));
   builder.limit_speed(40.0);
   builder.limit_speed(20.0);
-  block.end = xyz(100);
-  builder.add(block);
-  block.end = xyz(150);
-  builder.add(block);
+  builder.add(line_to(100));
+  builder.add(line_to(150));
   const auto plan = planner::plan(builder.path(), machine);
   REQUIRE(plan);
   CHECK(plan->segments[0].end_u_s == doctest::Approx(20.0).epsilon(1e-3));
