@@ -13,26 +13,11 @@
 
 namespace kadr::cli {
 
-enum class Command : std::uint8_t {
-  run,
-  check,
-  plan,
-  canon,
-  fmt,
-  info,
-  diff,
-  tube,
-  machine_show,
-  machine_list,
-  machine_check,
-  machine_new,
-  explain,
-  scenario_run,
-  scenario_check,
-  scenario_list,
-  wind,
-  version,
-};
+class Console;
+struct Arguments;
+
+/// Does the work of a command (emulator/cli/commands.h).
+using Run = int (*)(const Arguments&, Console&);
 
 enum class When : std::uint8_t { automatic, always, never };
 enum class DiagnosticFormat : std::uint8_t { human, gcc, json, sarif };
@@ -50,7 +35,7 @@ struct OutputOptions {
 
 /// The command line as read. Fields that a command does not have keep their defaults.
 struct Arguments {
-  Command command = Command::version;
+  Run command = nullptr;
   OutputOptions output;
   std::vector<std::string>
       files;            ///< programs, logs, machine files, scenarios, codes: what the command works on

@@ -26,7 +26,7 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   return lines;
 }
 
-std::string quoted(std::string_view line) { return "'" + one_line(line, kShownWidth) + "'"; }
+std::string in_quotes(std::string_view line) { return "'" + one_line(line, kShownWidth) + "'"; }
 
 std::string_view without_indent(std::string_view line) {
   const auto begin = line.find_first_not_of(" \t");
@@ -54,7 +54,7 @@ std::string section_of(const std::vector<std::string_view>& lines, std::size_t a
 std::string text_difference(std::string_view a, std::string_view b, bool toml) {
   const auto p = lines_of(a), q = lines_of(b);
   const auto line = [](const auto& lines, std::size_t i) {
-    return i < lines.size() ? quoted(lines[i]) : std::string("(none)");
+    return i < lines.size() ? in_quotes(lines[i]) : std::string("(none)");
   };
   std::size_t first = 0;
   while (first < std::min(p.size(), q.size()) && p[first] == q[first]) ++first;
@@ -138,7 +138,7 @@ std::vector<InputDifference> compare_inputs(const LogHeader& a, const LogHeader&
                                        text_input("scenario", a.scenario_toml, b.scenario_toml)};
   const bool same_kadr = a.kadr_version == b.kadr_version;
   list.push_back(
-      {"kadr", same_kadr, same_kadr ? "" : quoted(a.kadr_version) + " | " + quoted(b.kadr_version)});
+      {"kadr", same_kadr, same_kadr ? "" : in_quotes(a.kadr_version) + " | " + in_quotes(b.kadr_version)});
   list.push_back(clock_input(a, b));
   list.push_back(axes_input(a, b));
   list.push_back(channels_input(a, b));

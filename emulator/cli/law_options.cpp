@@ -1,0 +1,86 @@
+#include "emulator/cli/options.h"
+
+#include <fmt/format.h>
+
+#include "emulator/cli/commands.h"
+#include "emulator/time_law/law_study.h"
+#include "machine/base/parse_number.h"
+
+namespace kadr::cli {
+namespace {
+
+void add_tube(Options& o) {
+  CLI::App* sub =
+      o.command(o.app, "tube", solve_tube,
+                "Find time laws along a stated path by several methods: times in s, how far from\n"
+                "the best, smoothness, what the check found; exit 1 if a law breaks a limit");
+  sub->add_option("PROBLEM", o.arguments.files, "Problem file (docs/time_law.md); `-`: standard input")
+      ->required()
+      ->expected(1)
+      ->type_name("");
+  o.repeated(sub, "--method", "NAME",
+             fmt::format("Only this method: {};\nrepeatable; default: all that the problem states",
+                         fmt::join(emulator::kLawMethods, ", ")),
+             [&o](const std::string& text) -> tl::expected<void, std::string> {
+               if (!emulator::method_of(text))
+                 return tl::unexpected(
+                     fmt::format("knows {}; got '{}'", fmt::join(emulator::kLawMethods, ", "), text));
+               o.arguments.methods.push_back(text);
+               return {};
+             });
+  sub->add_option(
+         "--csv", o.arguments.csv_path,
+         "Write a row a node: s in mm, highest speed and what holds it, speed in mm/s and time in s\n"
+         "of every law")
+      ->type_name("FILE");
+  sub->add_option("--page", o.arguments.page_path, "Write charts and tables as one HTML file")
+      ->type_name("FILE");
+  sub->add_flag("--timing", o.arguments.timing, "A column of wall times; two runs are then not the same");
+  o.diagnostics(sub);
+  o.output(sub);
+  sub->footer("Example: kadr tube docs/tube/laying.toml --page laying.html");
+}
+
+/// Bounds are left to the generator, which knows those that hang on other parameters too.
+void wind_parameter(Options& o, CLI::App* sub, const scenarios::WindParameter& p) {
+  const std::string flag = scenarios::wind_flag(p.key);
+  sub->add_option_function<std::string>(
+         flag,
+         [&o, &p, flag](const std::string& text) {
+           const auto value = parse_number(text);
+           if (!value) throw CLI::ValidationError(fmt::format("{} takes a number; got '{}'", flag, text));
+           o.arguments.wind_settings.emplace_back(p.key, *value);
+         },
+         fmt::format("{}; {}{} to {} (default {})", p.meaning, p.whole ? "whole, " : "", number_text(p.least),
+                     number_text(p.most), number_text(p.preset)))
+      ->type_name("N");
+}
+
+void add_wind(Options& o) {
+  CLI::App* group = o.app.add_subcommand("wind", "Write a filament-winding program for axes X Y A B");
+  group->require_subcommand(1);
+  group->footer(
+      "X: carriage, Y: eye (distance from the mandrel's axis), A: mandrel, B: eye roll. Feed is inverse "
+      "time (G93).\n`kadr wind hoop --help` lists the parameters.");
+  for (const scenarios::WindKind& kind : scenarios::wind_kinds()) {
+    CLI::App* sub = group->add_subcommand(std::string(kind.name), std::string(kind.meaning));
+    sub->callback([&o, &kind] {
+      o.arguments.command = write_winding;
+      o.arguments.wind_kind = kind.name;
+    });
+    for (const scenarios::WindParameter& p : kind.parameters) wind_parameter(o, sub, p);
+    sub->add_option("-o,--output", o.arguments.program_path, "Program to write; default: standard output")
+        ->type_name("FILE");
+    o.output(sub);
+    sub->footer(fmt::format("Example: kadr wind {0} --length-mm 120 -o {0}.ngc", kind.name));
+  }
+}
+
+}  // namespace
+
+void add_law_commands(Options& o) {
+  add_tube(o);
+  add_wind(o);
+}
+
+}  // namespace kadr::cli

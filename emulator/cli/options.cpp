@@ -1,0 +1,125 @@
+#include "emulator/cli/options.h"
+
+namespace kadr::cli {
+
+CLI::App* Options::command(CLI::App& parent, const std::string& name, Run value,
+                           const std::string& description) {
+  CLI::App* sub = parent.add_subcommand(name, description);
+  sub->callback([this, value] { arguments.command = value; });
+  return sub;
+}
+
+void Options::output(CLI::App* sub) {
+  OutputOptions& out = arguments.output;
+  sub->add_flag("--json", out.json, "One JSON document on standard output; keys carry units")
+      ->group("Output");
+  sub->add_flag("-q,--quiet", out.quiet, "Only data and errors: no notes, no progress, no tables")
+      ->group("Output");
+  choice(sub, "--color", out.color,
+         {{"auto", When::automatic}, {"always", When::always}, {"never", When::never}},
+         "Colour messages: auto|always|never (auto: on a terminal; NO_COLOR and CLICOLOR_FORCE are kept)");
+}
+
+void Options::diagnostics(CLI::App* sub) {
+  OutputOptions& out = arguments.output;
+  choice(sub, "--format", out.format,
+         {{"human", DiagnosticFormat::human},
+          {"gcc", DiagnosticFormat::gcc},
+          {"json", DiagnosticFormat::json},
+          {"sarif", DiagnosticFormat::sarif}},
+         "Form of diagnostics: human|gcc|json|sarif (json: one object a line; sarif: one SARIF 2.1.0 "
+         "document)");
+  sub->add_option("--max-errors", out.max_errors,
+                  "Show that many diagnostics, 0: all (default 20; all with sarif)")
+      ->type_name("N")
+      ->group("Output");
+}
+
+void Options::progress(CLI::App* sub) {
+  choice(sub, "--progress", arguments.output.progress,
+         {{"auto", ProgressMode::automatic}, {"never", ProgressMode::never}, {"plain", ProgressMode::plain}},
+         "Progress on standard error: auto|never|plain (auto: a bar on a terminal, else a line every 10 s)");
+}
+
+void Options::machine(CLI::App* sub) {
+  sub->add_option("-m,--machine", arguments.machine,
+                  "Machine file, or the name of a shipped machine (`kadr machine list`); default: mill3")
+      ->type_name("FILE|NAME");
+  sub->add_option("--set", arguments.settings,
+                  "Change one value of the machine file, e.g. feed.max_mm_s=80; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->take_all();
+}
+
+void Options::reading(CLI::App* sub) {
+  sub->add_flag("--block-delete", arguments.block_delete, "Leave out lines that begin with /");
+  sub->add_option("--subs", arguments.sub_folders,
+                  "Folder in which called files are looked for after the program's own; repeatable")
+      ->type_name("DIR")
+      ->allow_extra_args(false)
+      ->take_all();
+  sub->add_option_function<std::vector<std::string>>(
+         "--limit",
+         [this](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) limit(text);
+         },
+         "Bound on a program: blocks, call_depth, loop_passes, file_bytes, line_bytes; 0: none; repeatable")
+      ->type_name("NAME=N")
+      ->allow_extra_args(false)
+      ->take_all();
+  sub->add_option("--tools", arguments.tools,
+                  "Tool table, LinuxCNC's .tbl text with lengths in mm; default: tools without length")
+      ->type_name("TABLE");
+  sub->add_option_function<std::string>(
+         "--dialect",
+         [this](const std::string& text) {
+           arguments.dialect = gcode::dialect_of(text);
+           if (!arguments.dialect)
+             throw CLI::ValidationError(
+                 fmt::format("--dialect knows linuxcnc, grbl, marlin, fanuc; got '{}'", text));
+         },
+         "How codes that controllers read differently are meant: linuxcnc|grbl|marlin|fanuc")
+      ->type_name("WORD");
+}
+
+void Options::limit(const std::string& text) {
+  const auto equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  std::uint64_t value = 0;
+  const bool number = equals != std::string::npos && read_number(text.substr(equals + 1), value);
+  if (!number || !gcode::set_bound(arguments.bounds, name, value))
+    throw CLI::ValidationError(fmt::format("--limit takes NAME=N with NAME one of {} (0: no bound); got '{}'",
+                                           gcode::kBoundNames, text));
+}
+
+void Options::strict(CLI::App* sub) {
+  sub->add_flag("--strict", arguments.strict, "Warnings count as errors (exit 1)");
+}
+
+CLI::Option* Options::programs(CLI::App* sub, const std::string& name, bool several) {
+  CLI::Option* option = sub->add_option(name, arguments.files,
+                                        several ? "Control programs; `-`: standard input"
+                                                : "Control program; `-`: standard input")
+                            ->required();
+  if (!several) option->expected(1);
+  return option->type_name("");
+}
+
+void Options::repeated(CLI::App* sub, const std::string& name, const char* type,
+                       const std::string& description,
+                       std::function<tl::expected<void, std::string>(const std::string&)> take) {
+  sub->add_option_function<std::vector<std::string>>(
+         name,
+         [name, take](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts)
+             if (const auto taken = take(text); !taken)
+               throw CLI::ValidationError(fmt::format("{} {}", name, taken.error()));
+         },
+         description)
+      ->type_name(type)
+      ->allow_extra_args(false)
+      ->take_all();
+}
+
+}  // namespace kadr::cli

@@ -1,0 +1,78 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <map>
+#include <string>
+#include <tl/expected.hpp>
+
+#include "emulator/cli/arguments.h"
+
+namespace kadr::cli {
+
+/// Reads a whole text as a number, whatever the locale; `_` between digits is skipped as everywhere in kadr.
+template <class T>
+bool read_number(std::string text, T& value) {
+  text.erase(std::remove(text.begin(), text.end(), '_'), text.end());
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+/// The command line under construction: where its commands write what they read, and the options that several
+/// of them share.
+class Options {
+ public:
+  Options(CLI::App& application, Arguments& values) : app(application), arguments(values) {}
+
+  CLI::App& app;
+  Arguments& arguments;
+
+  CLI::App* command(CLI::App& parent, const std::string& name, Run run, const std::string& description);
+
+  void output(CLI::App* sub);
+  void diagnostics(CLI::App* sub);
+  void progress(CLI::App* sub);
+  void machine(CLI::App* sub);
+  void reading(CLI::App* sub);
+  void strict(CLI::App* sub);
+  CLI::Option* programs(CLI::App* sub, const std::string& name, bool several);
+
+  /// An option whose every value is handed to `take`, which may find fault with it.
+  void repeated(CLI::App* sub, const std::string& name, const char* type, const std::string& description,
+                std::function<tl::expected<void, std::string>(const std::string&)> take);
+
+  /// An option that takes one of a few words.
+  template <class Enum>
+  CLI::Option* choice(CLI::App* sub, const std::string& name, Enum& value, std::map<std::string, Enum> names,
+                      const std::string& description) {
+    return sub
+        ->add_option_function<std::string>(
+            name,
+            [&value, names, name](const std::string& text) {
+              const auto it = names.find(text);
+              if (it == names.end()) {
+                std::string known;
+                for (const auto& entry : names) known += (known.empty() ? "" : ", ") + entry.first;
+                throw CLI::ValidationError(fmt::format("{} knows {}; got '{}'", name, known, text));
+              }
+              value = it->second;
+            },
+            description)
+        ->type_name("WORD")
+        ->group("Output");
+  }
+
+ private:
+  void limit(const std::string& text);
+};
+
+/// The commands, by subject.
+void add_program_commands(Options& options);
+void add_log_commands(Options& options);
+void add_law_commands(Options& options);
+void add_machine_commands(Options& options);
+
+}  // namespace kadr::cli

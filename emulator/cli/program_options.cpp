@@ -1,0 +1,137 @@
+#include "emulator/cli/options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "emulator/cli/commands.h"
+
+namespace kadr::cli {
+namespace {
+
+void add_run(Options& o) {
+  CLI::App* sub =
+      o.command(o.app, "run", run_program, "Run a program: step pulses, motion of the machine, log, summary");
+  o.programs(sub, "PROG", false)->required(false);
+  sub->parse_complete_callback([&o] {
+    if (o.arguments.files.empty() && o.arguments.scenario.empty()) throw CLI::RequiredError("PROG");
+  });
+  o.machine(sub);
+  o.reading(sub);
+  sub->add_option(
+         "-s,--scenario", o.arguments.scenario,
+         "Scenario: gives PROG, machine and settings that the command line does not (`kadr scenario run`\n"
+         "compares its expectations)")
+      ->type_name("FILE");
+  sub->add_option("-o,--log", o.arguments.log_path,
+                  "Log to write; default: PROG.lcmlog in the current folder")
+      ->type_name("LOG");
+  sub->add_flag_function(
+      "--no-log", [&o](std::int64_t) { o.arguments.log = false; }, "Write no log");
+  sub->add_flag_function(
+      "--no-plant", [&o](std::int64_t) { o.arguments.plant = false; },
+      "Step pulses only; do not simulate the flexible machine");
+  sub->add_option_function<std::string>(
+         "--until",
+         [&o](const std::string& text) {
+           double& value = o.arguments.until_s;
+           if (!read_number(text, value) || !(value > 0) || !std::isfinite(value))
+             throw CLI::ValidationError(
+                 fmt::format("--until takes seconds of machine time above 0, e.g. 12.5; got '{}'", text));
+         },
+         "Stop after that many seconds of machine time")
+      ->type_name("S");
+  sub->add_option("--threads", o.arguments.threads, "1, or 2: a second thread writes the log; same bytes")
+      ->type_name("N")
+      ->check([](const std::string& text) {
+        return text == "1" || text == "2" ? std::string() : "takes 1 or 2, got '" + text + "'";
+      });
+  sub->add_option(
+         "--publish", o.arguments.publish_url,
+         "Send the log live over LCM besides, e.g. udpm://239.255.76.67:7667 (ttl 0 unless it says ttl=N)")
+      ->type_name("URL");
+  o.strict(sub);
+  o.progress(sub);
+  o.diagnostics(sub);
+  o.output(sub);
+  sub->footer("Example: kadr run part.ngc -m winder4 --until 20 -o first20.lcmlog");
+}
+
+void add_check(Options& o) {
+  CLI::App* sub =
+      o.command(o.app, "check", check_programs,
+                "Check programs: mistakes, time in s with acceleration, soft limits, what limits the feed");
+  o.programs(sub, "PROG", true);
+  o.machine(sub);
+  o.reading(sub);
+  o.strict(sub);
+  o.diagnostics(sub);
+  o.output(sub);
+  sub->footer("Example: kadr check *.ngc --format gcc");
+}
+
+void add_plan(Options& o) {
+  CLI::App* sub =
+      o.command(o.app, "plan", plan_program,
+                "Plan a program: a row a block with length in mm or deg, time in s, peak and end feed in\n"
+                "mm/s or deg/s, and what limited it");
+  o.programs(sub, "PROG", false);
+  o.machine(sub);
+  o.reading(sub);
+  sub->add_flag("--csv", o.arguments.csv, "Comma-separated values with full precision");
+  o.strict(sub);
+  o.diagnostics(sub);
+  o.output(sub);
+  sub->footer("Example: kadr plan part.ngc --csv > blocks.csv");
+}
+
+void read_lines(Arguments& arguments, const std::string& text) {
+  const auto dash = text.find('-');
+  std::uint32_t& first = arguments.first_line;
+  std::uint32_t& last = arguments.last_line;
+  bool good = read_number(text.substr(0, dash), first);
+  last = first;
+  if (dash != std::string::npos) good = good && read_number(text.substr(dash + 1), last);
+  if (!good || first < 1 || last < first)
+    throw CLI::ValidationError(fmt::format("--lines takes line numbers such as 10-40, got '{}'", text));
+}
+
+void add_canon(Options& o) {
+  CLI::App* sub =
+      o.command(o.app, "canon", canon_program,
+                "Print what a program means: one machining call a line, machine coordinates in mm and deg,\n"
+                "feeds in mm/min, dwells in s");
+  o.programs(sub, "PROG", false);
+  o.reading(sub);
+  sub->add_option_function<std::string>(
+         "--lines", [&o](const std::string& text) { read_lines(o.arguments, text); },
+         "Only calls of these program lines")
+      ->type_name("FIRST-LAST");
+  o.diagnostics(sub);
+  o.output(sub);
+}
+
+void add_fmt(Options& o) {
+  CLI::App* sub = o.command(o.app, "fmt", format_programs,
+                            "Print programs in normal form: words in order of action, aligned comments,\n"
+                            "indentation by O words; same lines, same meaning");
+  o.programs(sub, "PROG", true);
+  CLI::Option* check = sub->add_flag("--check", o.arguments.only_check,
+                                     "Print only the names of programs that differ; exit 1 if there are any");
+  sub->add_flag("-i,--in-place", o.arguments.in_place, "Rewrite the files that differ")->excludes(check);
+  o.diagnostics(sub);
+  o.output(sub);
+  sub->footer("Example: kadr fmt --check *.ngc");
+}
+
+}  // namespace
+
+void add_program_commands(Options& o) {
+  add_run(o);
+  add_check(o);
+  add_plan(o);
+  add_canon(o);
+  add_fmt(o);
+}
+
+}  // namespace kadr::cli
