@@ -25,6 +25,8 @@ enum class AxisLimitRule : std::uint8_t { enforce, report };
 enum class OnAlarm : std::uint8_t { report, stop };
 enum class SchedulerKind : std::uint8_t { chained, blockwise };
 enum class PlanMethod : std::uint8_t { scheduler, tube, certified };
+/// How a G0 gets from rest to rest where a flexible link swings (paper 001).
+enum class RapidShape : std::uint8_t { scurve, t_zero, zv, zvd, automatic };
 enum class RampLaw : std::uint8_t { jerk_limited, quintic };
 enum class BlockTicks : std::uint8_t { exact, kl };
 enum class OverrideMode : std::uint8_t { corrected_plus, corrected, proportional };
@@ -93,6 +95,8 @@ struct PlannerSettings {
   PlanMethod method = PlanMethod::scheduler;         ///< or a time law of paper 000
   double node_mm = 1;                                ///< time laws: longest path between two nodes, > 0
   int tube_levels = 100;                             ///< tube: speeds tried at a node, 3 to 1000
+  RapidShape rapid_law = RapidShape::scurve;         ///< scurve: a rapid is planned as any other move
+  double rapid_frequency_pct = 1;                    ///< automatic: links' frequencies are known to +- this
   /// Whether plans keep the jerk limits of axes and path: paper 000 knows none.
   bool keeps_jerk() const { return method == PlanMethod::scheduler; }
   bool operator==(const PlannerSettings&) const = default;
@@ -136,6 +140,7 @@ struct LogSettings {
   bool steps = true;            ///< KADR_STEPS
   int block_ticks = 32;         ///< control ticks per exact message, 16..64
   double viewer_rate_hz = 100;  ///< KADR_FEED, KADR_AXIS_*; 0 switches them off
+  bool energy = false;          ///< joules of the motors, of each block and of the run
   bool operator==(const LogSettings&) const = default;
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,9 @@ struct SegmentPlan {
   TickRule rule = TickRule::none;
 };
 
+/// As in machine files: "scurve" "t-zero" "zv" "zvd" "auto".
+std::string_view rapid_law_name(machine::RapidShape shape);
+
 struct MotionState {
   double s_u, speed_u_s, accel_u_s2, jerk_u_s3;
 };
@@ -84,9 +88,19 @@ struct MotionLaw {
   MotionState eval(double time_s, std::size_t& hint) const;
 };
 
+/// A rapid that planner.rapid_law took care of.
+struct PositionedSegment {
+  std::uint32_t segment = 0;
+  machine::RapidShape shape = machine::RapidShape::scurve;  ///< never automatic; scurve: nothing there rings
+  std::string_view reason;                                  ///< of an automatic choice, else empty
+  double loss_s = 0;                                        ///< over the fastest way within the limits
+  std::array<double, kProgramAxes> residual_u{};  ///< [machine axes] amplitude that is left to swing
+};
+
 struct FeedPlan {
   std::vector<SegmentPlan> segments;  ///< [path.size()]
   MotionLaw law;
+  std::vector<PositionedSegment> positioned;  ///< ascending
 };
 
 }  // namespace kadr::planner

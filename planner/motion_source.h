@@ -73,10 +73,9 @@ class LawSource final : public MotionSource {
   /// Goes on from another time of the law, where it rests at path length s, as if `tick` control ticks had
   /// passed before.
   void seek(double time_s, double s_u, ControlTicks tick);
-
- private:
   double time_s() const;  ///< of the law, at the end of the last tick
 
+ private:
   const MotionLaw& law_;
   const machine::MachineModel& machine_;
   ControlTicks tick_;

@@ -334,6 +334,13 @@ class Verifier {
   // --- stops, ticks and table
   // -------------------------------------------------------------------------------------
 
+  /// A rapid of an axis with a flexible link, where such a rapid ends before anything else moves.
+  bool positions(std::size_t i) const {
+    if (machine_.planner.rapid_law == machine::RapidShape::scurve || !path_.segments[i].rapid) return false;
+    for (std::size_t j = 0; j < machine_.axis.size(); ++j)
+      if (moves(i, j) && machine_.axis[j].has_plant) return true;
+    return false;
+  }
   static bool stands(const JerkPiece& p) { return p.speed_u_s == 0.0 && at(p, p.duration_s).s == p.s_u; }
 
   void check_stops() {
@@ -341,7 +348,8 @@ class Verifier {
     const double tau = machine_.clock.tau_s();
     for (std::size_t i = 0; i < path_.size() && !full(); ++i) {
       const bool end = i + 1 == path_.size();
-      if (!path_.segments[i].stop_at_end && !end) continue;
+      const bool rapid = positions(i) || (!end && positions(i + 1));
+      if (!path_.segments[i].stop_at_end && !end && !rapid) continue;
       const double s = path_.start_s_u[i + 1];
       // rest is a place between pieces, with speed zero there
       bool rests = false;

@@ -11,7 +11,14 @@ namespace kadr::plant {
 /// Joules since the reset.
 struct AxisWork {
   double motor_J = 0;
+  double positive_J = 0;  ///< of motor_J, where the motor drives; the rest is given back to it
   double dissipated_J = 0;
+
+  /// Work of the motor over a part short enough not to change its sign.
+  void add_motor(double part_J) {
+    motor_J += part_J;
+    if (part_J > 0) positive_J += part_J;
+  }
 };
 
 /// One machine axis under integration. The motor's equilibrium is the lattice node of the steps so far, moved

@@ -196,8 +196,8 @@ EnergyBalance Plant::energy(int axis) const {
   require(axis >= 0 && index < impl_->motion.size(), "energy of an axis of the machine");
   const AxisMotion* motion = impl_->motion[index].get();
   if (!motion) return {};
-  return {motion->work.motor_J, motion->equations.kinetic_J(motion->z), motion->equations.spring_J(motion->z),
-          motion->work.dissipated_J};
+  return {motion->work.motor_J, motion->work.positive_J, motion->equations.kinetic_J(motion->z),
+          motion->equations.spring_J(motion->z), motion->work.dissipated_J};
 }
 
 void Plant::reset(const std::vector<double>& position_u) {

@@ -49,6 +49,9 @@ struct LostSteps {
 /// work.
 struct EnergyBalance {
   double motor_work_J = 0;
+  /// Where the motor drives; positive_J - motor_work_J is what the load gives back to it (recuperated), their
+  /// sum what paper 001 calls |P|. The sign is taken part by part between two pulses.
+  double positive_work_J = 0;
   double kinetic_J = 0;
   double spring_J = 0;
   double dissipated_J = 0;

@@ -69,7 +69,7 @@ class Rigid final : public Integrator {
   void add_work(double before_m, const BaseMotion& base) {
     const machine::TwoMassModel& m = axis_.equations.model;
     const double tau_s = axis_.equations.tau_s;
-    axis_.work.motor_J += 0.5 * m.base_mass * (base.v0 * base.v0 - before_m * before_m) / (tau_s * tau_s);
+    axis_.work.add_motor(0.5 * m.base_mass * (base.v0 * base.v0 - before_m * before_m) / (tau_s * tau_s));
     Vector<2> link{axis_.z[kLink], axis_.z[kLinkSpeed]};
     const double h = 1 / parts_;
     for (double part = 0; part < parts_; ++part) {
@@ -110,7 +110,7 @@ class Rigid final : public Integrator {
       v_v += over * vv;
       w_w += over * ww;
     }
-    axis_.work.motor_J += force_v;
+    axis_.work.add_motor(force_v);
     axis_.work.dissipated_J += (m.base_friction * v_v + m.link_damping * w_w) / eq.tau_s;
     link = {0, 0};
     for (std::size_t n = kOrders + 1; n-- > 0;) {

@@ -91,7 +91,7 @@ bool TaylorAxis::advance_part(Vector4& z, double h, AxisWork* work) const {
     }
     const machine::TwoMassModel& m = eq_.model;
     // force is an acceleration in m per tick^2; v is in m per tick
-    work->motor_J += m.base_mass * force_v / (eq_.tau_s * eq_.tau_s) - m.motor_damping * v_v / eq_.tau_s;
+    work->add_motor(m.base_mass * force_v / (eq_.tau_s * eq_.tau_s) - m.motor_damping * v_v / eq_.tau_s);
     work->dissipated_J += (m.base_friction * v_v + m.link_damping * w_w) / eq_.tau_s;
   }
   z = sum;

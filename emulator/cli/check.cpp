@@ -125,10 +125,10 @@ int plan_program(const Arguments& arguments, Console& console) {
   console.diagnostics(diagnostics, job.sources, program, Console::Where::errors);
   if (code != kYes) return code;
   if (arguments.csv) {
-    console.data(
-        emulator::plan_csv_title(job.machine.model.planner.scheduler == machine::SchedulerKind::blockwise));
-    emulator::for_each_plan_row(
-        job, [&](const emulator::PlanRow& row) { console.data(emulator::plan_csv_row(row)); });
+    console.data(emulator::plan_csv_title(job.machine.model));
+    emulator::for_each_plan_row(job, [&](const emulator::PlanRow& row) {
+      console.data(emulator::plan_csv_row(row, job.machine.model));
+    });
     return code;
   }
   const emulator::PlanTable table(job);

@@ -65,9 +65,15 @@ void Monitor::tick(const TickView& view, std::vector<EventRecord>& events,
   else
     std::fill(tangent_.begin(), tangent_.end(), 0.0);
 
+  energy_ = view.energy;
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     watch_axis(a, view, events);
     if (view.plant) watch_plant(a, view);
+    if (view.energy) {
+      const plant::EnergyBalance e = view.energy->energy(static_cast<int>(a));
+      axes_[a].summary.positive_J = e.positive_work_J;
+      axes_[a].summary.recuperated_J = e.positive_work_J - e.motor_work_J;
+    }
   }
   if (view.plant) watch_path_error(view);
   if (path_.size() > 0) {
@@ -271,11 +277,16 @@ void Monitor::end_slips(std::int64_t after_ticks, Ticks now, std::vector<EventRe
 }
 
 void Monitor::end_block(Ticks tick, std::vector<BlockEndRecord>& block_ends) {
-  BlockEndRecord record{tick, block_, path_.segments[segment_].span.line, {}, {}};
+  BlockEndRecord record{tick, block_, path_.segments[segment_].span.line, {}, {}, {}, {}};
   for (Axis& axis : axes_) {
     record.peak_link_u.push_back(axis.block_link_u);
     record.peak_following_u.push_back(axis.block_following_u);
     axis.block_link_u = axis.block_following_u = 0;
+    if (!energy_) continue;
+    record.positive_J.push_back(axis.summary.positive_J - axis.block_positive_J);
+    record.recuperated_J.push_back(axis.summary.recuperated_J - axis.block_recuperated_J);
+    axis.block_positive_J = axis.summary.positive_J;
+    axis.block_recuperated_J = axis.summary.recuperated_J;
   }
   block_ends.push_back(std::move(record));
 }

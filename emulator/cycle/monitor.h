@@ -14,6 +14,7 @@ struct TickView {
   const planner::TickMotion* motion = nullptr;
   const StepBatch* batch = nullptr;
   const std::vector<plant::AxisState>* plant = nullptr;  ///< null without plant
+  const plant::Plant* energy = nullptr;                  ///< the plant if it keeps energies
   std::size_t segment = 0;                               ///< at the tick's end
 };
 
@@ -56,6 +57,7 @@ class Monitor {
     std::int64_t slip_steps = 0;       // lost in the slip under way
     std::int64_t slip_ticks_ago = -1;  // control ticks since its last loss; -1: no slip
     double block_link_u = 0, block_following_u = 0;
+    double block_positive_J = 0, block_recuperated_J = 0;  // of the run, where the block began
     bool moved_since_stop = false;
   };
 
@@ -80,6 +82,7 @@ class Monitor {
   std::size_t segment_ = 0;
   std::uint32_t block_ = 0;
   bool block_open_ = false;
+  bool energy_ = false;
   std::int64_t ticks_ = 0;
   std::size_t speed_segment_ = 0;
   int joint_ticks_ago_ = 1000;  // control ticks since a joint was passed

@@ -48,7 +48,7 @@ class Cycle {
     batch_.axis.resize(machine_.axis.size());
     if (options.plant && std::any_of(machine_.axis.begin(), machine_.axis.end(),
                                      [](const machine::AxisModel& a) { return a.has_plant; })) {
-      plant_.emplace(machine_);
+      plant_.emplace(machine_, plant::PlantOptions{.energy = machine_.log.energy});
       std::vector<double> start_u;
       for (std::size_t a = 0; a < machine_.axis.size(); ++a)
         start_u.push_back(job.path.size() > 0 ? job.path.node(0)[a] : machine_.axis[a].home_u);
@@ -127,7 +127,8 @@ class Cycle {
       if (auto moved = plant_->advance(batch_); !moved) plant_error = moved.error();
     }
     if (plant_error) return plant_failure(*plant_error);
-    TickView view{&motion_, &batch_, plant_ ? &plant_->state() : nullptr, segment()};
+    TickView view{&motion_, &batch_, plant_ ? &plant_->state() : nullptr,
+                  plant_ && machine_.log.energy ? &*plant_ : nullptr, segment()};
     monitor_.tick(view, events_, block_ends_);
     if (plant_) monitor_.lost_steps(plant_->lost_steps(), now_, events_);
     if (motion_.s_end_u > motion_.s_begin_u) ++motion_ticks_;

@@ -123,6 +123,10 @@ block_end_t block_end_message(const BlockEndRecord& r, const machine::ClockModel
   m.n_axes = small(r.peak_link_u.size());
   m.peak_link_u = r.peak_link_u;
   m.peak_following_u = r.peak_following_u;
+  require(r.positive_J.size() == r.recuperated_J.size(), "a block's energies have the same axes");
+  m.n_energy_axes = small(r.positive_J.size());
+  m.positive_J = r.positive_J;
+  m.recuperated_J = r.recuperated_J;
   return m;
 }
 
@@ -195,6 +199,8 @@ summary_t summary_message(const RunSummary& s, const machine::ClockModel& clock,
     m.peak_following_u.push_back(a.peak_following_u);
     m.rms_following_u.push_back(a.rms_following_u);
     m.lost_steps.push_back(a.lost_steps);
+    m.positive_J.push_back(a.positive_J);
+    m.recuperated_J.push_back(a.recuperated_J);
   }
   m.n_limits = small(s.limited_by.size());
   for (const LimitShare& share : s.limited_by) {

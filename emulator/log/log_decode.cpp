@@ -72,6 +72,9 @@ Decoded<BlockEndRecord> decode_block_end(WireReader in) {
   const std::int32_t axes = in.count(0, kMaxAxes);
   r.peak_link_u = in.f64s(axes);
   r.peak_following_u = in.f64s(axes);
+  const std::int32_t energy_axes = in.count(0, kMaxAxes);
+  r.positive_J = in.f64s(energy_axes);
+  r.recuperated_J = in.f64s(energy_axes);
   return finished(in, std::move(r));
 }
 
@@ -253,6 +256,8 @@ void decode_axis_summaries(WireReader& in, std::vector<AxisSummary>& axis) {
   reals(&AxisSummary::peak_following_u);
   reals(&AxisSummary::rms_following_u);
   integers([](AxisSummary& a, std::int64_t v) { a.lost_steps = v; });
+  reals(&AxisSummary::positive_J);
+  reals(&AxisSummary::recuperated_J);
 }
 
 Decoded<LogSummary> decode_summary(WireReader in) {

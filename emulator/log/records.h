@@ -50,6 +50,8 @@ struct BlockEndRecord {
   std::uint32_t line = 0;
   std::vector<double> peak_link_u;       ///< [axes] largest |x1| at control ticks
   std::vector<double> peak_following_u;  ///< [axes] largest |tool - command| at control ticks
+  std::vector<double> positive_J;  ///< [axes] work of the motors where they drive; empty without log.energy
+  std::vector<double> recuperated_J;  ///< [axes] and where they brake
 };
 
 /// One control tick, at its end. Axis arrays live in the batch (commands) and `axis` (plant).
@@ -94,6 +96,7 @@ struct AxisSummary {
   double peak_following_u = 0;  ///< |tool - command|
   double rms_following_u = 0;
   std::int64_t lost_steps = 0;
+  double positive_J = 0, recuperated_J = 0;  ///< work of the motor where it drives, and where it brakes
 };
 
 struct LimitShare {

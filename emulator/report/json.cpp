@@ -47,6 +47,11 @@ Json axis_json(const AxisSummary& x, const machine::AxisModel& axis, const machi
   load["peak_following_u"] = x.peak_following_u;
   load["rms_following_u"] = x.rms_following_u;
   load["lost_steps"] = x.lost_steps;
+  if (model.log.energy) {
+    load["positive_J"] = x.positive_J;
+    load["absolute_J"] = x.positive_J + x.recuperated_J;
+    load["recuperated_J"] = x.recuperated_J;
+  }
   j["load"] = std::move(load);
   return j;
 }
@@ -157,6 +162,15 @@ Json json_of(const PlanRow& row) {
     j["rule"] = row.rule.empty() ? Json(nullptr) : Json(row.rule);
     j["kl"] = row.kl;
     j["end_jump_u_s"] = row.end_jump_u_s;
+  }
+  if (row.positioned) {
+    Json rapid;
+    rapid["law"] = row.rapid_law;
+    rapid["reason"] = row.rapid_reason.empty() ? Json(nullptr) : Json(row.rapid_reason);
+    rapid["loss_s"] = row.rapid_loss_s;
+    for (const auto& [axis, residual_u] : row.residual_u)
+      rapid["residual_u"][std::string(1, axis)] = residual_u;
+    j["rapid"] = std::move(rapid);
   }
   return j;
 }

@@ -42,12 +42,32 @@ void add_ticks(const Job& job, std::size_t first, std::size_t end, PlanRow& row)
   row.rule = planner::tick_rule_name(rule);
 }
 
+void add_rapid(const Job& job, const planner::PositionedSegment& rapid, PlanRow& row) {
+  row.positioned = true;
+  row.rapid_law = planner::rapid_law_name(rapid.shape);
+  row.rapid_reason = rapid.reason;
+  row.rapid_loss_s = rapid.loss_s;
+  const std::vector<machine::AxisModel>& axis = job.machine.model.axis;
+  for (std::size_t c = 0; c < axis.size(); ++c)
+    if (axis[c].has_plant) row.residual_u.emplace_back(axis[c].letter, rapid.residual_u[c]);
+}
+
+/// "zv +0.025 s", and what it leaves where that is not nothing.
+std::string rapid_text(const PlanRow& row) {
+  constexpr double kNothing_u = 5e-7;
+  std::string out = fmt::format("; {} +{} s", row.rapid_law, fixed(row.rapid_loss_s, 3));
+  for (const auto& [axis, residual_u] : row.residual_u)
+    if (residual_u > kNothing_u) out += fmt::format(", {} swings {} um", axis, fixed(1e3 * residual_u, 1));
+  return out;
+}
+
 }  // namespace
 
 void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>& sink) {
   const machine::MachineModel& machine = job.machine.model;
   std::size_t next_event = 0;
   double time_s = 0;
+  auto rapid = job.plan.positioned.begin();
   const auto pauses_before = [&](std::size_t segment) {
     for (; next_event < job.events.size() && job.events[next_event].after_segment <= segment; ++next_event) {
       const gcode::Block& block = job.events[next_event].block;
@@ -80,6 +100,7 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
     row.end_u_s = block.end_u_s;
     row.limited_by = limited_by_text(block.limited_by, block.limiting_axis, machine);
     if (is_blockwise(job)) add_ticks(job, i, block.end_segment, row);
+    if (rapid != job.plan.positioned.end() && rapid->segment == i) add_rapid(job, *rapid++, row);
     time_s = block.begin_s + block.time_s;
     sink(row);
     i = block.end_segment;
@@ -132,6 +153,7 @@ std::string PlanTable::row(const PlanRow& r) const {
                        number(r.end_jump_u_s, speed_width_));
   if (mixed()) out += pause ? "          " : fmt::format("  {:<8}", fmt::format("{0} {0}/s", r.unit));
   out += "  " + (pause ? r.motion : r.limited_by);
+  if (r.positioned) out += rapid_text(r);
   return out + '\n';
 }
 
@@ -141,13 +163,15 @@ std::string PlanTable::footer(const Job& job, std::size_t rows) const {
                      duration_text(job.dwell_s));
 }
 
-std::string plan_csv_title(bool blockwise) {
+std::string plan_csv_title(const machine::MachineModel& machine) {
+  const bool blockwise = machine.planner.scheduler == machine::SchedulerKind::blockwise;
+  const bool rapids = machine.planner.rapid_law != machine::RapidShape::scurve;
   return fmt::format(
-      "line,motion,unit,length_u,begin_s,time_s,programmed_u_s,peak_u_s,end_u_s,limited_by,{}text\n",
-      blockwise ? "rule,kl,end_jump_u_s," : "");
+      "line,motion,unit,length_u,begin_s,time_s,programmed_u_s,peak_u_s,end_u_s,limited_by,{}{}text\n",
+      blockwise ? "rule,kl,end_jump_u_s," : "", rapids ? "rapid_law,rapid_loss_s," : "");
 }
 
-std::string plan_csv_row(const PlanRow& row) {
+std::string plan_csv_row(const PlanRow& row, const machine::MachineModel& machine) {
   std::string quoted;
   for (const char c : row.text) {
     if (c == '"') quoted += '"';
@@ -155,9 +179,12 @@ std::string plan_csv_row(const PlanRow& row) {
   }
   const std::string ticks =
       row.blockwise ? fmt::format("{},{},{},", row.rule, row.kl, row.end_jump_u_s) : std::string();
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}\"{}\"\n", row.line, row.motion, row.unit, row.length_u,
-                     row.begin_s, row.time_s, row.programmed_u_s, row.peak_u_s, row.end_u_s, row.limited_by,
-                     ticks, quoted);
+  std::string rapid;
+  if (machine.planner.rapid_law != machine::RapidShape::scurve)
+    rapid = row.positioned ? fmt::format("{},{},", row.rapid_law, row.rapid_loss_s) : ",,";
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}{}\"{}\"\n", row.line, row.motion, row.unit,
+                     row.length_u, row.begin_s, row.time_s, row.programmed_u_s, row.peak_u_s, row.end_u_s,
+                     row.limited_by, ticks, rapid, quoted);
 }
 
 }  // namespace kadr::emulator

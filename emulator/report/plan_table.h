@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "emulator/emulator.h"
@@ -27,6 +28,13 @@ struct PlanRow {
   std::string rule;         ///< how the block came to whole control ticks: "a" to "d", or ""
   double kl = 1;            ///< lowest factor on its speeds (paper 003, eq. 3)
   double end_jump_u_s = 0;  ///< largest jump of speed at its end, or at an inner joint of a curve
+  // of a rapid that planner.rapid_law takes care of
+  bool positioned = false;
+  std::string rapid_law;     ///< "t-zero" "zv" "zvd", or "scurve" where nothing rings
+  std::string rapid_reason;  ///< of an automatic choice, else empty
+  double rapid_loss_s = 0;   ///< over the fastest way within the limits
+  std::vector<std::pair<char, double>>
+      residual_u;  ///< amplitude left to swing, of the axes that have a plant
 };
 
 /// Calls `sink` for each row in program order. Nothing is kept, so a program of a million lines costs no
@@ -53,9 +61,9 @@ class PlanTable {
 };
 
 /// "line,motion,unit,length_u,begin_s,..."; `_u` is in the row's own unit. A plan made block by block has
-/// rule, kl and jump before the text.
-std::string plan_csv_title(bool blockwise);
+/// rule, kl and jump before the text, one with a planner.rapid_law the rapid's law and loss_s.
+std::string plan_csv_title(const machine::MachineModel& machine);
 /// Dot, comma, LF; shortest digits that read back to the same number; text in quotes.
-std::string plan_csv_row(const PlanRow& row);
+std::string plan_csv_row(const PlanRow& row, const machine::MachineModel& machine);
 
 }  // namespace kadr::emulator

@@ -112,6 +112,19 @@ std::string load_table(const RunSummary& s, const SummaryContext& c) {
   return table.render();
 }
 
+/// What the motors did; empty without log.energy.
+std::string energy_table(const RunSummary& s, const SummaryContext& c) {
+  if (!c.plant || !c.model->log.energy) return "";
+  TextTable table({{"energy of motors", Align::left}, {"positive J"}, {"absolute J"}, {"recuperated J"}});
+  for (std::size_t a = 0; a < s.axis.size(); ++a) {
+    if (!c.model->axis[a].has_plant) continue;
+    const AxisSummary& x = s.axis[a];
+    table.add({std::string("  ") + c.model->axis[a].letter, fixed(x.positive_J, 4),
+               fixed(x.positive_J + x.recuperated_J, 4), fixed(x.recuperated_J, 4)});
+  }
+  return table.render();
+}
+
 std::string alarm_lines(const RunSummary& s, const SummaryContext& c) {
   if (s.alarms == 0) return head("alarms", "none");
   std::string out = head("alarms", grouped(static_cast<std::int64_t>(s.alarms)));
@@ -187,6 +200,7 @@ std::string render_summary(const RunSummary& s, const SummaryContext& c) {
   out += acceleration_table(s, c);
   if (c.plant) {
     out += load_table(s, c);
+    out += energy_table(s, c);
     out += head("path error",
                 fmt::format("{} um   (tool from command over X Y Z, largest)", error_number(s.path_error_u)));
   } else {

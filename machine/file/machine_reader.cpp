@@ -121,6 +121,15 @@ PlannerSettings read_planner(const Node* table, const Span& place, ReadContext& 
   s.method = static_cast<PlanMethod>(r.choice("method", {"scheduler", "tube", "certified"}, 0).value);
   s.node_mm = r.number("node_mm", {1e-3, 1e3}, s.node_mm).value;
   s.tube_levels = static_cast<int>(r.number("tube_levels", {3, 1000, false, true}, s.tube_levels).value);
+  const auto rapid = r.choice("rapid_law", {"scurve", "t-zero", "zv", "zvd", "auto"}, 0);
+  s.rapid_law = static_cast<RapidShape>(rapid.value);
+  if (s.rapid_law != RapidShape::scurve && s.scheduler == SchedulerKind::blockwise) {
+    Diagnostic d =
+        file_diagnostic(Code::machine_rapid_law, rapid.span, "but planner.scheduler is \"blockwise\"");
+    d.help = "give rapid_law = \"scurve\", or scheduler = \"chained\"";
+    context.diagnostics.add(std::move(d));
+  }
+  s.rapid_frequency_pct = r.number("rapid_frequency_pct", {0, 50}, s.rapid_frequency_pct).value;
   r.finish();
   return s;
 }
@@ -160,6 +169,7 @@ LogSettings read_log(const Node* table, const Span& place, const ClockModel& clo
   LogSettings s;
   s.ticks = r.flag("ticks", s.ticks).value;
   s.steps = r.flag("steps", s.steps).value;
+  s.energy = r.flag("energy", s.energy).value;
   s.block_ticks = static_cast<int>(r.number("block_ticks", {16, 64, false, true}, s.block_ticks).value);
   // viewer values come from control ticks: there are no more of them
   const double most_hz = 1 / clock.tau_s();

@@ -153,6 +153,9 @@ void write_settings(TomlWriter& w, const MachineModel& m) {
   w.word("method", methods[static_cast<std::size_t>(m.planner.method)]);
   w.number("node_mm", m.planner.node_mm);
   w.number("tube_levels", m.planner.tube_levels);
+  constexpr std::string_view rapids[] = {"scurve", "t-zero", "zv", "zvd", "auto"};
+  w.word("rapid_law", rapids[static_cast<std::size_t>(m.planner.rapid_law)]);
+  w.number("rapid_frequency_pct", m.planner.rapid_frequency_pct);
   write_override(w, m.feed_override);
   write_spindle(w, m.spindle);
   constexpr std::string_view integrators[] = {"smooth", "reference", "oracle"};
@@ -168,6 +171,7 @@ void write_settings(TomlWriter& w, const MachineModel& m) {
   w.table("[log]", "log");
   w.flag("ticks", m.log.ticks);
   w.flag("steps", m.log.steps);
+  w.flag("energy", m.log.energy);
   w.line("block_ticks", fmt::format("{}", m.log.block_ticks));
   w.number("viewer_rate_hz", m.log.viewer_rate_hz);
 }

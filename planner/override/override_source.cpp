@@ -5,9 +5,12 @@
 
 #include "machine/base/require.h"
 #include "planner/laws/tick_shape.h"
+#include "planner/scheduler/pieces.h"
 
 namespace kadr::planner {
 namespace {
+
+constexpr double kSameTime_s = 1e-9;  ///< the law stands at a place of its own but for rounding
 
 PathLimitTable caps_of(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
                        double most_percent) {
@@ -32,6 +35,8 @@ PathLimitTable caps_of(const Path& path, const FeedPlan& plan, const machine::Ma
   }
   return std::move(*table);
 }
+
+bool brakes(const MotionState& x) { return x.accel_u_s2 < 0.0 || (x.accel_u_s2 == 0.0 && x.jerk_u_s3 < 0.0); }
 
 /// A speed and its acceleration after a time on the shortest way to another speed.
 MotionState towards(MotionState x, double wanted_u_s, RampLimits l, double time_s) {
@@ -65,9 +70,12 @@ OverrideSource::OverrideSource(const Path& path, const FeedPlan& plan, const mac
       law_(plan.law, machine),
       tracker_(terrain_),
       probe_(terrain_),
-      tangent_(machine.axis.size()) {}
+      tangent_(machine.axis.size()),
+      rapids_(machine) {
+  if (!plan.positioned.empty()) slow_rapid_.pieces.reserve(PointLaw::kMostEdges);
+}
 
-bool OverrideSource::finished() const { return !tracking_ && law_.finished(); }
+bool OverrideSource::finished() const { return !tracking_ && !slow_source_ && law_.finished(); }
 
 /// A pause, or the end: nothing that a percent would change.
 bool OverrideSource::law_rests() const {
@@ -75,17 +83,12 @@ bool OverrideSource::law_rests() const {
   return piece.speed_u_s == 0.0 && piece.accel_u_s2 == 0.0 && piece.jerk_u_s3 == 0.0;
 }
 
-bool OverrideSource::law_brakes() const {
-  const MotionState& x = law_.state();
-  return x.accel_u_s2 < 0.0 || (x.accel_u_s2 == 0.0 && x.jerk_u_s3 < 0.0);
-}
-
-bool OverrideSource::leave_law(const Percent& percent) {
-  const MotionState x = law_.state();
+bool OverrideSource::leave_law(const LawSource& source, const MotionLaw& law, const Percent& percent) {
+  const MotionState x = source.state();
   // the ramp under way ends with the jerk of its last piece
   double jerk = terrain_.limits(segment_, segment_).jerk_u_s3;
-  for (std::size_t k = law_.piece(); x.accel_u_s2 != 0.0 && k < plan_.law.pieces.size(); ++k) {
-    const double j = plan_.law.pieces[k].jerk_u_s3;
+  for (std::size_t k = source.piece(); x.accel_u_s2 != 0.0 && k < law.pieces.size(); ++k) {
+    const double j = law.pieces[k].jerk_u_s3;
     if (j * x.accel_u_s2 < 0.0) {
       jerk = std::fabs(j);
       break;
@@ -94,11 +97,79 @@ bool OverrideSource::leave_law(const Percent& percent) {
   return tracker_.start(segment_, x, percent, jerk);
 }
 
-/// The tracker stands at the end of its run: the law goes on from there with the next control tick.
-void OverrideSource::return_to_law() {
-  law_.seek(plan_.segments[tracker_.segment()].end_time_s, s_u_, tick_);
-  segment_ = terrain_.segment_at(s_u_, tracker_.segment());
+void OverrideSource::return_to_law(std::size_t segment) {
+  law_.seek(plan_.segments[segment].end_time_s, s_u_, tick_);
+  segment_ = terrain_.segment_at(s_u_, segment);
   tracking_ = false;
+}
+
+const PositionedSegment* OverrideSource::rapid_of_law() {
+  const double now_s = law_.time_s() + kSameTime_s;
+  const std::vector<PositionedSegment>& all = plan_.positioned;
+  while (next_rapid_ < all.size() && plan_.segments[all[next_rapid_].segment].end_time_s <= now_s)
+    ++next_rapid_;
+  if (next_rapid_ == all.size() || plan_.segments[all[next_rapid_].segment].begin_time_s > now_s)
+    return nullptr;
+  return &all[next_rapid_];
+}
+
+void OverrideSource::begin_slow_rapid(std::size_t segment, double ratio) {
+  const RampLimits limits = terrain_.limits(segment, segment);
+  const double speed = terrain_.hard_cap_u_s(2 * segment + 1) * ratio;
+  const Positioning rapid = rapids_.plan(path_, segment, speed, limits.accel_u_s2, limits.jerk_u_s3);
+  slow_rapid_.pieces.clear();
+  PieceWriter writer(slow_rapid_);
+  writer.add(rapid.law, path_.start_s_u[segment], {LimitedBy::override_percent, -1}, -1.0);
+  slow_rapid_.duration_s = writer.time_s();
+  slow_rapid_.length_u = path_.start_s_u[segment + 1];
+  slow_source_.emplace(slow_rapid_, machine_);
+  slow_ratio_ = ratio;
+  segment_ = segment;
+}
+
+bool OverrideSource::advance_rapid(TickMotion& m, const OperatorInput& input, const Percent& percent) {
+  bool waits = false;
+  if (!slow_source_) {
+    const PositionedSegment* rapid = law_.finished() ? nullptr : rapid_of_law();
+    if (!rapid || input.emergency_stop) return false;
+    const double begin_s = plan_.segments[rapid->segment].begin_time_s;
+    const bool begins = std::fabs(law_.time_s() - begin_s) <= kSameTime_s;
+    if (begins && percent.rapid == 0.0) {  // it stays where it is
+      m.s_begin_u = m.s_end_u = s_u_;
+      m.limited_by = LimitedBy::hold;
+      m.override_used = percent.feed;
+      finish_tick(m);
+      law_.seek(begin_s, s_u_, tick_);
+      return true;
+    }
+    if (!begins && input.hold) return false;
+    if (begins && percent.rapid < 1.0) begin_slow_rapid(rapid->segment, percent.rapid);
+    waits = !begins && percent.rapid != 1.0;
+  } else if (input.emergency_stop || (input.hold && !brakes(slow_source_->state()))) {
+    tracking_ = leave_law(*slow_source_, slow_rapid_, input.emergency_stop ? Percent{} : percent) ||
+                input.emergency_stop;
+    if (tracking_) {
+      slow_source_.reset();
+      return false;
+    }
+    waits = true;
+  } else {
+    waits = percent.rapid != slow_ratio_;
+  }
+  const ControlTicks tick = m.tick;
+  m = slow_source_ ? slow_source_->advance(input) : law_.advance(input);
+  m.tick = tick;
+  m.override_requested = m.override_used = percent.feed;
+  if (waits) m.note = OverrideNote::deferred;
+  s_u_ = m.s_end_u;
+  speed_u_s_ = m.speed_end_u_s;
+  if (slow_source_ && slow_source_->finished()) {
+    slow_source_.reset();
+    return_to_law(segment_);
+  } else {
+    segment_ = terrain_.segment_at(s_u_, segment_);
+  }
+  return true;
 }
 
 TickMotion OverrideSource::advance(const OperatorInput& input) {
@@ -106,16 +177,24 @@ TickMotion OverrideSource::advance(const OperatorInput& input) {
   percent.frozen = percent.feed;
   const bool plain = percent.feed == 1.0 && percent.rapid == 1.0;
   OverrideNote note = OverrideNote::none;
+  if (!tracking_ && !plan_.positioned.empty()) {
+    TickMotion m;
+    m.tick = tick_;
+    m.override_requested = percent.feed;
+    ++tick_;
+    if (advance_rapid(m, input, percent)) return m;
+    tick_ = m.tick;
+  }
   if (!tracking_ && !law_.finished() && (!plain || input.emergency_stop)) {
     if (!law_rests()) {
       const bool moving = law_.state().speed_u_s > 0.0;
       if (input.emergency_stop) {
-        leave_law(Percent{});  // whatever way it would go: it stops at once
+        leave_law(law_, plan_.law, Percent{});  // whatever way it would go: it stops at once
         tracking_ = true;
       } else if (moving && terrain_.locked(segment_)) {
         note = OverrideNote::locked;
       } else {
-        tracking_ = !(moving && law_brakes()) && leave_law(percent);
+        tracking_ = !(moving && brakes(law_.state())) && leave_law(law_, plan_.law, percent);
         if (!tracking_) note = OverrideNote::deferred;
       }
     } else if (input.emergency_stop) {
@@ -165,7 +244,7 @@ void OverrideSource::advance_tracker(TickMotion& m, const Percent& percent, bool
   finish_tick(m);
   if (emergency && x.speed_u_s == 0.0) stopped_ = true;
   if (limits) limit_ = tracker_.braking() ? LimitedFeed{} : limiter_at(m.s_end_u, m.speed_end_u_s);
-  if (tracker_.run_ended()) return_to_law();
+  if (tracker_.run_ended()) return_to_law(tracker_.segment());
 }
 
 /// The tracker goes on from the motion as it is.

@@ -1,9 +1,12 @@
 #pragma once
+#include <optional>
+
 #include "planner/feed_plan.h"
 #include "planner/motion_source.h"
 #include "planner/override/axis_limiter.h"
 #include "planner/override/feed_terrain.h"
 #include "planner/override/feed_tracker.h"
+#include "planner/positioning/positioning.h"
 
 namespace kadr::planner {
 
@@ -13,6 +16,9 @@ namespace kadr::planner {
 ///
 /// While the law brakes for a place ahead, or a move is locked, a change waits (paper 003: the percent is not
 /// changed while braking); the log tells it by OverrideNote. An emergency stop does not wait.
+///
+/// A rapid that planner.rapid_law takes care of gets its percent as it begins: a law of its own with so much
+/// of the speed, and as silent. Changes wait for the next one; a feed hold brakes it as any other move.
 ///
 /// Where an axis would be asked for more than its highest speed, an axis limiter lowers the feed to K_max
 /// times the one demanded, in the control tick after it was measured (eq. 12) or in the same one
@@ -28,10 +34,15 @@ class OverrideSource final : public MotionSource {
 
  private:
   bool law_rests() const;
-  bool law_brakes() const;
   /// Whether the tracker could take over.
-  bool leave_law(const Percent& percent);
-  void return_to_law();
+  bool leave_law(const LawSource& source, const MotionLaw& law, const Percent& percent);
+  /// At rest at the end of a segment: the law goes on from there with the next control tick.
+  void return_to_law(std::size_t segment);
+  /// The row of the plan that the law is in or begins with; nullptr: no rapid of planner.rapid_law.
+  const PositionedSegment* rapid_of_law();
+  /// What a percent does to such a rapid; false: nothing, or the motion has to leave it.
+  bool advance_rapid(TickMotion& motion, const OperatorInput& input, const Percent& percent);
+  void begin_slow_rapid(std::size_t segment, double ratio);
   void advance_tracker(TickMotion& motion, const Percent& percent, bool emergency);
   /// A tick in which the axis limiter lowers the feed; false: it does not, or the motion has to brake.
   bool advance_limited(TickMotion& motion, const Percent& percent);
@@ -50,6 +61,11 @@ class OverrideSource final : public MotionSource {
   MotionState demand_{};  ///< feed before the limiter, while limited
   bool limited_ = false;
   std::vector<double> tangent_;
+  PositioningPlanner rapids_;
+  std::size_t next_rapid_ = 0;  ///< of plan.positioned: the first that the law is not past
+  MotionLaw slow_rapid_;        ///< the present one under a percent
+  std::optional<LawSource> slow_source_;
+  double slow_ratio_ = 1;
   bool tracking_ = false, stopped_ = false;
   std::size_t segment_ = 0;         ///< of the law
   double s_u_ = 0, speed_u_s_ = 0;  ///< at the end of the last tick

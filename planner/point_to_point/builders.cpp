@@ -10,7 +10,7 @@ namespace kadr::planner {
 namespace {
 
 PointLaw convolved(const PointLaw& law, std::span<const Impulse> impulses) {
-  require(law.edges().size() * impulses.size() <= PointLaw::kMostEdges, "a shaped law has at most 24 edges");
+  require(law.edges().size() * impulses.size() <= PointLaw::kMostEdges, "a shaped law has at most 72 edges");
   std::array<PointEdge, PointLaw::kMostEdges> edges{};
   std::size_t n = 0;
   for (const Impulse& i : impulses)
@@ -55,7 +55,7 @@ PointLaw bang_bang_law(double distance_u, double v, double a) {
 }
 
 PointLaw averaged(const PointLaw& law, double window_s) {
-  require(2 * law.edges().size() <= PointLaw::kMostEdges, "an averaged law has at most 24 edges");
+  require(2 * law.edges().size() <= PointLaw::kMostEdges, "an averaged law has at most 72 edges");
   std::array<PointEdge, PointLaw::kMostEdges> edges{};
   std::size_t n = 0;
   for (const PointEdge& e : law.edges()) {

@@ -26,7 +26,7 @@ PointState PointPiece::at(double t) const {
 }
 
 PointLaw PointLaw::from_edges(std::span<const PointEdge> edges, double distance_u) {
-  require(edges.size() >= 2 && edges.size() <= kMostEdges, "a law has 2 to 24 edges");
+  require(edges.size() >= 2 && edges.size() <= kMostEdges, "a law has 2 to 72 edges");
   PointLaw law;
   std::array<PointEdge, kMostEdges> sorted{};
   std::copy(edges.begin(), edges.end(), sorted.begin());

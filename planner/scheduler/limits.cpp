@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "machine/base/numbers.h"
+#include "planner/positioning/positioning.h"
 
 namespace kadr::planner {
 namespace {
@@ -236,7 +237,8 @@ class TableMaker {
     }
     if (path_.segments[i].begin_limit_u_s < cap)
       cap = path_.segments[i].begin_limit_u_s, signature = {LimitedBy::program, -1};
-    if (path_.segments[i - 1].stop_at_end) cap = 0.0, signature = {LimitedBy::stop, -1};
+    const bool positions = is_positioning(path_, i - 1, machine_) || is_positioning(path_, i, machine_);
+    if (path_.segments[i - 1].stop_at_end || positions) cap = 0.0, signature = {LimitedBy::stop, -1};
     table_.cap_u_s[2 * i] = cap;
     table_.signature[2 * i] = signature;
   }

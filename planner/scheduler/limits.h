@@ -44,6 +44,7 @@ struct PathLimitTable {
 ///
 /// Joint (paper 003, section 1.2), a curvature step counting as a jump of acceleration:
 ///   v <= min_j min(a_inst_j tau, j_inst_j tau^2) / |delta e_j|,    v^2 |delta kappa_j| <= a_inst_j
+/// and 0 at both ends of a rapid that planner.rapid_law takes care of.
 ///
 /// With axis_limits = report the axis limits are left out wherever the path gives an acceleration limit;
 /// corners keep the junction rule and rapids their axis speed.

@@ -87,8 +87,22 @@ void PieceWriter::add(const std::vector<Element>& run, double stretch, double en
     else
       ramp(e);
   }
+  end_at(end_time_s);
+}
+
+void PieceWriter::add(const PointLaw& law, double s_u, Signature why, double end_time_s) {
+  stretch_ = 1.0;
+  for (const PointPiece& p : law.pieces()) {
+    const bool cruises = p.accel_u_s2 == 0.0 && p.jerk_u_s3 == 0.0;
+    piece(p.duration_s, s_u + p.position_u, p.speed_u_s, p.accel_u_s2, p.jerk_u_s3,
+          cruises ? why : Signature{LimitedBy::length, -1});
+  }
+  end_at(end_time_s);
+}
+
+void PieceWriter::end_at(double end_time_s) {
   if (end_time_s < 0.0) return;
-  // the elements last as long as prescribed but for the last bits of the sum
+  // the run lasts as long as prescribed but for the last bits of the sum
   if (!law_.pieces.empty()) {
     JerkPiece& last = law_.pieces.back();
     if (end_time_s > last.begin_s) last.duration_s = end_time_s - last.begin_s;

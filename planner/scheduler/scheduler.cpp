@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "machine/base/require.h"
 #include "planner/planner.h"
+#include "planner/positioning/positioning.h"
 #include "planner/scheduler/block_writer.h"
 #include "planner/scheduler/blockwise.h"
 #include "planner/scheduler/limits.h"
@@ -48,7 +51,7 @@ double sum_of_times_s(const std::vector<Element>& run) {
 class RunMaker {
  public:
   RunMaker(const Path& path, const machine::MachineModel& machine, const PathLimitTable& table)
-      : path_(path), machine_(machine), table_(table), valley_(path, table) {}
+      : path_(path), machine_(machine), table_(table), valley_(path, table), rapids_(machine) {}
 
   /// Plans the next run; false after the last one, or where it can't be planned: error().
   bool next() {
@@ -57,6 +60,11 @@ class RunMaker {
     while (table_.cap_u_s[2 * run_.last + 2] > 0.0) ++run_.last;
     behind_ = run_.last + 1;
     elements_.clear();
+    positioning_.reset();
+    if (is_positioning(path_, run_.first, machine_)) {
+      position();
+      return true;
+    }
     if (machine_.planner.method != machine::PlanMethod::scheduler) {
       auto planned = plan_time_law(path_, table_, run_, machine_, elements_);
       if (!planned) {
@@ -76,16 +84,42 @@ class RunMaker {
 
   const Run& run() const { return run_; }
   const std::vector<Element>& elements() const { return elements_; }
+  /// The run's law in place of elements, if it is a rapid that planner.rapid_law takes care of.
+  const std::optional<Positioning>& positioning() const { return positioning_; }
+  /// What the log and the plan's table tell of it.
+  PositionedSegment positioned() {
+    PositionedSegment row{static_cast<std::uint32_t>(run_.first),
+                          positioning_->shape,
+                          positioning_->reason,
+                          positioning_->loss_s,
+                          {}};
+    for (const ExcitedMode& m : rapids_.excited(path_, run_.first))
+      row.residual_u[static_cast<std::size_t>(m.axis)] += residual_u(positioning_->law, m);
+    return row;
+  }
   /// What the elements last before they fill whole control ticks.
   double time_s() const { return time_s_; }
   const WholeTicks& whole() const { return whole_; }
   std::optional<PlanError>& error() { return error_; }
 
  private:
+  void position() {
+    const std::size_t i = run_.first;
+    require(run_.last == i, "a positioning move is a run of its own");
+    positioning_ =
+        rapids_.plan(path_, i, table_.cap_u_s[2 * i + 1], table_.accel_u_s2[i], table_.jerk_u_s3[i]);
+    time_s_ = positioning_->law.duration_s();
+    whole_ = {};
+    if (machine_.planner.whole_ticks)
+      whole_.ticks = static_cast<std::int64_t>(std::floor(time_s_ / machine_.clock.tau_s() + 0.5));
+  }
+
   const Path& path_;
   const machine::MachineModel& machine_;
   const PathLimitTable& table_;
   ValleyPlanner valley_;
+  PositioningPlanner rapids_;
+  std::optional<Positioning> positioning_;
   Run run_;
   std::size_t behind_ = 0;
   std::vector<Element> elements_;
@@ -124,6 +158,11 @@ std::string_view limited_by_name(LimitedBy reason) {
   return "unknown";
 }
 
+std::string_view rapid_law_name(machine::RapidShape shape) {
+  constexpr std::string_view kNames[] = {"scurve", "t-zero", "zv", "zvd", "auto"};
+  return kNames[static_cast<std::size_t>(shape)];
+}
+
 tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineModel& machine) {
   require(path.axes() == static_cast<int>(machine.axis.size()), "path and machine have the same axes");
   if (!path.faults.empty()) return tl::unexpected(PlanError{path.faults.front()});
@@ -151,7 +190,14 @@ tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineM
       return tl::unexpected(too_long(path, runs.run(), writer.time_s() + runs.time_s()));
     ticks += runs.whole().ticks;
     const bool whole = machine.planner.whole_ticks;
-    writer.add(runs.elements(), runs.whole().stretch, whole ? static_cast<double>(ticks) * tau : -1.0);
+    const double end_s = whole ? static_cast<double>(ticks) * tau : -1.0;
+    if (const std::optional<Positioning>& rapid = runs.positioning()) {
+      const std::size_t i = runs.run().first;
+      writer.add(rapid->law, path.start_s_u[i], limits->signature[2 * i + 1], end_s);
+      result.positioned.push_back(runs.positioned());
+    } else {
+      writer.add(runs.elements(), runs.whole().stretch, end_s);
+    }
   }
   if (runs.error()) return tl::unexpected(std::move(*runs.error()));
   result.law.duration_s = writer.time_s();

@@ -1,0 +1,99 @@
+#include "planner/positioning/link_modes.h"
+
+#include <cmath>
+#include <optional>
+
+#include "machine/base/numbers.h"
+
+namespace kadr::planner {
+namespace {
+
+constexpr int kNewtonSteps = 60;
+constexpr double kSameRoot = 1e-6;  ///< relative distance of two roots that are one
+
+/// A complex number by + - * / alone, the same bits with every compiler.
+struct Complex {
+  double re = 0, im = 0;
+};
+Complex operator+(Complex a, Complex b) { return {a.re + b.re, a.im + b.im}; }
+Complex operator-(Complex a, Complex b) { return {a.re - b.re, a.im - b.im}; }
+Complex operator*(Complex a, Complex b) { return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re}; }
+Complex operator/(Complex a, Complex b) {
+  const double size = b.re * b.re + b.im * b.im;
+  return {(a.re * b.re + a.im * b.im) / size, (a.im * b.re - a.re * b.im) / size};
+}
+double size_of(Complex a) { return std::sqrt(a.re * a.re + a.im * a.im); }
+
+/// c4 s^4 + c3 s^3 + c2 s^2 + c1 s + c0.
+struct Quartic {
+  double c4, c3, c2, c1, c0;
+  Complex at(Complex s) const {
+    Complex sum{c4, 0};
+    for (const double c : {c3, c2, c1, c0}) sum = sum * s + Complex{c, 0};
+    return sum;
+  }
+  Complex slope(Complex s) const {
+    Complex sum{4 * c4, 0};
+    for (const double c : {3 * c3, 2 * c2, c1}) sum = sum * s + Complex{c, 0};
+    return sum;
+  }
+};
+
+double motor_stiffness(const machine::AxisModel& axis) {
+  const machine::TwoMassModel& m = axis.plant;
+  if (m.motor == machine::MotorModel::spring) return m.motor_stiffness;
+  const double si_per_u = axis.kind == machine::AxisKind::rotary ? kPi / 180 : 1e-3;
+  return m.holding_force * 2 * kPi / (m.tooth_pitch_u * si_per_u);
+}
+
+Quartic characteristic(const machine::TwoMassModel& m, double motor_stiffness) {
+  const double m0 = m.base_mass, m1 = m.link_mass, k = m.link_stiffness, c = m.link_damping;
+  const double b = m.motor_damping + m.base_friction, km = motor_stiffness;
+  return {m0 * m1, m0 * c + (b + c) * m1, m0 * k + b * c + (km + k) * m1, b * k + km * c, km * k};
+}
+
+/// The root that Newton's method comes to from an undamped one, if it swings.
+std::optional<Complex> root_near(const Quartic& q, double omega_rad_s) {
+  Complex s{0, omega_rad_s};
+  for (int i = 0; i < kNewtonSteps; ++i) s = s - q.at(s) / q.slope(s);
+  if (!(s.im > 0) || !(s.re <= 0)) return std::nullopt;
+  return s;
+}
+
+void add_coupled_modes(const machine::AxisModel& axis, std::vector<DrivenMode>& modes) {
+  const machine::TwoMassModel& m = axis.plant;
+  const double km = motor_stiffness(axis);
+  const Quartic q = characteristic(m, km);
+  // without damping: m0 m1 w^4 - (m0 k + (Km + k) m1) w^2 + Km k = 0
+  const double sum = m.base_mass * m.link_stiffness + (km + m.link_stiffness) * m.link_mass;
+  const double spread = std::sqrt(std::fmax(sum * sum - 4 * q.c4 * q.c0, 0.0));
+  const double high = (sum + spread) / (2 * q.c4), low = q.c0 / (q.c4 * high);
+  std::optional<Complex> last;
+  for (const double square : {low, high}) {
+    const std::optional<Complex> s = root_near(q, std::sqrt(square));
+    if (!s || (last && size_of(*s - *last) <= kSameRoot * size_of(*s))) continue;
+    last = s;
+    const double omega = size_of(*s), zeta = -s->re / omega;
+    if (!(zeta < kDampedEnough)) continue;
+    const double residue = km * m.link_mass / size_of(q.slope(*s));
+    modes.push_back({{omega, zeta}, 2 * s->im * residue});
+  }
+}
+
+}  // namespace
+
+std::vector<DrivenMode> link_modes(const machine::AxisModel& axis) {
+  std::vector<DrivenMode> modes;
+  if (!axis.has_plant) return modes;
+  const machine::TwoMassModel& m = axis.plant;
+  if (m.motor != machine::MotorModel::rigid) {
+    add_coupled_modes(axis, modes);
+    return modes;
+  }
+  const double omega = std::sqrt(m.link_stiffness / m.link_mass);
+  const double zeta = m.link_damping / (2 * std::sqrt(m.link_stiffness * m.link_mass));
+  if (zeta < kDampedEnough) modes.push_back({{omega, zeta}, 1});
+  return modes;
+}
+
+}  // namespace kadr::planner
