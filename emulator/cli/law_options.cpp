@@ -42,8 +42,8 @@ void add_tube(Options& o) {
 }
 
 /// A number that goes where `take` puts it; its range is the library's business.
-void number(Options&, CLI::App* sub, const std::string& name, const std::string& unit,
-            const std::string& meaning, std::function<void(double)> take) {
+void number(CLI::App* sub, const std::string& name, const std::string& unit, const std::string& meaning,
+            std::function<void(double)> take) {
   sub->add_option_function<std::string>(
          name,
          [name, take = std::move(take)](const std::string& text) {
@@ -85,7 +85,7 @@ void add_genetic(Options& o, CLI::App* sub) {
   });
   whole_number(sub, "--generations", 1, 10'000, "Its generations (default 100)",
                [=](std::uint32_t n) { options().generations = n; });
-  number(o, sub, "--penalty-J", "J", "Its penalty on residual vibration (default 10)",
+  number(sub, "--penalty-J", "J", "Its penalty on residual vibration (default 10)",
          [=](double x) { options().weight = x; });
 }
 
@@ -94,29 +94,30 @@ void add_law(Options& o) {
                             "Compare motions from rest to rest: energy in J, residual vibration in mm, how\n"
                             "sensitive to the frequency; the default question is Table 1 of paper 001");
   emulator::PointQuestion& q = o.arguments.point;
-  number(o, sub, "--distance-m", "M", "Way (default 3.5)", [&q](double x) { q.task.distance_u = x; });
-  number(o, sub, "--time-s", "S", "Time of the motion (default 4)", [&q](double x) { q.time_s = x; });
+  number(sub, "--distance-m", "M", "Way (default 3.5)", [&q](double x) { q.task.distance_u = x; });
+  number(sub, "--time-s", "S", "Time of the motion (default 4)", [&q](double x) { q.time_s = x; });
   sub->add_flag("--time-optimal", q.time_optimal, "As fast as the limits allow, instead");
-  number(o, sub, "--accel-m-s2", "A", "Largest acceleration (default 1)",
+  number(sub, "--accel-m-s2", "A", "Largest acceleration (default 1)",
          [&q](double x) { q.task.accel_limit_u_s2 = x; });
-  number(o, sub, "--speed-m-s", "V", "Largest speed (default 3)",
+  number(sub, "--speed-m-s", "V", "Largest speed (default 3)",
          [&q](double x) { q.task.speed_limit_u_s = x; });
-  number(o, sub, "--omega-rad-s", "W", "Frequency of the load on its base (default 100 pi/3)",
+  number(sub, "--omega-rad-s", "W", "Frequency of the load on its base (default 100 pi/3)",
          [&q](double x) { q.mode.omega_rad_s = x; });
-  number(o, sub, "--zeta", "Z", "Its damping ratio (default 0)", [&q](double x) { q.mode.zeta = x; });
-  number(o, sub, "--mass-kg", "M", "Mass m of the load (default 1)", [&q](double x) { q.load.mass_kg = x; });
-  number(o, sub, "--drive-ratio", "P", "Inertia of the drive, of m (default 4)",
+  number(sub, "--zeta", "Z", "Its damping ratio (default 0)", [&q](double x) { q.mode.zeta = x; });
+  number(sub, "--mass-kg", "M", "Mass m of the load (default 1)", [&q](double x) { q.load.mass_kg = x; });
+  number(sub, "--drive-ratio", "P", "Inertia of the drive, of m (default 4)",
          [&q](double x) { q.load.drive_ratio = x; });
-  number(o, sub, "--counterweight-ratio", "K", "Counterweight, of m (default 0.5)",
+  number(sub, "--counterweight-ratio", "K", "Counterweight, of m (default 0.5)",
          [&q](double x) { q.load.counterweight_ratio = x; });
-  number(o, sub, "--gravity-m-s2", "G", "Gravity along the axis (default 9.81; 0: level)",
+  number(sub, "--gravity-m-s2", "G", "Gravity along the axis (default 9.81; 0: level)",
          [&q](double x) { q.load.gravity_m_s2 = x; });
   sub->add_flag("--printed-gravity", q.printed_gravity,
                 "Take 9.81 for K_g, as the paper does, whatever the time and way");
   o.choice(sub, "--drive", q.drive,
            {{"position", planner::Drive::position}, {"force", planner::Drive::force}},
-           "What moves the base: position (stiff, default) or force");
-  number(o, sub, "--uncertainty-pct", "U", "How well the frequency is known, for the advice (default 1)",
+           "What moves the base: position (stiff, default) or force")
+      ->group("Options");
+  number(sub, "--uncertainty-pct", "U", "How well the frequency is known, for the advice (default 1)",
          [&q](double x) { q.omega_uncertainty = x / 100; });
   o.repeated(sub, "--xi", "XI", "A T law to compare besides; repeatable",
              [&q](const std::string& text) -> tl::expected<void, std::string> {
