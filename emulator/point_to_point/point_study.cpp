@@ -28,6 +28,8 @@ class Study {
     const auto range = planner::xi_range(task_, q_.time_s);
     const auto zeros = planner::zero_laws(task_, q_.time_s, mode(), out_.load);
     out_.zeros = zeros ? zeros->size() : 0;
+    for (std::size_t i = 1; choice->zero && i < out_.zeros; ++i)
+      equal_ += std::fabs((*zeros)[i].energy_J - choice->energy_J) <= 1e-12 * choice->energy_J;
     add("T, chosen", planner::t_law(distance(), q_.time_s, choice->xi), choice->xi);
     out_.answer = answer(*choice);
     add("T, steepest ramps", planner::t_law(distance(), q_.time_s, range.low), range.low);
@@ -59,7 +61,7 @@ class Study {
     const PointLaw fastest =
         planner::bang_bang_law(distance(), task_.speed_limit_u_s, task_.accel_limit_u_s2);
     const planner::FastZero zero = planner::fastest_zero_law(task_, mode());
-    add("T, silent", zero.law(distance()), zero.ramp_s / zero.duration_s());
+    add("T, chosen", zero.law(distance()), zero.ramp_s / zero.duration_s());
     const bool ramp = zero.branch == planner::ZeroBranch::ramp;
     out_.answer = fmt::format(
         "T law of {:.6f} s, {} = {}: the fastest one {}, {:.3f} ms more than bang-bang", zero.duration_s(),
@@ -107,9 +109,10 @@ class Study {
   std::string answer(const planner::TChoice& c) const {
     if (c.zero)
       return fmt::format(
-          "T law of xi = {:.7f}, {} = {}: least energy of {} T laws without residual vibration, {:.6f} J",
+          "T law of xi = {:.7f}, {} = {}: least energy of {} T laws without residual vibration, {:.6f} J{}",
           c.xi, c.zero->branch == planner::ZeroBranch::ramp ? "n" : "m", c.zero->count, out_.zeros,
-          c.energy_J);
+          c.energy_J,
+          equal_ > 0 ? fmt::format(" ({} take the same; this one least copper loss)", equal_ + 1) : "");
     return fmt::format(
         "T law of xi = {:.7f}, n near {}: least residual vibration of all T laws, {:.6f} mm at {:.6f} J{}",
         c.xi, c.periods, 1e3 * c.amplitude_u, c.energy_J,
@@ -127,6 +130,7 @@ class Study {
   const PointQuestion& q_;
   const planner::PointTask& task_;
   PointStudy out_;
+  std::size_t equal_ = 0;  // other silent laws of the same energy
 };
 
 }  // namespace
