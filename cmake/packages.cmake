@@ -17,8 +17,5 @@ function(kadr_library target header library)
   target_link_libraries(kadr_external_${target} INTERFACE ${${target}_LIBRARY})
 endfunction()
 kadr_library(lcm lcm/lcm-cpp.hpp lcm)
-# by file as well: its package file would look for all of Boost and TBB, and only Boost's serialization is linked
-kadr_library(pagmo pagmo/algorithm.hpp pagmo)
-kadr_library(boost_serialization boost/serialization/access.hpp boost_serialization)
 kadr_library(xxhash xxhash.h xxhash)
 find_program(LCM_GEN lcm-gen REQUIRED)

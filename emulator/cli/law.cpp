@@ -51,24 +51,16 @@ int compare_laws(const Arguments& arguments, Console& console) {
   const emulator::PointQuestion& question = arguments.point;
   const auto study = emulator::study_point_laws(question);
   if (!study) return refuse(study.error(), console);
-  std::optional<emulator::GeneticOutcome> genetic;
-  if (arguments.genetic) {
-    if (question.time_optimal)
-      throw WorldError("law: --genetic looks for xi at a given time; leave --time-optimal out");
-    genetic = emulator::run_genetic(question, *study, *arguments.genetic);
-  }
   write_whole(arguments.csv_path, emulator::point_csv(*study));
   if (!arguments.page_path.empty())
     write_whole(arguments.page_path, emulator::render_point_page(question, *study));
   if (console.options().json) {
     Json j = document_head(kYes);
     j.update(emulator::json_of(question, *study));
-    if (genetic) j["genetic"] = emulator::json_of(*genetic);
     console.document(j);
   } else if (!console.options().quiet) {
     console.data(emulator::render_point_question(question, *study) + '\n' +
-                 emulator::render_point_table(*study) + '\n' + emulator::render_point_answer(*study) +
-                 (genetic ? emulator::render_genetic(*genetic, *study) : std::string()));
+                 emulator::render_point_table(*study) + '\n' + emulator::render_point_answer(*study));
   }
   return kYes;
 }

@@ -55,40 +55,6 @@ void number(CLI::App* sub, const std::string& name, const std::string& unit, con
       ->type_name(unit);
 }
 
-void whole_number(CLI::App* sub, const std::string& name, std::uint32_t least, std::uint32_t most,
-                  const std::string& meaning, std::function<void(std::uint32_t)> take) {
-  sub->add_option_function<std::string>(
-         name,
-         [=](const std::string& text) {
-           std::uint32_t value = 0;
-           if (!read_number(text, value) || value < least || value > most)
-             throw CLI::ValidationError(
-                 fmt::format("{} takes a whole number from {} to {}; got '{}'", name, least, most, text));
-           take(value);
-         },
-         meaning)
-      ->type_name("N");
-}
-
-void add_genetic(Options& o, CLI::App* sub) {
-  const auto options = [&o]() -> emulator::GeneticOptions& {
-    if (!o.arguments.genetic) o.arguments.genetic.emplace();
-    return *o.arguments.genetic;
-  };
-  whole_number(sub, "--genetic", 1, 10'000, "Also the paper's genetic algorithm, with that many seeds",
-               [=](std::uint32_t n) { options().seeds = n; });
-  whole_number(sub, "--seed", 0, 1'000'000, "First seed of the genetic algorithm (default 1)",
-               [=](std::uint32_t n) { options().first_seed = n; });
-  whole_number(sub, "--population", 4, 10'000, "Its population, even (default 50)", [=](std::uint32_t n) {
-    if (n % 2) throw CLI::ValidationError(fmt::format("--population takes an even number; got '{}'", n));
-    options().population = n;
-  });
-  whole_number(sub, "--generations", 1, 10'000, "Its generations (default 100)",
-               [=](std::uint32_t n) { options().generations = n; });
-  number(sub, "--penalty-J", "J", "Its penalty on residual vibration (default 10)",
-         [=](double x) { options().weight = x; });
-}
-
 void add_law(Options& o) {
   CLI::App* sub = o.command(o.app, "law", compare_laws,
                             "Compare motions from rest to rest: energy in J, residual vibration in mm, how\n"
@@ -126,7 +92,6 @@ void add_law(Options& o) {
                q.xi.push_back(*value);
                return {};
              });
-  add_genetic(o, sub);
   sub->add_flag("--paper", o.arguments.table2,
                 "Table 2 of the paper instead: printed, reproduced, and by physics");
   sub->add_option("--csv", o.arguments.csv_path, "Write the table, a row a law")->type_name("FILE");

@@ -92,20 +92,6 @@ Json json_of(const PointQuestion& q, const PointStudy& study) {
   return j;
 }
 
-Json json_of(const GeneticOutcome& g) {
-  return {{"seeds", g.options.seeds},
-          {"first_seed", g.options.first_seed},
-          {"population", g.options.population},
-          {"generations", g.options.generations},
-          {"penalty_J", g.options.weight},
-          {"hits", g.hits},
-          {"on_silent_laws", g.on_zeros},
-          {"exact_xi", g.exact_xi},
-          {"best_xi", g.best_xi},
-          {"median_xi", g.median_xi},
-          {"worst_xi", g.worst_xi}};
-}
-
 Json json_of(const std::vector<Table2Row>& rows) {
   Json out = Json::array();
   for (const Table2Row& row : rows)

@@ -115,25 +115,6 @@ std::string render_point_answer(const PointStudy& study) {
   return out;
 }
 
-std::string render_genetic(const GeneticOutcome& g, const PointStudy& study) {
-  const bool damped = study.driven.mode.zeta > 0;
-  const char* unit = damped ? "mm" : "J";
-  std::string out = fmt::format(
-      "genetic  algorithm of {} x {}, penalty {:g} J, seeds {} to {}: {} of {} find the exact optimum (xi "
-      "within 1e-5)",
-      g.options.population, g.options.generations, g.options.weight, g.options.first_seed,
-      g.options.first_seed + g.options.seeds - 1, g.hits, g.options.seeds);
-  out += damped ? "\n" : fmt::format(", {} end on a silent law\n", g.on_zeros);
-  const auto line = [&](const char* name, double xi, double value) {
-    out += fmt::format("         {:<7} xi = {:.7f}, {:.6f} {}\n", name, xi, value, unit);
-  };
-  line("exact", g.exact_xi, g.exact_value);
-  line("best", g.best_xi, g.best_value);
-  line("median", g.median_xi, g.median_value);
-  line("worst", g.worst_xi, g.worst_value);
-  return out;
-}
-
 std::string render_table2(const std::vector<Table2Row>& rows) {
   TextTable table({{"zeta"},
                    {"law", Align::left},
@@ -162,7 +143,7 @@ std::string render_table2(const std::vector<Table2Row>& rows) {
   V, X    damped rows: omega = 105 rad/s and a damping term zeta omega v, half the one stated
   V, X    the largest signed value; the largest absolute one is meant
   V, X    base sampled every 0.4 ms; Pmax and E on a grid of 10 001 nodes, where xi falls beside a node
-  Pmax    two cells are off in the last digit: they were rounded twice, to 6 significant digits and 4 decimals
+  Pmax    two cells are off in the last digit; rounding twice, to 6 significant digits and 4 decimals, gives them
 )";
 }
 

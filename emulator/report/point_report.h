@@ -1,7 +1,6 @@
 #pragma once
 #include <string>
 
-#include "emulator/point_to_point/genetic.h"
 #include "emulator/point_to_point/point_study.h"
 #include "emulator/point_to_point/table2.h"
 #include "emulator/report/json.h"
@@ -18,7 +17,6 @@ std::string render_point_question(const PointQuestion& question, const PointStud
 std::string render_point_table(const PointStudy& study);
 /// The optimum, the advice for a rapid, what does not fit.
 std::string render_point_answer(const PointStudy& study);
-std::string render_genetic(const GeneticOutcome& outcome, const PointStudy& study);
 /// Table 2 of paper 001, a row a cell: printed, computed as the paper did, and by physics; why they differ.
 std::string render_table2(const std::vector<Table2Row>& rows);
 
@@ -26,7 +24,6 @@ std::string render_table2(const std::vector<Table2Row>& rows);
 std::string point_csv(const PointStudy& study);
 /// The same and the pieces of every law.
 Json json_of(const PointQuestion& question, const PointStudy& study);
-Json json_of(const GeneticOutcome& outcome);
 Json json_of(const std::vector<Table2Row>& rows);
 Json json_of(const planner::PointFault& fault);
 

@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
-#include "emulator/point_to_point/genetic.h"
 #include "machine/base/numbers.h"
 #include "planner/point_to_point/point_to_point.h"
+#include "tests/genetic/genetic.h"
 
 // Paper 001: exact synthesis (below 1 ms), laws for rapids, and the genetic algorithm that they replace.
 namespace kadr::planner {
@@ -39,14 +39,14 @@ BENCHMARK(rapid)->DenseRange(0, 4)->Unit(benchmark::kMicrosecond);
 
 /// Arguments: population, generations. Counters: how many of 200 seeds find the exact optimum.
 void genetic(benchmark::State& state) {
-  emulator::PointQuestion question;
-  question.printed_gravity = true;
-  const auto study = emulator::study_point_laws(question).value();
-  emulator::GeneticOptions options;
+  test::GeneticProblem problem;
+  problem.driven = mode(0);
+  problem.load = printed_load();
+  test::GeneticOptions options;
   options.population = static_cast<std::uint32_t>(state.range(0));
   options.generations = static_cast<std::uint32_t>(state.range(1));
-  emulator::GeneticOutcome outcome;
-  for (auto _ : state) outcome = emulator::run_genetic(question, study, options);
+  test::GeneticOutcome outcome;
+  for (auto _ : state) outcome = test::run_genetic(problem, options);
   state.counters["hits_of_200"] = outcome.hits;
   state.counters["on_zeros"] = outcome.on_zeros;
 }

@@ -114,16 +114,6 @@ TEST_CASE("kadr law --paper prints 40 of the 42 cells of Table 2 to the digit, t
   CHECK(agree == 40);
 }
 
-TEST_CASE("the genetic algorithm is repeatable and no better than enumeration") {
-  const std::vector<std::string> arguments = {"--printed-gravity", "--genetic", "20", "--json"};
-  const Finished first = law(arguments), second = law(arguments);
-  CHECK(first.out == second.out);
-  const Json g = Json::parse(first.out)["genetic"];
-  CHECK(g["hits"].get<int>() >= 10);
-  CHECK(g["hits"] <= g["on_silent_laws"]);
-  CHECK(std::fabs(g["exact_xi"].get<double>() - .325) <= 1e-12);
-}
-
 TEST_CASE("two runs of kadr law give the same bytes: CSV a row a law, a page without script") {
   const Scratch scratch;
   for (const std::string run : {"a", "b"}) {
@@ -170,9 +160,6 @@ TEST_CASE("what can't be asked is refused with what was given and what is allowe
       {{"--time-s", "-4"}, "time is -4 s: it has to be a number above 0"},
       {{"--xi", "0.3"}, "xi is 0.3: it may be 0.3232233 at least"},
       {{"--xi", "0.6"}, "xi is 0.6: it may be 0.5 at most"},
-      {{"--time-optimal", "--genetic", "3"}, "--genetic looks for xi at a given time"},
-      {{"--genetic", "0"}, "--genetic takes a whole number from 1 to 10000; got '0'"},
-      {{"--population", "51"}, "--population takes an even number"},
       {{"--distance-m", "far"}, "--distance-m takes a number; got 'far'"},
       {{"--drive", "rope"}, "--drive knows force, position; got 'rope'"},
   };
