@@ -114,7 +114,7 @@ void add_bezier(Options& o, CLI::App* group) {
   CLI::App* sub =
       o.command(*group, "bezier", teach_bezier,
                 "Examine Bezier curves end to end: polynomials, length, smallest radius, joints,\n"
-                "speed that an acceleration allows; exit 1 if a feed is not allowed");
+                "speed that an acceleration allows; exit 1 if a feed is not allowed or curves don't meet");
   sub->add_option("CURVE", o.arguments.files,
                   "Control points of a curve, 2 to 4, in mm: coordinates by commas, points by blanks:\n"
                   "'0,0,0 2,2,4 5,-0.5,2'")

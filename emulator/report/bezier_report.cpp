@@ -129,6 +129,8 @@ Json vector_json(const planner::BezierVector& v, int axes) {
 }  // namespace
 
 bool allowed(const BezierStudy& study, const BezierDemand& demand) {
+  for (const planner::JointReport& j : study.joints)
+    if (j.gap_u > kSmooth) return false;
   if (demand.feed_mm_s <= 0 || demand.acceleration_mm_s2 <= 0) return true;
   for (const BezierSegment& s : study.segments)
     if (demand.feed_mm_s > curve_speed(s, demand)) return false;

@@ -12,7 +12,7 @@ struct BezierDemand {
   double acceleration_mm_s2 = 0;
 };
 
-/// Whether the feed is allowed on every curve and joint.
+/// Whether the curves meet, and the feed is allowed on every curve and joint.
 bool allowed(const BezierStudy& study, const BezierDemand& demand);
 /// A paragraph a curve and a joint: polynomials, length, radius, allowed feed, jumps, repairs, errors of
 /// t(S).

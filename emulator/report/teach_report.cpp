@@ -84,7 +84,9 @@ std::string render_step_table(const TeachCase& subject, const StepTable& table) 
       if (!name->empty()) cells.push_back(last ? "" : std::to_string(value));
     if (parametric) cells.push_back(last ? "" : fixed(row.slot.parameter, 6));
     cells.push_back(last ? "end" : move_text(row.slot, table.axes) + (row.slot.forced ? "!" : ""));
-    cells.push_back(signed_steps(row.deviation_steps));
+    // a curve in the plane has two sides
+    cells.push_back(table.axes == 2 && !parametric ? signed_steps(row.deviation_steps)
+                                                   : fixed(row.deviation_steps, 3));
     text.add(std::move(cells));
   };
   for (std::size_t i = 0; i < table.rows.size(); ++i) add(i, table.rows[i], false);

@@ -27,7 +27,7 @@ std::int64_t least_spacing(const PulseTrain& train) {
   return least;
 }
 
-char wire_of(std::size_t axis, bool dir) { return static_cast<char>('!' + 2 * static_cast<int>(axis) + dir); }
+char wire_of(std::size_t axis, bool dir) { return static_cast<char>('a' + 2 * static_cast<int>(axis) + dir); }
 
 }  // namespace
 

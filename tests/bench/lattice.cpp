@@ -4,8 +4,10 @@
 
 #include <vector>
 
+#include "planner/bezier/bezier.h"
+
 /// The inner loops of the lattice methods, a byte written per slot; asked for: 200 M steps/s a line kernel,
-/// 10 M events/s of a Bezier in 3 axes.
+/// 10 M events/s of a Bezier in 3 axes, 20 ns a t(S).
 namespace {
 
 using namespace kadr::emulator::lattice;
@@ -72,5 +74,20 @@ void bezier_events(benchmark::State& state) {
   state.SetItemsProcessed(count);
 }
 BENCHMARK(bezier_events);
+
+/// t(S) of paper 004's quadratic; asked for: 20 ns.
+void t_of_length(benchmark::State& state) {
+  using namespace kadr::planner;
+  const ArcLength arc(Bezier(3, {{0, 0, 0}, {2, 2, 4}, {5, -0.5, 2}}));
+  const ArcTable table(arc, static_cast<int>(state.range(0)));
+  std::uint32_t place = 0;
+  double sum = 0;
+  for (auto _ : state) {
+    place = place * 1664525u + 1013904223u;
+    sum += table.t(arc.length_u() * (place >> 8) * (1.0 / 16777216));
+  }
+  benchmark::DoNotOptimize(sum);
+}
+BENCHMARK(t_of_length)->Arg(32)->Arg(128);
 
 }  // namespace

@@ -257,6 +257,14 @@ TEST_CASE("lattice: the difference as printed never steps Y; that of the magnitu
         doctest::Approx(0.6377).epsilon(1e-4));
 }
 
+TEST_CASE("lattice: the nearer of the two neighbours is what the half-step rule chooses") {
+  for (int dx = -25; dx <= 25; ++dx)
+    for (int dy = -25; dy <= 25; ++dy) {
+      if (dx == 0 || dy == 0) continue;
+      CHECK(trace(line({dx, dy}), Method::magnitudes).hash == trace(line({dx, dy}), Method::half_step).hash);
+    }
+}
+
 TEST_CASE("lattice: lines up to 2^60 steps are followed, beyond they are refused") {
   const std::int64_t most = std::int64_t{1} << 60;
   for (const Method m : {Method::classic, Method::half_step, Method::diagonal, Method::dda_preloaded})
