@@ -120,6 +120,8 @@ void add_leg(StepTable& table, const Curve& curve, const lattice::Trace& trace, 
     table.worst_square_steps = std::max(table.worst_square_steps, square_deviation_steps(curve, node));
     squares += row.deviation_steps * row.deviation_steps;
     if (i == trace.slots.size()) {
+      // the curve itself goes on from the last crossing to its end
+      if (t >= 0) row.deviation_steps = deviation_steps(curve, node, 1);
       table.last = row;
       break;
     }
