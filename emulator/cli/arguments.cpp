@@ -27,6 +27,7 @@ class Reader {
     add_log_commands(options_);
     add_law_commands(options_);
     add_machine_commands(options_);
+    add_teach_commands(options_);
   }
 
   std::variant<Arguments, int> read(int argc, const char* const* argv) {

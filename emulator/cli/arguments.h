@@ -8,6 +8,7 @@
 
 #include "emulator/diff/diff_options.h"
 #include "emulator/point_to_point/point_study.h"
+#include "emulator/teach/pulses.h"
 #include "gcode/gcode.h"
 #include "machine/machine.h"
 #include "scenarios/generator/wind.h"
@@ -32,6 +33,19 @@ struct OutputOptions {
   ProgressMode progress = ProgressMode::automatic;
   DiagnosticFormat format = DiagnosticFormat::human;
   std::optional<std::size_t> max_errors;  ///< diagnostics shown; 0: all. Not given: 20, in SARIF all
+};
+
+/// What `kadr teach` is asked for.
+struct TeachArguments {
+  emulator::TeachOptions options;
+  int axes = 2;  ///< of a polyline or Bezier
+  emulator::PulseTiming timing = emulator::PulseTiming::uniform;
+  double feed_steps_s = 1000;
+  std::string vcd_path;
+  bool spacing = false;           ///< a line of times between pulses
+  double feed_mm_s = 0;           ///< bezier; 0: not asked
+  double acceleration_mm_s2 = 0;  ///< bezier; 0: not given
+  bool paper = false;             ///< bezier: t(S) by every method
 };
 
 /// The command line as read. Fields that a command does not have keep their defaults.
@@ -68,6 +82,7 @@ struct Arguments {
   bool timing = false;               ///< tube --timing
   emulator::PointQuestion point;     ///< law
   bool table2 = false;               ///< law --paper
+  TeachArguments teach;
   std::string junit_path;
   double until_s = machine::kInfinity;
   int threads = 1;

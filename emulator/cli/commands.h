@@ -24,6 +24,10 @@ int scenario_run(const Arguments& arguments, Console& console);
 int scenario_check(const Arguments& arguments, Console& console);
 int scenario_list(const Arguments& arguments, Console& console);
 int write_winding(const Arguments& arguments, Console& console);
+int teach_table(const Arguments& arguments, Console& console);
+int teach_compare(const Arguments& arguments, Console& console);
+int teach_methods(const Arguments& arguments, Console& console);
+int teach_bezier(const Arguments& arguments, Console& console);
 int print_version(const Arguments& arguments, Console& console);
 
 }  // namespace kadr::cli

@@ -74,5 +74,6 @@ void add_program_commands(Options& options);
 void add_log_commands(Options& options);
 void add_law_commands(Options& options);
 void add_machine_commands(Options& options);
+void add_teach_commands(Options& options);
 
 }  // namespace kadr::cli

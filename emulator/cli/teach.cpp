@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include "emulator/cli/commands.h"
+#include "emulator/cli/exit_codes.h"
+#include "emulator/cli/output_file.h"
+#include "emulator/report/bezier_report.h"
+#include "emulator/report/teach_report.h"
+#include "emulator/report/text.h"
+
+/// `kadr teach`: interpolators step by step.
+namespace kadr::cli {
+namespace {
+
+using emulator::Json;
+using emulator::StepTable;
+using emulator::TeachCase;
+
+// as the base clock of the shipped machines; a tick is 0.1 us
+constexpr std::int64_t kClock_hz = 10'000'000;
+constexpr std::int64_t kHigh_ticks = 20;
+constexpr std::size_t kCompared = 4;
+
+template <class T>
+T must(tl::expected<T, std::string> result) {
+  if (!result) throw WorldError(result.error());
+  return std::move(*result);
+}
+
+Json head(const char* command) { return {{"kadr", KADR_VERSION}, {"command", command}, {"exit_code", kYes}}; }
+
+}  // namespace
+
+int teach_table(const Arguments& arguments, Console& console) {
+  const TeachArguments& teach = arguments.teach;
+  const TeachCase subject = must(emulator::read_teach_case(arguments.files, teach.axes));
+  const auto method = arguments.methods.empty() ? emulator::lattice::Method::half_step
+                                                : *emulator::lattice::method_of(arguments.methods.front());
+  const auto by_default = [&](const emulator::lattice::Curve& curve) {
+    const bool chosen = !arguments.methods.empty() || emulator::lattice::knows(method, curve);
+    return chosen ? method : emulator::lattice::Method::crossing;
+  };
+  const StepTable table =
+      must(emulator::step_table(subject, by_default(subject.legs.front()), teach.options));
+  const bool timed = !teach.vcd_path.empty() || teach.spacing;
+  emulator::PulseTrain train;
+  if (timed) train = must(emulator::pulse_train(table, teach.timing, teach.feed_steps_s, kClock_hz));
+  if (!teach.vcd_path.empty()) {
+    OutputFile vcd(teach.vcd_path);
+    vcd.write(emulator::render_vcd(train, kHigh_ticks));
+    vcd.close();
+    console.note(fmt::format("wrote {}: {} pulses in {} us", teach.vcd_path, emulator::grouped(table.pulses),
+                             emulator::fixed(static_cast<double>(train.duration.value) / 10, 1)));
+  }
+  if (console.options().json) {
+    Json j = head("teach table");
+    j.update(emulator::json_of(subject, table));
+    if (timed) j["timing"] = emulator::json_of(train);
+    console.document(j);
+  } else if (arguments.csv) {
+    console.data(emulator::render_step_csv(table));
+  } else if (!console.options().quiet) {
+    console.data(emulator::render_step_table(subject, table));
+    if (teach.spacing) console.data(emulator::render_spacing(train));
+  }
+  return kYes;
+}
+
+int teach_compare(const Arguments& arguments, Console& console) {
+  const TeachCase subject = must(emulator::read_teach_case(arguments.files, arguments.teach.axes));
+  std::vector<emulator::lattice::Method> methods;
+  for (const std::string& name : arguments.methods) methods.push_back(*emulator::lattice::method_of(name));
+  if (methods.empty())
+    for (const auto& m : emulator::lattice::methods())
+      if (methods.size() < kCompared && emulator::lattice::knows(m.method, subject.legs.front()))
+        methods.push_back(m.method);
+  std::vector<StepTable> tables;
+  for (const auto method : methods)
+    tables.push_back(must(emulator::step_table(subject, method, arguments.teach.options)));
+  if (console.options().json) {
+    Json j = head("teach compare");
+    j.update(emulator::comparison_json(subject, tables));
+    console.document(j);
+  } else if (arguments.csv) {
+    console.data(emulator::render_comparison_csv(tables));
+  } else if (!console.options().quiet) {
+    console.data(emulator::render_comparison(subject, tables));
+  }
+  return kYes;
+}
+
+int teach_methods(const Arguments&, Console& console) {
+  if (console.options().json) {
+    Json j = head("teach methods");
+    j["methods"] = Json::array();
+    for (const auto& m : emulator::lattice::methods())
+      j["methods"].push_back({{"name", m.name}, {"meaning", m.meaning}});
+    console.document(j);
+    return kYes;
+  }
+  using Align = emulator::TextTable::Align;
+  emulator::TextTable table({{"method", Align::left}, {"what decides", Align::left}});
+  for (const auto& m : emulator::lattice::methods()) table.add({std::string(m.name), std::string(m.meaning)});
+  console.data(table.render());
+  return kYes;
+}
+
+int teach_bezier(const Arguments& arguments, Console& console) {
+  const TeachArguments& teach = arguments.teach;
+  const auto curves = must(emulator::read_beziers(arguments.files));
+  const emulator::BezierStudy study = emulator::study_beziers(curves, teach.paper);
+  const emulator::BezierDemand demand{teach.feed_mm_s, teach.acceleration_mm_s2};
+  const int code = emulator::allowed(study, demand) ? kYes : kNo;
+  if (console.options().json) {
+    Json j = head("teach bezier");
+    j["exit_code"] = code;
+    j.update(emulator::json_of(study, demand));
+    console.document(j);
+  } else if (!console.options().quiet) {
+    console.data(emulator::render_beziers(study, demand));
+  }
+  return code;
+}
+
+}  // namespace kadr::cli

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "emulator/cli/commands.h"
+#include "emulator/cli/options.h"
+#include "machine/base/parse_number.h"
+
+namespace kadr::cli {
+namespace {
+
+using emulator::PulseTiming;
+using emulator::TeachMode;
+
+constexpr std::size_t kMostCompared = 4;
+constexpr std::int64_t kMostSlots = 10'000'000;
+
+/// An option that takes a number between two bounds.
+template <class T>
+void bounded(CLI::App* sub, const std::string& name, T& value, double least, double most,
+             const std::string& description) {
+  sub->add_option_function<std::string>(
+         name,
+         [name, &value, least, most](const std::string& text) {
+           const auto number = parse_number(text);
+           const bool whole = !std::is_integral_v<T> || (number && *number == std::floor(*number));
+           if (!number || !whole || !(*number >= least && *number <= most))
+             throw CLI::ValidationError(fmt::format("{} takes a {}number from {} to {}; got '{}'", name,
+                                                    std::is_integral_v<T> ? "whole " : "", least, most,
+                                                    text));
+           value = static_cast<T>(*number);
+         },
+         description)
+      ->type_name("N");
+}
+
+void subject(Options& o, CLI::App* sub) {
+  std::string kinds;
+  for (const emulator::TeachKind& k : emulator::teach_kinds())
+    kinds += fmt::format("\n  {} {}: {}", k.name, k.words, k.meaning);
+  sub->add_option("CASE", o.arguments.files, "What is interpolated, in whole steps:" + kinds)
+      ->required()
+      ->expected(1, 4096)
+      ->type_name("");
+  emulator::TeachOptions& options = o.arguments.teach.options;
+  bounded(sub, "--axes", o.arguments.teach.axes, 2, 9, "Axes of a polyline or Bezier (default 2)");
+  o.choice(sub, "--mode", options.mode, {{"cp", TeachMode::continuous}, {"ptp", TeachMode::point_to_point}},
+           "cp: the axes together along the path; ptp: each at its own rate from node to node");
+  bounded(sub, "--bits", options.method.fraction_bits, 1, 60,
+          "Fraction bits of progression and newton (default 16)");
+  bounded(sub, "--tolerance", options.method.chord_tolerance, 1e-3, 1e6,
+          "Largest sagitta of chords, in steps (default 0.1)");
+  sub->add_flag("--tie-to-y", options.method.tie_to_y,
+                "half_step: a line through a corner steps Y, as the way back of one that steps X");
+  bounded(sub, "--most", options.most_slots, 1, static_cast<double>(kMostSlots),
+          "Slots at most (default 100000)");
+  sub->add_flag("--csv", o.arguments.csv, "Comma-separated values instead of a table")->group("Output");
+}
+
+void methods(Options& o, CLI::App* sub, std::size_t most) {
+  std::string names;
+  for (const auto& m : emulator::lattice::methods())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", m.name);
+  o.repeated(sub, "--method", "NAME",
+             most == 1
+                 ? "Interpolator (default half_step); `kadr teach methods` lists them"
+                 : fmt::format("Interpolator, up to {}, repeatable; default: the first {} that know the case",
+                               most, most),
+             [&o, names, most](const std::string& text) -> tl::expected<void, std::string> {
+               if (!emulator::lattice::method_of(text))
+                 return tl::unexpected(fmt::format("knows {}; got '{}'", names, text));
+               if (o.arguments.methods.size() == most)
+                 return tl::unexpected(fmt::format("is taken {} at most; '{}' is one more",
+                                                   most == 1 ? "once" : fmt::format("{} times", most), text));
+               o.arguments.methods.push_back(text);
+               return {};
+             });
+}
+
+void add_table(Options& o, CLI::App* group) {
+  CLI::App* sub = o.command(*group, "table", teach_table,
+                            "Print a case step by step: node, F, what was tested, move, deviation in steps");
+  subject(o, sub);
+  methods(o, sub, 1);
+  emulator::PulseTiming& timing = o.arguments.teach.timing;
+  o.choice(sub, "--timing", timing, {{"uniform", PulseTiming::uniform}, {"crossing", PulseTiming::crossing}},
+           "When pulses fire: uniform (a slot after the other) or crossing (where the path\n"
+           "crosses the middle between two nodes, at a constant feed)");
+  bounded(sub, "--feed", o.arguments.teach.feed_steps_s, 1e-3, 1e7,
+          "Slots a second, or steps a second along the path (default 1000)");
+  sub->add_option("--vcd", o.arguments.teach.vcd_path,
+                  "Write STEP and DIR as a value change dump, 0.1 us a tick")
+      ->type_name("FILE");
+  sub->add_flag("--spacing", o.arguments.teach.spacing, "Add the times between pulses of each axis, in us");
+  o.output(sub);
+  sub->footer("Example: kadr teach table line 7 4 --method half_step");
+}
+
+void add_compare(Options& o, CLI::App* group) {
+  CLI::App* sub = o.command(*group, "compare", teach_compare,
+                            "Follow a case by up to four methods: slots, pulses, deviations in steps, ends");
+  subject(o, sub);
+  methods(o, sub, kMostCompared);
+  o.output(sub);
+  sub->footer("Example: kadr teach compare arc 7 0 0 7 --method classic --method half_step");
+}
+
+void add_methods(Options& o, CLI::App* group) {
+  CLI::App* sub = o.command(*group, "methods", teach_methods, "List the interpolators and what they follow");
+  o.output(sub);
+}
+
+void add_bezier(Options& o, CLI::App* group) {
+  CLI::App* sub =
+      o.command(*group, "bezier", teach_bezier,
+                "Examine Bezier curves end to end: polynomials, length, smallest radius, joints,\n"
+                "speed that an acceleration allows; exit 1 if a feed is not allowed or curves don't meet");
+  sub->add_option("CURVE", o.arguments.files,
+                  "Control points of a curve, 2 to 4, in mm: coordinates by commas, points by blanks:\n"
+                  "'0,0,0 2,2,4 5,-0.5,2'")
+      ->required()
+      ->expected(1, 4096)
+      ->type_name("");
+  bounded(sub, "--feed", o.arguments.teach.feed_mm_s, 1e-6, 1e9, "Feed to be checked, mm/s");
+  bounded(sub, "--accel", o.arguments.teach.acceleration_mm_s2, 1e-6, 1e12,
+          "Acceleration that the machine allows, mm/s2");
+  sub->add_flag("--paper", o.arguments.teach.paper,
+                "Errors of t(S) by Newton's polynomials, minimax polynomials and the quintic table");
+  o.output(sub);
+  sub->footer("Example: kadr teach bezier '0,0,0 2,2,4 5,-0.5,2' --feed 1000 --accel 500000");
+}
+
+}  // namespace
+
+void add_teach_commands(Options& o) {
+  CLI::App* group = o.app.add_subcommand("teach", "Show how interpolators and splines work, step by step");
+  group->require_subcommand(1);
+  group->footer("`kadr teach table --help` lists the cases. docs/interpolators.md explains the methods.");
+  add_table(o, group);
+  add_compare(o, group);
+  add_methods(o, group);
+  add_bezier(o, group);
+}
+
+}  // namespace kadr::cli

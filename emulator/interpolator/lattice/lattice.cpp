@@ -1,0 +1,274 @@
+#include "emulator/interpolator/lattice/lattice.h"
+
+#include <algorithm>
+
+#include "emulator/interpolator/lattice/steppers.h"
+
+namespace kadr::emulator::lattice {
+namespace {
+
+constexpr std::int64_t kMostLine = std::int64_t{1} << 60;
+constexpr std::int64_t kMostPlane = std::int64_t{1} << 29;
+constexpr std::int64_t kMostEvents = std::int64_t{1} << 40;
+
+std::int64_t largest(const Point& p) {
+  std::int64_t most = 0;
+  for (const std::int64_t v : p) most = std::max(most, v == INT64_MIN ? INT64_MAX : magnitude(v));
+  return most;
+}
+
+MadeStepper make(const LineCurve& line, Method method, const MethodOptions& options) {
+  switch (method) {
+    case Method::classic:
+      return classic_line(line);
+    case Method::half_step:
+    case Method::crossing:
+      return half_step_line(line, options.tie_to_y);
+    case Method::diagonal:
+      return diagonal_line(line);
+    case Method::dda:
+      return dda_line(line, false);
+    case Method::dda_preloaded:
+      return dda_line(line, true);
+    case Method::progression:
+      return progression_line(line, options.fraction_bits);
+    case Method::ptp:
+      return point_to_point(line);
+    default:
+      break;
+  }
+  if (line.axes != 2) return nullptr;
+  switch (method) {
+    case Method::extra_points:
+      return extra_point_line(line);
+    case Method::printed_difference:
+      return printed_difference_line(line);
+    case Method::magnitudes:
+      return magnitude_line(line);
+    default:
+      return nullptr;
+  }
+}
+
+MadeStepper make(const ArcCurve& arc, Method method, const MethodOptions& options) {
+  switch (method) {
+    case Method::classic:
+      return rule_arc(arc, ArcRule::classic);
+    case Method::half_step:
+    case Method::crossing:
+      return rule_arc(arc, ArcRule::half_step);
+    case Method::extra_points:
+      return rule_arc(arc, ArcRule::extra_points);
+    case Method::octant_midpoint:
+      return rule_arc(arc, ArcRule::octant_midpoint);
+    case Method::dda_sequential:
+      return dda_arc(arc, true);
+    case Method::dda_simultaneous:
+      return dda_arc(arc, false);
+    case Method::chords:
+      return chord_arc(arc, options.chord_tolerance);
+    case Method::printed_half_step:
+      return printed_half_step_arc(arc);
+    default:
+      return nullptr;
+  }
+}
+
+MadeStepper make(const ImplicitCurve& curve, Method method, const MethodOptions&) {
+  switch (method) {
+    case Method::classic:
+      return rule_curve(curve, CurveRule::classic);
+    case Method::half_step:
+    case Method::crossing:
+      return rule_curve(curve, CurveRule::half_step);
+    case Method::extra_points:
+      return rule_curve(curve, CurveRule::extra_points);
+    default:
+      return nullptr;
+  }
+}
+
+MadeStepper make(const ParabolaCurve& parabola, Method method, const MethodOptions& options) {
+  if (method == Method::progression) return progression_parabola(parabola);
+  if (method == Method::newton) return newton_parabola(parabola, options.fraction_bits);
+  return make(implicit_of(parabola), method, options);
+}
+
+bool is_conic(const BezierCurve& curve) {
+  return curve.axes == 2 && curve.degree == 2 && curve.control[0] == Point{};
+}
+
+MadeStepper make(const BezierCurve& curve, Method method, const MethodOptions& options) {
+  if (method == Method::crossing) return bezier_events(curve);
+  return is_conic(curve) ? make(conic_of(curve), method, options) : nullptr;
+}
+
+/// Whether an arc's end is a node of the lattice's ring about the circle: |r_end - R| <= sqrt(2)/2.
+bool on_circle(const ArcCurve& arc) {
+  // |r^2 - R^2| <= sqrt(2)/2 (r + R) in integers, squared twice: 2 (r^2 - R^2)^2 <= r^2 + R^2 + 2 r R
+  const Wide r2 = Wide{arc.begin.x} * arc.begin.x + Wide{arc.begin.y} * arc.begin.y;
+  const Wide e2 = Wide{arc.end.x} * arc.end.x + Wide{arc.end.y} * arc.end.y;
+  const Wide difference = e2 - r2;
+  // 2^59 steps squared at most: the left side leaves 128 bits only where the end is far off
+  if ((difference < 0 ? -difference : difference) > (Wide{1} << 32)) return false;
+  const Wide rest = 2 * difference * difference - r2 - e2;
+  return rest <= 0 || rest * rest <= 4 * r2 * e2;
+}
+
+Refusal check(const LineCurve& line, Method) {
+  if (largest(line.delta) > kMostLine) return Refusal::range;
+  return largest(line.delta) == 0 ? Refusal::no_length : Refusal::none;
+}
+
+Refusal check(const ArcCurve& arc, Method method) {
+  if (std::max(largest({arc.begin.x, arc.begin.y}), largest({arc.end.x, arc.end.y})) > kMostPlane)
+    return Refusal::range;
+  if (arc.begin == Node{}) return Refusal::no_length;
+  if (!on_circle(arc)) return Refusal::off_curve;
+  if (method != Method::printed_half_step) return Refusal::none;
+  const Signs s = signs_of(quadrant_of(arc.begin, arc.turn), arc.turn);
+  const bool same_side = arc.begin.x * arc.end.x >= 0 && arc.begin.y * arc.end.y >= 0;
+  const bool ahead =
+      same_side && (arc.end.x - arc.begin.x) * s.x >= 0 && (arc.end.y - arc.begin.y) * s.y >= 0;
+  return ahead && !(arc.end == arc.begin) ? Refusal::none : Refusal::one_quadrant;
+}
+
+Refusal check(const ParabolaCurve& parabola, Method) {
+  if (std::max({magnitude(parabola.y_begin), magnitude(parabola.y_end), magnitude(parabola.p)}) > kMostPlane)
+    return Refusal::range;
+  if (parabola.p == 0 || parabola.y_begin == parabola.y_end) return Refusal::no_length;
+  const auto reach = std::max(largest(begin_of(parabola)), largest(end_of(parabola)));
+  return reach > kMostPlane ? Refusal::range : Refusal::none;
+}
+
+Refusal check(const ImplicitCurve& curve, Method) {
+  const std::int64_t reach =
+      std::max(largest({curve.begin.x, curve.begin.y}), largest({curve.end.x, curve.end.y}));
+  if (reach > kMostPlane || !curve.f.fits(4 * reach)) return Refusal::range;
+  return curve.f.degree() == 0 ? Refusal::no_length : Refusal::none;
+}
+
+Refusal check(const BezierCurve& curve, Method method) {
+  std::int64_t most = 0;
+  bool length = false;
+  for (int i = 0; i <= curve.degree; ++i) {
+    const Point& p = curve.control[static_cast<std::size_t>(i)];
+    most = std::max(most, largest(p));
+    length = length || p != curve.control[0];
+  }
+  const bool conic = method != Method::crossing;
+  if (most > (conic ? kMostPlane : kMostEvents)) return Refusal::range;
+  if (!length) return Refusal::no_length;
+  if (!conic) return Refusal::none;
+  // the part of a conic that is used lies among the control points
+  const Point &p = curve.control[1], &q = curve.control[2];
+  return Wide{q[1]} * p[0] == Wide{q[0]} * p[1] ? Refusal::in_line : Refusal::none;
+}
+
+}  // namespace
+
+const std::vector<MethodEntry>& methods() {
+  static const std::vector<MethodEntry> all = {
+      {Method::classic, "classic", "sign of F at the node", "F"},
+      {Method::half_step, "half_step", "sign of F half a step ahead in both coordinates", "F'"},
+      {Method::diagonal, "diagonal", "V_i: the longer axis always, the other one with it where V >= 0", "V"},
+      {Method::extra_points, "extra_points", "signs of F at two points beside the neighbours", "M1"},
+      {Method::octant_midpoint, "octant_midpoint", "sign of F at one point, by octants", "M1"},
+      {Method::dda, "dda", "overflow of registers that begin at 0", "Jx"},
+      {Method::dda_preloaded, "dda_preloaded", "overflow of registers that begin half full", "Jx"},
+      {Method::dda_sequential, "dda_sequential", "circle by two registers, one after the other", "Jx"},
+      {Method::dda_simultaneous, "dda_simultaneous", "circle by two registers at once: a spiral", "Jx"},
+      {Method::progression, "progression", "sums of constant or evenly growing increments", "S"},
+      {Method::chords, "chords", "chords within a tolerance, each by diagonal", "V"},
+      {Method::newton, "newton", "Newton's forward differences in fixed point", "d0"},
+      {Method::crossing, "crossing", "the axis whose next half-crossing comes first", "F'"},
+      {Method::ptp, "ptp", "point to point: each axis at its own rate", "i"},
+      {Method::printed_difference, "printed_difference", "as printed: sign of F(i,j+1) - F(i+1,j)", "D"},
+      {Method::printed_half_step, "printed_half_step", "as printed: eq. 7 in the place of F'", "D"},
+      {Method::magnitudes, "magnitudes", "sign of |F(i,j+1)| - |F(i+1,j)|: the nearer neighbour", "D"},
+  };
+  return all;
+}
+
+std::optional<Method> method_of(std::string_view name) {
+  for (const MethodEntry& m : methods())
+    if (m.name == name) return m.method;
+  return {};
+}
+
+const MethodEntry& entry_of(Method method) { return methods()[static_cast<std::size_t>(method)]; }
+
+std::int64_t most_steps(const Curve& curve) {
+  if (std::holds_alternative<LineCurve>(curve)) return kMostLine;
+  if (std::holds_alternative<BezierCurve>(curve)) return kMostEvents;
+  return kMostPlane;
+}
+
+bool knows(Method method, const Curve& curve) {
+  if (const auto* line = std::get_if<LineCurve>(&curve)) {
+    const bool plane = line->axes == 2;
+    switch (method) {
+      case Method::extra_points:
+      case Method::printed_difference:
+      case Method::magnitudes:
+        return plane;
+      case Method::octant_midpoint:
+      case Method::dda_sequential:
+      case Method::dda_simultaneous:
+      case Method::chords:
+      case Method::newton:
+      case Method::printed_half_step:
+        return false;
+      default:
+        return true;
+    }
+  }
+  const bool rule = method == Method::classic || method == Method::half_step ||
+                    method == Method::extra_points || method == Method::crossing;
+  if (std::holds_alternative<ArcCurve>(curve))
+    return rule || method == Method::octant_midpoint || method == Method::dda_sequential ||
+           method == Method::dda_simultaneous || method == Method::chords ||
+           method == Method::printed_half_step;
+  if (std::holds_alternative<ParabolaCurve>(curve))
+    return rule || method == Method::progression || method == Method::newton;
+  if (const auto* bezier = std::get_if<BezierCurve>(&curve))
+    return method == Method::crossing || (rule && is_conic(*bezier));
+  return rule;
+}
+
+Made make_stepper(const Curve& curve, Method method, const MethodOptions& options) {
+  if (!knows(method, curve)) return {nullptr, Refusal::other_curve};
+  return std::visit(
+      [&](const auto& c) -> Made {
+        if (const Refusal refusal = check(c, method); refusal != Refusal::none) return {nullptr, refusal};
+        return {make(c, method, options), Refusal::none};
+      },
+      curve);
+}
+
+Trace run(Stepper& stepper, const Curve& curve, std::int64_t most_slots) {
+  Trace trace;
+  trace.axes = axes_of(curve);
+  trace.begin = trace.end = begin_of(curve);
+  trace.hash = 1469598103934665603ULL;
+  Slot slot;
+  while (static_cast<std::int64_t>(trace.slots.size()) < most_slots) {
+    if (!stepper.next(slot)) {
+      trace.complete = true;
+      break;
+    }
+    bool any = false;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(trace.axes); ++k) {
+      trace.end[k] += slot.step[k];
+      any = any || slot.step[k] != 0;
+      trace.hash = (trace.hash ^ static_cast<std::uint8_t>(slot.step[k])) * 1099511628211ULL;
+    }
+    trace.forced += slot.forced;
+    trace.idle += !any;
+    trace.slots.push_back(slot);
+  }
+  trace.end_reached = trace.end == end_of(curve);
+  return trace;
+}
+
+}  // namespace kadr::emulator::lattice
