@@ -118,7 +118,8 @@ PlannerSettings read_planner(const Node* table, const Span& place, ReadContext& 
   s.scheduler = static_cast<SchedulerKind>(r.choice("scheduler", {"chained", "blockwise"}, 0).value);
   s.block_ticks = static_cast<BlockTicks>(r.choice("block_ticks", {"exact", "kl"}, 0).value);
   s.law = static_cast<RampLaw>(r.choice("law", {"jerk_limited", "quintic"}, 0).value);
-  s.method = static_cast<PlanMethod>(r.choice("method", {"scheduler", "tube", "certified"}, 0).value);
+  s.method = static_cast<PlanMethod>(
+      r.choice("method", {"scheduler", "tube", "certified", "jerk-limited"}, 0).value);
   s.node_mm = r.number("node_mm", {1e-3, 1e3}, s.node_mm).value;
   s.tube_levels = static_cast<int>(r.number("tube_levels", {3, 1000, false, true}, s.tube_levels).value);
   r.finish();

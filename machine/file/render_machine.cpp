@@ -149,7 +149,7 @@ void write_settings(TomlWriter& w, const MachineModel& m) {
   w.word("scheduler", m.planner.scheduler == SchedulerKind::chained ? "chained" : "blockwise");
   w.word("block_ticks", m.planner.block_ticks == BlockTicks::exact ? "exact" : "kl");
   w.word("law", m.planner.law == RampLaw::jerk_limited ? "jerk_limited" : "quintic");
-  constexpr std::string_view methods[] = {"scheduler", "tube", "certified"};
+  constexpr std::string_view methods[] = {"scheduler", "tube", "certified", "jerk-limited"};
   w.word("method", methods[static_cast<std::size_t>(m.planner.method)]);
   w.number("node_mm", m.planner.node_mm);
   w.number("tube_levels", m.planner.tube_levels);

@@ -23,7 +23,8 @@ PathLimitTable caps_of(const Path& path, const FeedPlan& plan, const machine::Ma
       mode == OverrideMode::corrected && machine.planner.scheduler == machine::SchedulerKind::blockwise;
   if (!time_law && !by_block) return std::move(*table);
   // nor does what follows them keep a jerk that they do not
-  if (time_law) std::fill(table->jerk_u_s3.begin(), table->jerk_u_s3.end(), machine::kInfinity);
+  if (!machine.planner.keeps_jerk())
+    std::fill(table->jerk_u_s3.begin(), table->jerk_u_s3.end(), machine::kInfinity);
   for (std::size_t i = 0; i < path.size(); ++i) {
     double& peak = table->cap_u_s[2 * i + 1];
     peak = std::min(peak, plan.segments[i].peak_u_s);

@@ -87,6 +87,17 @@ void PieceWriter::add(const std::vector<Element>& run, double stretch, double en
     else
       ramp(e);
   }
+  end_at(end_time_s);
+}
+
+void PieceWriter::add(const std::vector<JerkPiece>& run, double stretch, double end_time_s) {
+  stretch_ = stretch;
+  for (const JerkPiece& p : run)
+    piece(p.duration_s, p.s_u, p.speed_u_s, p.accel_u_s2, p.jerk_u_s3, {p.limited_by, p.limiting_axis});
+  end_at(end_time_s);
+}
+
+void PieceWriter::end_at(double end_time_s) {
   if (end_time_s < 0.0) return;
   // the elements last as long as prescribed but for the last bits of the sum
   if (!law_.pieces.empty()) {

@@ -15,6 +15,8 @@ class PieceWriter {
   /// @param stretch    factor on all its times: v/k, a/k^2, j/k^3
   /// @param end_time_s its prescribed end, or a negative number: what the elements last
   void add(const std::vector<Element>& run, double stretch, double end_time_s);
+  /// Appends a run that is pieces already, of constant jerk; their own beginnings do not count.
+  void add(const std::vector<JerkPiece>& run, double stretch, double end_time_s);
   /// Stands at s until a time that is not before the present one.
   void rest(double s_u, double end_time_s);
   double time_s() const { return time_s_; }
@@ -22,6 +24,7 @@ class PieceWriter {
  private:
   void piece(double duration, double s, double v, double a, double j, Signature why, double rise = 0.0);
   void ramp(const Element& e);
+  void end_at(double end_time_s);
 
   MotionLaw& law_;
   double stretch_ = 1.0;

@@ -9,6 +9,7 @@
 #include "planner/scheduler/limits.h"
 #include "planner/scheduler/pieces.h"
 #include "planner/scheduler/run_planner.h"
+#include "planner/time_law/jerk_plan.h"
 #include "planner/time_law/path_law.h"
 
 namespace kadr::planner {
@@ -44,6 +45,17 @@ double sum_of_times_s(const std::vector<Element>& run) {
   return sum;
 }
 
+double sum_of_times_s(const std::vector<JerkPiece>& run) {
+  double sum = 0.0, lost = 0.0;  // compensated: the last piece ends a run exactly
+  for (const JerkPiece& p : run) {
+    const double y = p.duration_s - lost;
+    const double next = sum + y;
+    lost = (next - sum) - y;
+    sum = next;
+  }
+  return sum;
+}
+
 /// Plans the runs of a path, from rest to rest, one after the other.
 class RunMaker {
  public:
@@ -57,6 +69,9 @@ class RunMaker {
     while (table_.cap_u_s[2 * run_.last + 2] > 0.0) ++run_.last;
     behind_ = run_.last + 1;
     elements_.clear();
+    pieces_.clear();
+    if (machine_.planner.method == machine::PlanMethod::jerk_limited && !all_trapezoids(table_, run_))
+      return next_jerk_limited();
     if (machine_.planner.method != machine::PlanMethod::scheduler) {
       auto planned = plan_time_law(path_, table_, run_, machine_, elements_);
       if (!planned) {
@@ -75,13 +90,32 @@ class RunMaker {
   }
 
   const Run& run() const { return run_; }
-  const std::vector<Element>& elements() const { return elements_; }
+  /// Writes it, to end at a prescribed time or, negative, as it is.
+  void write(PieceWriter& writer, double end_time_s) const {
+    if (pieces_.empty())
+      writer.add(elements_, whole_.stretch, end_time_s);
+    else
+      writer.add(pieces_, whole_.stretch, end_time_s);
+  }
   /// What the elements last before they fill whole control ticks.
   double time_s() const { return time_s_; }
   const WholeTicks& whole() const { return whole_; }
   std::optional<PlanError>& error() { return error_; }
 
  private:
+  bool next_jerk_limited() {
+    auto planned = plan_jerk_law(path_, table_, run_, machine_, pieces_);
+    if (!planned) {
+      error_ = std::move(planned.error());
+      return false;
+    }
+    time_s_ = sum_of_times_s(pieces_);
+    whole_ = {};
+    if (machine_.planner.whole_ticks && time_s_ < kLongest_s)
+      whole_ = stretched_to_ticks(time_s_, machine_.clock.tau_s());
+    return true;
+  }
+
   const Path& path_;
   const machine::MachineModel& machine_;
   const PathLimitTable& table_;
@@ -89,6 +123,7 @@ class RunMaker {
   Run run_;
   std::size_t behind_ = 0;
   std::vector<Element> elements_;
+  std::vector<JerkPiece> pieces_;  // of a run that has no elements
   double time_s_ = 0;
   WholeTicks whole_;
   std::optional<PlanError> error_;
@@ -151,7 +186,7 @@ tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineM
       return tl::unexpected(too_long(path, runs.run(), writer.time_s() + runs.time_s()));
     ticks += runs.whole().ticks;
     const bool whole = machine.planner.whole_ticks;
-    writer.add(runs.elements(), runs.whole().stretch, whole ? static_cast<double>(ticks) * tau : -1.0);
+    runs.write(writer, whole ? static_cast<double>(ticks) * tau : -1.0);
   }
   if (runs.error()) return tl::unexpected(std::move(*runs.error()));
   result.law.duration_s = writer.time_s();
