@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "machine/base/parse_number.h"
+#include "machine/file/technology.h"
 
 namespace kadr::machine {
 
@@ -207,6 +208,16 @@ std::optional<StockModel> read_stock(const Node* table, const Span& place, const
   return stock;
 }
 
+std::vector<TechnologyRule> read_technology(TableReader& root) {
+  std::vector<TechnologyRule> rules;
+  for (const Node& node : root.tables("technology")) {
+    TableReader keys(&node, "technology", node.span, root.context());
+    rules.push_back(read_technology_rule(keys));
+    keys.finish();
+  }
+  return rules;
+}
+
 void read_axes(TableReader& root, MachineModel& model) {
   ReadContext& context = root.context();
   const std::vector<Node>& tables = root.tables("axis");
@@ -247,6 +258,7 @@ MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
   read_axes(root, model);
   model.plant = read_plant_settings(root.table("plant"), top, model.axis, context);
   model.stock = read_stock(root.table("stock"), top, model, context);
+  model.technology = read_technology(root);
   model.log = read_log(root.table("log"), top, model.clock, context);
   root.finish();
   return model;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "machine/base/parse_number.h"
+#include "machine/file/technology.h"
 #include "machine/machine.h"
 
 namespace kadr::machine {
@@ -159,6 +160,11 @@ void write_settings(TomlWriter& w, const MachineModel& m) {
   w.table("[plant]", "plant");
   w.word("integrator", integrators[static_cast<std::size_t>(m.plant.integrator)]);
   w.number("tolerance_um", m.plant.tolerance_um);
+  for (const TechnologyRule& rule : m.technology) {
+    w.table("[[technology]]", "technology");
+    w.word("on", technology_code(rule));
+    w.number("max_mm_s", rule.max_u_s);
+  }
   if (m.stock) {
     w.table("[stock]", "stock");
     w.word("axis", std::string(1, m.stock->axis));
