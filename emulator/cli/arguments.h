@@ -62,9 +62,10 @@ struct Arguments {
   bool only_check = false;  ///< fmt --check
   bool in_place = false;    ///< fmt --in-place
   emulator::DiffOptions diff;
-  std::vector<std::string> methods;  ///< tube --method
-  std::string csv_path, page_path;   ///< tube --csv, --page
-  bool timing = false;               ///< tube --timing
+  std::vector<std::string> methods;     ///< tube --method
+  std::string csv_path, page_path;      ///< tube --csv, --page
+  bool timing = false;                  ///< tube --timing
+  int first_level = 0, last_level = 0;  ///< tube --sweep-levels; 0: no sweep
   std::string junit_path;
   double until_s = machine::kInfinity;
   int threads = 1;
