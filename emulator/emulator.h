@@ -61,6 +61,14 @@ struct OperatorStep {
   Span span;          ///< in the scenario file
 };
 
+/// A technology point where the first motion of a program line begins.
+struct LineLimit {
+  std::uint32_t line = 0;
+  double max_u_s = 0;
+  Span span;
+  bool met = false;  ///< set by prepare()
+};
+
 /// A program read, planned and verified-ready; everything the cycle needs.
 struct Job {
   SourceSet sources;
@@ -69,6 +77,7 @@ struct Job {
   gcode::Reading reading;                    ///< of the program
   std::vector<InputStep> inputs;             ///< what M66 meets; ascending by tick
   std::vector<OperatorStep> operator_steps;  ///< by tick those that have one, in the file's order the others
+  std::vector<LineLimit> line_limits;        ///< technology points of a scenario
   std::vector<std::uint32_t> called_files;   ///< indices in sources, in the order of their first call
   std::vector<ProgramEvent> events;          ///< ascending in after_segment
   planner::Path path{0};

@@ -24,7 +24,7 @@ enum class TickFeed : std::uint8_t { linear, constant };
 enum class AxisLimitRule : std::uint8_t { enforce, report };
 enum class OnAlarm : std::uint8_t { report, stop };
 enum class SchedulerKind : std::uint8_t { chained, blockwise };
-enum class PlanMethod : std::uint8_t { scheduler, tube, certified };
+enum class PlanMethod : std::uint8_t { scheduler, tube, certified, jerk_limited };
 /// How a G0 gets from rest to rest where a flexible link swings (paper 001).
 enum class RapidShape : std::uint8_t { scurve, t_zero, zv, zvd, automatic };
 enum class RampLaw : std::uint8_t { jerk_limited, quintic };
@@ -97,8 +97,8 @@ struct PlannerSettings {
   int tube_levels = 100;                             ///< tube: speeds tried at a node, 3 to 1000
   RapidShape rapid_law = RapidShape::scurve;         ///< scurve: a rapid is planned as any other move
   double rapid_frequency_pct = 1;                    ///< automatic: links' frequencies are known to +- this
-  /// Whether plans keep the jerk limits of axes and path: paper 000 knows none.
-  bool keeps_jerk() const { return method == PlanMethod::scheduler; }
+  /// Whether plans keep the jerk limits of axes and path: the laws of paper 000 know none.
+  bool keeps_jerk() const { return method == PlanMethod::scheduler || method == PlanMethod::jerk_limited; }
   bool operator==(const PlannerSettings&) const = default;
 };
 
@@ -152,6 +152,15 @@ struct StockModel {
   bool operator==(const StockModel&) const = default;
 };
 
+/// A technology point wherever an output changes with the motion: "M62 P1" (on), "M63 P1" (off), "M67 E0".
+struct TechnologyRule {
+  bool analog = false;
+  int number = 0;
+  bool on = true;      ///< of a digital output
+  double max_u_s = 0;  ///< highest feed there, mm/s or deg/s along what F measures, > 0
+  bool operator==(const TechnologyRule&) const = default;
+};
+
 struct MachineModel {
   std::string name;
   ClockModel clock;
@@ -164,7 +173,8 @@ struct MachineModel {
   LogSettings log;
   OnAlarm on_alarm = OnAlarm::report;
   std::optional<StockModel> stock;
-  AxisValues home2{};  ///< G30 position, machine coordinates
+  std::vector<TechnologyRule> technology;  ///< [rules], in the order of the file
+  AxisValues home2{};                      ///< G30 position, machine coordinates
 
   /// Index in `axis` by letter, -1 if the machine has no such axis.
   int find_axis(char letter) const;

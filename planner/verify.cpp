@@ -145,10 +145,16 @@ class Verifier {
     const double tolerance = options_.relative_tolerance * scale + 32.0 * kUlp * q.begin_s * std::fabs(end.j);
     if (!(std::fabs(end.a - q.accel_u_s2) <= tolerance) && jerk_limited_around(q.s_u))
       report("continuity of acceleration", q.begin_s, segment_, -1, end.a, q.accel_u_s2);
-    if (machine_.planner.law == machine::RampLaw::quintic && (end.j != 0.0 || at(q, 0.0).j != 0.0))
+    if (machine_.planner.law == machine::RampLaw::quintic && !by_law() &&
+        (end.j != 0.0 || at(q, 0.0).j != 0.0))
       report("continuity of jerk", q.begin_s, segment_, -1, end.j, at(q, 0.0).j);
   }
 
+  /// A time law knows no ramps.
+  bool by_law() const {
+    return machine_.planner.method != machine::PlanMethod::scheduler &&
+           machine_.planner.scheduler == machine::SchedulerKind::chained;
+  }
   bool jerk_limited_around(double s) const {
     const std::size_t at_s = segment_at(s);
     for (std::size_t i = at_s > 0 ? at_s - 1 : 0; i <= std::min(at_s + 1, path_.size() - 1); ++i) {

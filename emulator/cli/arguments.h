@@ -83,6 +83,7 @@ struct Arguments {
   emulator::PointQuestion point;     ///< law
   bool table2 = false;               ///< law --paper
   TeachArguments teach;
+  int first_level = 0, last_level = 0;  ///< tube --sweep-levels; 0: no sweep
   std::string junit_path;
   double until_s = machine::kInfinity;
   int threads = 1;

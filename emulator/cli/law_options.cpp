@@ -9,6 +9,25 @@
 namespace kadr::cli {
 namespace {
 
+constexpr int kLeastLevels = 3, kMostLevels = 2000, kMostRuns = 500;
+
+/// "50..200".
+tl::expected<std::pair<int, int>, std::string> level_range(const std::string& text) {
+  const std::size_t dots = text.find("..");
+  const auto whole = [](const std::string& part) -> int {
+    const auto value = parse_number(part);
+    return value && *value >= kLeastLevels && *value <= kMostLevels && *value == static_cast<int>(*value)
+               ? static_cast<int>(*value)
+               : 0;
+  };
+  const int first = dots == std::string::npos ? 0 : whole(text.substr(0, dots));
+  const int last = dots == std::string::npos ? 0 : whole(text.substr(dots + 2));
+  if (first == 0 || last < first || last - first >= kMostRuns)
+    return tl::unexpected(fmt::format("takes A..B, levels from {} to {}, at most {} of them; got '{}'",
+                                      kLeastLevels, kMostLevels, kMostRuns, text));
+  return std::pair(first, last);
+}
+
 void add_tube(Options& o) {
   CLI::App* sub =
       o.command(o.app, "tube", solve_tube,
@@ -35,6 +54,18 @@ void add_tube(Options& o) {
       ->type_name("FILE");
   sub->add_option("--page", o.arguments.page_path, "Write charts and tables as one HTML file")
       ->type_name("FILE");
+  sub->add_option_function<std::string>(
+         "--sweep-levels",
+         [&o](const std::string& text) {
+           const auto range = level_range(text);
+           if (!range) throw CLI::ValidationError("--sweep-levels " + range.error());
+           o.arguments.first_level = range->first;
+           o.arguments.last_level = range->second;
+         },
+         "Run the tube with each number of levels from A to B in place of the methods: time, gap, passes;\n"
+         "--csv and --page then show the sweep")
+      ->type_name("A..B")
+      ->excludes("--method");
   sub->add_flag("--timing", o.arguments.timing, "A column of wall times; two runs are then not the same");
   o.diagnostics(sub);
   o.output(sub);

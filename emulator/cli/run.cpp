@@ -114,8 +114,12 @@ void read_inputs(RunInputs& in) {
     in.program = program_text(in.arguments.files.front());
   }
   in.started = load_reading(in.arguments, in.job, in.diagnostics) && in.machine_good;
-  if (!in.started || !in.scenario || in.scenario->steps.empty()) return;
-  emulator::place_inputs(*in.scenario, in.scenario->steps.front().span.file, in.job, in.diagnostics);
+  if (!in.started || !in.scenario) return;
+  const auto& steps = in.scenario->steps;
+  const auto& points = in.scenario->technology;
+  if (steps.empty() && points.empty()) return;
+  const Span& place = steps.empty() ? points.front().span : steps.front().span;
+  emulator::place_inputs(*in.scenario, place.file, in.job, in.diagnostics);
   in.started = !in.diagnostics.has_errors();
 }
 

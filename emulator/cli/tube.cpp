@@ -8,6 +8,7 @@
 #include "emulator/cli/inputs.h"
 #include "emulator/cli/output_file.h"
 #include "emulator/report/law_report.h"
+#include "emulator/report/sweep_report.h"
 #include "emulator/report/tube_page.h"
 
 /// `kadr tube`: time laws of a stated path, by several methods side by side.
@@ -67,6 +68,37 @@ void note_times(const Arguments& arguments, const LawStudy& study, Console& cons
   console.note(text);
 }
 
+int sweep_tube(const Arguments& arguments, const TimeLawProblem& problem, const std::string& name,
+               Console& console) {
+  const bool tells = ::isatty(STDERR_FILENO) && !console.options().quiet;
+  const emulator::LevelSweep sweep =
+      emulator::sweep_levels(problem, arguments.first_level, arguments.last_level, [&](std::int32_t levels) {
+        if (tells && (levels - arguments.first_level) % 10 == 0)
+          console.note(
+              fmt::format("{} levels of {} to {}", levels, arguments.first_level, arguments.last_level));
+      });
+  if (!arguments.csv_path.empty()) {
+    OutputFile csv(arguments.csv_path);
+    csv.write(emulator::sweep_csv(sweep));
+    csv.close();
+  }
+  if (!arguments.page_path.empty()) {
+    OutputFile page(arguments.page_path);
+    page.write(emulator::render_sweep_page(sweep, problem, name));
+    page.close();
+  }
+  const int code = sweep.good() ? kYes : kNo;
+  if (console.options().json) {
+    Json j = {{"kadr", KADR_VERSION}, {"command", "tube"}, {"file", name}, {"exit_code", code}};
+    j["diagnostics"] = Json::array();
+    j.update(emulator::json_of(sweep));
+    console.document(j);
+  } else if (!console.options().quiet) {
+    console.data(emulator::render_problem(problem, name) + '\n' + emulator::render_sweep_table(sweep));
+  }
+  return code;
+}
+
 }  // namespace
 
 int solve_tube(const Arguments& arguments, Console& console) {
@@ -88,13 +120,18 @@ int solve_tube(const Arguments& arguments, Console& console) {
   };
   const auto problem = emulator::read_time_law_problem(sources, job.program);
   if (!problem) return refuse(problem.error());
-  const std::vector<LawMethod> methods = chosen_methods(arguments, *problem);
+  const bool sweep = arguments.first_level > 0;
+  TimeLawProblem sized = *problem;  // as large as it will get
+  if (sweep) sized.tube.levels = arguments.last_level;
+  const std::vector<LawMethod> methods =
+      sweep ? std::vector{LawMethod::tube, LawMethod::optimum} : chosen_methods(arguments, *problem);
   const bool keep_profiles = !arguments.page_path.empty();
-  if (auto large = emulator::check_size(*problem, methods, keep_profiles)) {
+  if (auto large = emulator::check_size(sized, methods, keep_profiles && !sweep)) {
     Diagnostics diagnostics;
     diagnostics.add(std::move(*large));
     return refuse(diagnostics);
   }
+  if (sweep) return sweep_tube(arguments, *problem, name, console);
   const LawStudy study = emulator::study_laws(*problem, methods, keep_profiles);
   write_files(arguments, study, *problem, name);
   const int code = study.good() ? kYes : kNo;

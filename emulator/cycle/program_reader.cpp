@@ -25,6 +25,7 @@ ProgramReader::ProgramReader(Job& job, Diagnostics& diagnostics, const AxisValue
     : job_(job), diagnostics_(diagnostics), builder_(job.machine.model, home) {
   job_.events.clear();
   job_.blocks = 0;
+  for (LineLimit& point : job_.line_limits) point.met = false;
 }
 
 void ProgramReader::take(const Block& block) {
@@ -38,6 +39,11 @@ void ProgramReader::take(const Block& block) {
 
 void ProgramReader::take_motion(const Block& block) {
   const std::size_t before = builder_.path().size();
+  for (LineLimit& point : job_.line_limits) {
+    if (point.met || point.line != block.span.line || block.span.file != job_.program) continue;
+    builder_.limit_speed(point.max_u_s);
+    point.met = true;
+  }
   builder_.add(block);
   ++job_.blocks;
   moved_by_angle_ = sync_by_angle_;
@@ -115,6 +121,10 @@ double ProgramReader::time_so_far_s() {
 }
 
 void ProgramReader::keep_output(const Block& block) {
+  const bool analog = block.kind == BlockKind::analog_output;
+  for (const machine::TechnologyRule& rule : job_.machine.model.technology)
+    if (rule.analog == analog && rule.number == block.number && (analog || rule.on == block.on))
+      builder_.limit_speed(rule.max_u_s);
   // the last setting of an output is the one that the next motion takes along
   const auto same = [&](const Block& other) {
     return other.kind == block.kind && other.number == block.number;
@@ -126,6 +136,15 @@ void ProgramReader::keep_output(const Block& block) {
 void ProgramReader::add_event(const Block& block) { job_.events.push_back({block, builder_.path().size()}); }
 
 void ProgramReader::finish() {
+  for (const LineLimit& point : job_.line_limits)
+    if (!point.met)
+      diagnostics_.add({Code::scenario_technology,
+                        Severity::error,
+                        point.span,
+                        std::string(code_entry(Code::scenario_technology).title),
+                        fmt::format("no motion begins on line {}", point.line),
+                        {},
+                        "name the line of a move"});
   for (const Block& output : outputs_)
     diagnostics_.add(warning(Code::output_without_motion, output, "no motion follows: it never changes",
                              "M64, M65 and M68 change an output at once"));

@@ -126,11 +126,16 @@ class Study {
 
   PointStudy finished() {
     const planner::ExcitedMode mode{out_.driven, 0, 1.0};
-    const planner::Positioning rapid = planner::plan_positioning(
-        {task_.distance_u, task_.speed_limit_u_s, task_.accel_limit_u_s2, machine::kInfinity, {&mode, 1},
-         machine::RapidShape::automatic, q_.omega_uncertainty, 0});
-    out_.advice = fmt::format("{}, {:.6f} s: {}", planner::rapid_law_name(rapid.shape), rapid.law.duration_s(),
-                              rapid.reason);
+    const planner::Positioning rapid = planner::plan_positioning({task_.distance_u,
+                                                                  task_.speed_limit_u_s,
+                                                                  task_.accel_limit_u_s2,
+                                                                  machine::kInfinity,
+                                                                  {&mode, 1},
+                                                                  machine::RapidShape::automatic,
+                                                                  q_.omega_uncertainty,
+                                                                  0});
+    out_.advice = fmt::format("{}, {:.6f} s: {}", planner::rapid_law_name(rapid.shape),
+                              rapid.law.duration_s(), rapid.reason);
     return std::move(out_);
   }
 
@@ -155,8 +160,8 @@ planner::PointResult<PointStudy> study_point_laws(const PointQuestion& q) {
         PointFault{PointFault::Kind::bad_share, "uncertainty of the frequency", q.omega_uncertainty, 1, ""});
   const double periods = planner::shortest_time_s(q.task) / driven.mode.period_s();
   if (!(periods <= kMostPeriods))
-    return tl::unexpected(
-        PointFault{PointFault::Kind::too_fine, "periods of the vibration in the motion", periods, kMostPeriods, ""});
+    return tl::unexpected(PointFault{PointFault::Kind::too_fine, "periods of the vibration in the motion",
+                                     periods, kMostPeriods, ""});
   Study study(q, driven);
   return q.time_optimal ? study.of_least_time() : study.of_given_time();
 }

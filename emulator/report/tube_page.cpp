@@ -77,9 +77,8 @@ class Page {
       : study_(study), p_(problem), caps_(planner::node_caps(problem.law)) {}
 
   std::string text(std::string_view file) {
-    std::string out(kHead);
-    out += fmt::format("<title>{} - time laws</title>\n</head>\n<body>\n<h1>{}</h1>\n<p>{}</p>\n",
-                       xml_text(p_.name), xml_text(p_.name), xml_text(render_problem(p_, file)));
+    std::string out = law_page_head(fmt::format("{} - time laws", p_.name));
+    out += fmt::format("<h1>{}</h1>\n<p>{}</p>\n", xml_text(p_.name), xml_text(render_problem(p_, file)));
     out += methods();
     const bool passes = !study_.tube.profiles_mm_s.empty();
     out += passes ? pass_charts() : method_chart_over_path();
@@ -328,6 +327,14 @@ class Page {
 };
 
 }  // namespace
+
+std::string law_page_head(std::string_view title) {
+  return fmt::format("{}<title>{}</title>\n</head>\n<body>\n", kHead, xml_text(title));
+}
+
+std::string law_page_table(const std::string& caption, const std::vector<std::vector<std::string>>& rows) {
+  return html_table(caption, rows);
+}
 
 std::string render_tube_page(const LawStudy& study, const TimeLawProblem& problem, std::string_view file) {
   return Page(study, problem).text(file);

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "emulator/time_law/law_study.h"
 
@@ -12,5 +13,10 @@ namespace kadr::emulator {
 /// @param study  with the profiles of the tube, if it was asked for
 /// @param file   of the problem, for the headline
 std::string render_tube_page(const LawStudy& study, const TimeLawProblem& problem, std::string_view file);
+
+/// Begins such a page, up to and with <body>.
+std::string law_page_head(std::string_view title);
+/// A table of it; the first row is its head.
+std::string law_page_table(const std::string& caption, const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace kadr::emulator

@@ -16,6 +16,15 @@ constexpr double kSameTick = 1e-6;
 
 void place_inputs(const Scenario& scenario, std::uint32_t file, Job& job, Diagnostics& diagnostics) {
   const double tau_s = job.machine.model.clock.tau_s();
+  for (const ScenarioTechnology& point : scenario.technology) {
+    if (!point.line) {
+      job.machine.model.technology.push_back(point.rule);
+      continue;
+    }
+    Span span = point.span;
+    span.file = file;
+    job.line_limits.push_back({*point.line, point.rule.max_u_s, span});
+  }
   double load = 0;  // of the spindle, before a step with for_s
   for (const ScenarioStep& step : scenario.steps) {
     Span span = step.span;

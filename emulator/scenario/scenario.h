@@ -76,6 +76,13 @@ struct ScenarioStep {
   Span span;         ///< of the time or place
 };
 
+/// A technology point: where an output changes, or where the first motion of a line begins.
+struct ScenarioTechnology {
+  machine::TechnologyRule rule;  ///< of a line only its limit
+  std::optional<std::uint32_t> line;
+  Span span;
+};
+
 /// A scenario file as read; nothing of it has run.
 struct Scenario {
   std::string file;    ///< path of scenario.toml as given
@@ -92,6 +99,7 @@ struct Scenario {
   gcode::Dialect dialect = gcode::Dialect::linuxcnc;
   std::vector<std::string> settings;  ///< "key=value"
   std::vector<ScenarioStep> steps;
+  std::vector<ScenarioTechnology> technology;
   Expectations expect;
 };
 

@@ -7,6 +7,7 @@
 #include "emulator/scenario/scenario.h"
 #include "machine/base/hash.h"
 #include "machine/file/table_reader.h"
+#include "machine/file/technology.h"
 #include "scenarios/generator/wind.h"
 
 namespace kadr::emulator {
@@ -48,6 +49,7 @@ class ScenarioReader {
     if (const Node* settings = table.table("settings")) flatten_settings(*settings, "");
     // the stock of a scenario goes before that of the machine file
     if (const Node* stock = table.table("stock")) flatten_settings(*stock, "stock");
+    for (const Node& point : table.tables("technology")) read_technology(point);
     for (const Node& step : table.tables("step")) read_step(step);
     if (const Node* expect = table.table("expect")) read_expect(*expect);
     table.finish();
@@ -58,6 +60,22 @@ class ScenarioReader {
     Diagnostic d = file_diagnostic(code, span, std::move(label));
     d.help = std::move(help);
     context_.diagnostics.add(std::move(d));
+  }
+
+  void read_technology(const Node& node) {
+    TableReader keys(&node, "technology", node.span, context_);
+    ScenarioTechnology point;
+    point.span = node.span;
+    if (keys.has("at_line")) {
+      const auto line = keys.number("at_line", {1, 4e9, false, true});
+      point.line = static_cast<std::uint32_t>(line.value);
+      point.span = line.span;
+      point.rule.max_u_s = machine::read_technology_limit(keys);
+    } else {
+      point.rule = machine::read_technology_rule(keys);
+    }
+    keys.finish();
+    scenario_.technology.push_back(point);
   }
 
   void read_program(TableReader& table) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "machine/base/parse_number.h"
+#include "machine/file/technology.h"
 
 namespace kadr::machine {
 
@@ -118,7 +119,8 @@ PlannerSettings read_planner(const Node* table, const Span& place, ReadContext& 
   s.scheduler = static_cast<SchedulerKind>(r.choice("scheduler", {"chained", "blockwise"}, 0).value);
   s.block_ticks = static_cast<BlockTicks>(r.choice("block_ticks", {"exact", "kl"}, 0).value);
   s.law = static_cast<RampLaw>(r.choice("law", {"jerk_limited", "quintic"}, 0).value);
-  s.method = static_cast<PlanMethod>(r.choice("method", {"scheduler", "tube", "certified"}, 0).value);
+  s.method = static_cast<PlanMethod>(
+      r.choice("method", {"scheduler", "tube", "certified", "jerk-limited"}, 0).value);
   s.node_mm = r.number("node_mm", {1e-3, 1e3}, s.node_mm).value;
   s.tube_levels = static_cast<int>(r.number("tube_levels", {3, 1000, false, true}, s.tube_levels).value);
   const auto rapid = r.choice("rapid_law", {"scurve", "t-zero", "zv", "zvd", "auto"}, 0);
@@ -216,6 +218,16 @@ std::optional<StockModel> read_stock(const Node* table, const Span& place, const
   return stock;
 }
 
+std::vector<TechnologyRule> read_technology(TableReader& root) {
+  std::vector<TechnologyRule> rules;
+  for (const Node& node : root.tables("technology")) {
+    TableReader keys(&node, "technology", node.span, root.context());
+    rules.push_back(read_technology_rule(keys));
+    keys.finish();
+  }
+  return rules;
+}
+
 void read_axes(TableReader& root, MachineModel& model) {
   ReadContext& context = root.context();
   const std::vector<Node>& tables = root.tables("axis");
@@ -256,6 +268,7 @@ MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
   read_axes(root, model);
   model.plant = read_plant_settings(root.table("plant"), top, model.axis, context);
   model.stock = read_stock(root.table("stock"), top, model, context);
+  model.technology = read_technology(root);
   model.log = read_log(root.table("log"), top, model.clock, context);
   root.finish();
   return model;

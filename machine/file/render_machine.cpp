@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "machine/base/parse_number.h"
+#include "machine/file/technology.h"
 #include "machine/machine.h"
 
 namespace kadr::machine {
@@ -149,7 +150,7 @@ void write_settings(TomlWriter& w, const MachineModel& m) {
   w.word("scheduler", m.planner.scheduler == SchedulerKind::chained ? "chained" : "blockwise");
   w.word("block_ticks", m.planner.block_ticks == BlockTicks::exact ? "exact" : "kl");
   w.word("law", m.planner.law == RampLaw::jerk_limited ? "jerk_limited" : "quintic");
-  constexpr std::string_view methods[] = {"scheduler", "tube", "certified"};
+  constexpr std::string_view methods[] = {"scheduler", "tube", "certified", "jerk-limited"};
   w.word("method", methods[static_cast<std::size_t>(m.planner.method)]);
   w.number("node_mm", m.planner.node_mm);
   w.number("tube_levels", m.planner.tube_levels);
@@ -162,6 +163,11 @@ void write_settings(TomlWriter& w, const MachineModel& m) {
   w.table("[plant]", "plant");
   w.word("integrator", integrators[static_cast<std::size_t>(m.plant.integrator)]);
   w.number("tolerance_um", m.plant.tolerance_um);
+  for (const TechnologyRule& rule : m.technology) {
+    w.table("[[technology]]", "technology");
+    w.word("on", technology_code(rule));
+    w.number("max_mm_s", rule.max_u_s);
+  }
   if (m.stock) {
     w.table("[stock]", "stock");
     w.word("axis", std::string(1, m.stock->axis));

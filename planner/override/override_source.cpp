@@ -5,7 +5,6 @@
 
 #include "machine/base/require.h"
 #include "planner/laws/tick_shape.h"
-#include "planner/scheduler/pieces.h"
 
 namespace kadr::planner {
 namespace {
@@ -26,7 +25,8 @@ PathLimitTable caps_of(const Path& path, const FeedPlan& plan, const machine::Ma
       mode == OverrideMode::corrected && machine.planner.scheduler == machine::SchedulerKind::blockwise;
   if (!time_law && !by_block) return std::move(*table);
   // nor does what follows them keep a jerk that they do not
-  if (time_law) std::fill(table->jerk_u_s3.begin(), table->jerk_u_s3.end(), machine::kInfinity);
+  if (!machine.planner.keeps_jerk())
+    std::fill(table->jerk_u_s3.begin(), table->jerk_u_s3.end(), machine::kInfinity);
   for (std::size_t i = 0; i < path.size(); ++i) {
     double& peak = table->cap_u_s[2 * i + 1];
     peak = std::min(peak, plan.segments[i].peak_u_s);
@@ -118,9 +118,8 @@ void OverrideSource::begin_slow_rapid(std::size_t segment, double ratio) {
   const double speed = terrain_.hard_cap_u_s(2 * segment + 1) * ratio;
   const Positioning rapid = rapids_.plan(path_, segment, speed, limits.accel_u_s2, limits.jerk_u_s3);
   slow_rapid_.pieces.clear();
-  PieceWriter writer(slow_rapid_);
-  writer.add(rapid.law, path_.start_s_u[segment], {LimitedBy::override_percent, -1}, -1.0);
-  slow_rapid_.duration_s = writer.time_s();
+  append_pieces(rapid.law, path_.start_s_u[segment], {LimitedBy::override_percent, -1}, slow_rapid_.pieces);
+  slow_rapid_.duration_s = rapid.law.duration_s();
   slow_rapid_.length_u = path_.start_s_u[segment + 1];
   slow_source_.emplace(slow_rapid_, machine_);
   slow_ratio_ = ratio;

@@ -8,5 +8,5 @@
 
 /// From rest to rest without leaving the load swinging (paper 001). A PointLaw is a motion of one coordinate
 /// in pieces of constant jerk: built by builders.h (T laws, S-curves, shaped ones), found by synthesis.h
-/// (least energy at a given time, least time) or picked for a rapid (planner/positioning). residual_amplitude_u()
-/// says what swings afterwards, work_of() what it costs.
+/// (least energy at a given time, least time) or picked for a rapid (planner/positioning).
+/// residual_amplitude_u() says what swings afterwards, work_of() what it costs.

@@ -302,6 +302,15 @@ bool is_positioning(const Path& path, std::size_t segment, const machine::Machin
   return false;
 }
 
+void append_pieces(const PointLaw& law, double s_u, const Signature& why, std::vector<JerkPiece>& out) {
+  for (const PointPiece& p : law.pieces()) {
+    const bool cruises = p.accel_u_s2 == 0.0 && p.jerk_u_s3 == 0.0;
+    const Signature reason = cruises ? why : Signature{LimitedBy::length, -1};
+    out.push_back({p.begin_s, p.duration_s, s_u + p.position_u, p.speed_u_s, p.accel_u_s2, p.jerk_u_s3,
+                   reason.reason, reason.axis});
+  }
+}
+
 Positioning plan_positioning(const PositioningTask& task) { return Maker(task).make(); }
 
 double residual_u(const PointLaw& law, const ExcitedMode& mode) {

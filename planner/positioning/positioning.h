@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "machine/machine.h"
-#include "planner/path.h"
+#include "planner/feed_plan.h"
 #include "planner/point_to_point/law.h"
 #include "planner/point_to_point/mode.h"
+#include "planner/scheduler/limits.h"
 
 namespace kadr::planner {
 
@@ -59,6 +60,10 @@ struct Positioning {
 /// are.
 Positioning plan_positioning(const PositioningTask& task);
 inline constexpr std::size_t kMostTuned = 2;
+
+/// Appends the pieces of a law that begins at path length s.
+/// @param why  what holds the speed where it cruises
+void append_pieces(const PointLaw& law, double s_u, const Signature& why, std::vector<JerkPiece>& out);
 
 /// Amplitude of a mode's vibration after the law, in units of its axis.
 double residual_u(const PointLaw& law, const ExcitedMode& mode);

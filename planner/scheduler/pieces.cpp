@@ -90,13 +90,10 @@ void PieceWriter::add(const std::vector<Element>& run, double stretch, double en
   end_at(end_time_s);
 }
 
-void PieceWriter::add(const PointLaw& law, double s_u, Signature why, double end_time_s) {
-  stretch_ = 1.0;
-  for (const PointPiece& p : law.pieces()) {
-    const bool cruises = p.accel_u_s2 == 0.0 && p.jerk_u_s3 == 0.0;
-    piece(p.duration_s, s_u + p.position_u, p.speed_u_s, p.accel_u_s2, p.jerk_u_s3,
-          cruises ? why : Signature{LimitedBy::length, -1});
-  }
+void PieceWriter::add(const std::vector<JerkPiece>& run, double stretch, double end_time_s) {
+  stretch_ = stretch;
+  for (const JerkPiece& p : run)
+    piece(p.duration_s, p.s_u, p.speed_u_s, p.accel_u_s2, p.jerk_u_s3, {p.limited_by, p.limiting_axis});
   end_at(end_time_s);
 }
 

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "planner/feed_plan.h"
-#include "planner/point_to_point/law.h"
 #include "planner/scheduler/ramp.h"
 
 namespace kadr::planner {
@@ -16,9 +15,8 @@ class PieceWriter {
   /// @param stretch    factor on all its times: v/k, a/k^2, j/k^3
   /// @param end_time_s its prescribed end, or a negative number: what the elements last
   void add(const std::vector<Element>& run, double stretch, double end_time_s);
-  /// Appends a run that is one point-to-point law.
-  /// @param why  of what is not ramp
-  void add(const PointLaw& law, double s_u, Signature why, double end_time_s);
+  /// Appends a run that is pieces already, of constant jerk; their own beginnings do not count.
+  void add(const std::vector<JerkPiece>& run, double stretch, double end_time_s);
   /// Stands at s until a time that is not before the present one.
   void rest(double s_u, double end_time_s);
   double time_s() const { return time_s_; }

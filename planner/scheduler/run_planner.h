@@ -48,5 +48,7 @@ struct WholeTicks {
 /// plateau, or, if no plateau can give enough, by slowing the whole run a little (v/k, a/k^2, j/k^3); both
 /// keep every limit.
 WholeTicks fill_whole_ticks(std::vector<Element>& run, double tau_s);
+/// The same by slowing the whole run alone.
+WholeTicks stretched_to_ticks(double time_s, double tau_s);
 
 }  // namespace kadr::planner

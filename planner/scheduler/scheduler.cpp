@@ -12,6 +12,7 @@
 #include "planner/scheduler/limits.h"
 #include "planner/scheduler/pieces.h"
 #include "planner/scheduler/run_planner.h"
+#include "planner/time_law/jerk_plan.h"
 #include "planner/time_law/path_law.h"
 
 namespace kadr::planner {
@@ -47,6 +48,17 @@ double sum_of_times_s(const std::vector<Element>& run) {
   return sum;
 }
 
+double sum_of_times_s(const std::vector<JerkPiece>& run) {
+  double sum = 0.0, lost = 0.0;  // compensated: the last piece ends a run exactly
+  for (const JerkPiece& p : run) {
+    const double y = p.duration_s - lost;
+    const double next = sum + y;
+    lost = (next - sum) - y;
+    sum = next;
+  }
+  return sum;
+}
+
 /// Plans the runs of a path, from rest to rest, one after the other.
 class RunMaker {
  public:
@@ -60,11 +72,14 @@ class RunMaker {
     while (table_.cap_u_s[2 * run_.last + 2] > 0.0) ++run_.last;
     behind_ = run_.last + 1;
     elements_.clear();
-    positioning_.reset();
+    pieces_.clear();
+    positioned_.reset();
     if (is_positioning(path_, run_.first, machine_)) {
       position();
       return true;
     }
+    if (machine_.planner.method == machine::PlanMethod::jerk_limited && !all_trapezoids(table_, run_))
+      return next_jerk_limited();
     if (machine_.planner.method != machine::PlanMethod::scheduler) {
       auto planned = plan_time_law(path_, table_, run_, machine_, elements_);
       if (!planned) {
@@ -83,20 +98,15 @@ class RunMaker {
   }
 
   const Run& run() const { return run_; }
-  const std::vector<Element>& elements() const { return elements_; }
-  /// The run's law in place of elements, if it is a rapid that planner.rapid_law takes care of.
-  const std::optional<Positioning>& positioning() const { return positioning_; }
-  /// What the log and the plan's table tell of it.
-  PositionedSegment positioned() {
-    PositionedSegment row{static_cast<std::uint32_t>(run_.first),
-                          positioning_->shape,
-                          positioning_->reason,
-                          positioning_->loss_s,
-                          {}};
-    for (const ExcitedMode& m : rapids_.excited(path_, run_.first))
-      row.residual_u[static_cast<std::size_t>(m.axis)] += residual_u(positioning_->law, m);
-    return row;
+  /// Writes it, to end at a prescribed time or, negative, as it is.
+  void write(PieceWriter& writer, double end_time_s) const {
+    if (pieces_.empty())
+      writer.add(elements_, whole_.stretch, end_time_s);
+    else
+      writer.add(pieces_, whole_.stretch, end_time_s);
   }
+  /// What the plan tells of a run that is a rapid of planner.rapid_law.
+  const std::optional<PositionedSegment>& positioned() const { return positioned_; }
   /// What the elements last before they fill whole control ticks.
   double time_s() const { return time_s_; }
   const WholeTicks& whole() const { return whole_; }
@@ -106,12 +116,29 @@ class RunMaker {
   void position() {
     const std::size_t i = run_.first;
     require(run_.last == i, "a positioning move is a run of its own");
-    positioning_ =
+    const Positioning rapid =
         rapids_.plan(path_, i, table_.cap_u_s[2 * i + 1], table_.accel_u_s2[i], table_.jerk_u_s3[i]);
-    time_s_ = positioning_->law.duration_s();
+    append_pieces(rapid.law, path_.start_s_u[i], table_.signature[2 * i + 1], pieces_);
+    time_s_ = rapid.law.duration_s();
     whole_ = {};
     if (machine_.planner.whole_ticks)
       whole_.ticks = static_cast<std::int64_t>(std::floor(time_s_ / machine_.clock.tau_s() + 0.5));
+    positioned_ = {static_cast<std::uint32_t>(i), rapid.shape, rapid.reason, rapid.loss_s, {}};
+    for (const ExcitedMode& m : rapids_.excited(path_, i))
+      positioned_->residual_u[static_cast<std::size_t>(m.axis)] += residual_u(rapid.law, m);
+  }
+
+  bool next_jerk_limited() {
+    auto planned = plan_jerk_law(path_, table_, run_, machine_, pieces_);
+    if (!planned) {
+      error_ = std::move(planned.error());
+      return false;
+    }
+    time_s_ = sum_of_times_s(pieces_);
+    whole_ = {};
+    if (machine_.planner.whole_ticks && time_s_ < kLongest_s)
+      whole_ = stretched_to_ticks(time_s_, machine_.clock.tau_s());
+    return true;
   }
 
   const Path& path_;
@@ -119,10 +146,11 @@ class RunMaker {
   const PathLimitTable& table_;
   ValleyPlanner valley_;
   PositioningPlanner rapids_;
-  std::optional<Positioning> positioning_;
+  std::optional<PositionedSegment> positioned_;
   Run run_;
   std::size_t behind_ = 0;
   std::vector<Element> elements_;
+  std::vector<JerkPiece> pieces_;  // of a run that has no elements
   double time_s_ = 0;
   WholeTicks whole_;
   std::optional<PlanError> error_;
@@ -190,14 +218,8 @@ tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineM
       return tl::unexpected(too_long(path, runs.run(), writer.time_s() + runs.time_s()));
     ticks += runs.whole().ticks;
     const bool whole = machine.planner.whole_ticks;
-    const double end_s = whole ? static_cast<double>(ticks) * tau : -1.0;
-    if (const std::optional<Positioning>& rapid = runs.positioning()) {
-      const std::size_t i = runs.run().first;
-      writer.add(rapid->law, path.start_s_u[i], limits->signature[2 * i + 1], end_s);
-      result.positioned.push_back(runs.positioned());
-    } else {
-      writer.add(runs.elements(), runs.whole().stretch, end_s);
-    }
+    runs.write(writer, whole ? static_cast<double>(ticks) * tau : -1.0);
+    if (runs.positioned()) result.positioned.push_back(*runs.positioned());
   }
   if (runs.error()) return tl::unexpected(std::move(*runs.error()));
   result.law.duration_s = writer.time_s();

@@ -106,13 +106,25 @@ void lower_plateau(std::vector<Element>& run, const Plateau& p, double more_s) {
   down.s_u += behind - down.length_u;
 }
 
-}  // namespace
-
-WholeTicks fill_whole_ticks(std::vector<Element>& run, double tau_s) {
-  const double time = total_time_s(run);
+double whole_number(double time, double tau_s) {
   // times that are whole but for rounding are taken as whole
   const double ticks = std::max(std::ceil(time / tau_s * (1.0 - 1e-12)), 1.0);
   require(ticks < 9e15, "a run's number of control ticks fits an integer");
+  return ticks;
+}
+
+}  // namespace
+
+WholeTicks stretched_to_ticks(double time, double tau_s) {
+  const double ticks = whole_number(time, tau_s);
+  const double wanted = ticks * tau_s;
+  return {static_cast<std::int64_t>(ticks),
+          std::fabs(wanted - time) > kRounding * time ? wanted / time : 1.0};
+}
+
+WholeTicks fill_whole_ticks(std::vector<Element>& run, double tau_s) {
+  const double time = total_time_s(run);
+  const double ticks = whole_number(time, tau_s);
   const double more = ticks * tau_s - time;
   if (more > 1e-12 * time) {
     const Plateau p = longest_plateau(run, more);

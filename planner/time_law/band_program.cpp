@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace kadr::planner {
 namespace {
@@ -14,6 +15,7 @@ constexpr double kRoundedGap = 1e-6;  ///< and below this it is taken
 constexpr double kShort = 0.1;        ///< of a predictor's step
 constexpr double kRecentre = 0.5;     ///< of the mean product, instead of a corrector
 constexpr double kLeastSlack = 1e-2;
+constexpr double kRowUlps = 16.0;  ///< of a row's largest term, by which its value may be off
 
 /// Symmetric matrix of bandwidth 2, factored in place into L D L^T.
 struct Band {
@@ -68,6 +70,13 @@ class InteriorPoint {
   double row(std::size_t k, const std::vector<double>& z) const {
     const BandRow& r = p_.rows[k];
     return r.a[0] * z[r.node] + r.a[1] * z[r.node + 1] + r.a[2] * z[r.node + 2];
+  }
+  /// A row's residual beyond what its terms are rounded by: near short intervals they are large and cancel.
+  double broken(std::size_t k) const {
+    const BandRow& r = p_.rows[k];
+    const double terms = std::fabs(r.a[0]) * x_[r.node] + std::fabs(r.a[1]) * x_[r.node + 1] +
+                         std::fabs(r.a[2]) * x_[r.node + 2];
+    return std::fabs(residual_[k]) - kRowUlps * std::numeric_limits<double>::epsilon() * terms;
   }
   void add_to(std::vector<double>& out, std::size_t k, double factor) const {
     const BandRow& r = p_.rows[k];
@@ -196,7 +205,7 @@ BandOptimum InteriorPoint::run(const BandOptions& options) {
     }
     double worst = 0, product = 0;
     for (std::size_t k = 0; k < rows; ++k) {
-      worst = std::max(worst, std::fabs(residual_[k]));
+      worst = std::max(worst, broken(k));
       product += slack_[k] * multiplier_[k];
     }
     const double gap = cost - out.bound_s;

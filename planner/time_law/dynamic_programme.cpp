@@ -44,8 +44,9 @@ LawResult DynamicProgramme::run(const std::vector<LevelRange>& levels) {
     if (!step(i))
       return tl::unexpected(LawFailure{
           i, problem_.s_u[i],
-          fmt::format("none of {} speeds from {} to {} can be reached within the acceleration limits",
-                      levels[i].count, levels[i].low_u_s, levels[i].high_u_s)});
+          fmt::format(
+              "none of {} speeds from {:.6g} to {:.6g} mm/s can be reached within the acceleration limits",
+              levels[i].count, levels[i].low_u_s, levels[i].high_u_s)});
   }
   return read_back(levels);
 }

@@ -48,11 +48,11 @@ LawResult InteriorPointOptimum::solve_from(const LawProblem& problem, const LawS
   for (std::size_t k = 0; k < origins.size(); ++k)
     (origins[k].upper ? certificate_.upper : certificate_.lower)[origins[k].row] = optimum.multipliers[k];
   if (!optimum.converged)
-    return tl::unexpected(
-        LawFailure{0, problem.s_u[0],
-                   fmt::format("the interior point method stopped after {} steps at a cost of {} s, above "
-                               "a bound of {} s",
-                               optimum.steps, optimum.cost_s, optimum.bound_s)});
+    return tl::unexpected(LawFailure{
+        0, problem.s_u[0],
+        fmt::format("the interior point method stopped after {} steps at a cost of {:.6f} s, above "
+                    "a bound of {:.6f} s",
+                    optimum.steps, optimum.cost_s, optimum.bound_s)});
   LawSolution out = summed(problem, std::move(speed));
   out.lower_bound_s = lower_bound_s(problem, certificate_);
   out.iterations = optimum.steps;

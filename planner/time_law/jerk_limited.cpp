@@ -22,7 +22,7 @@ constexpr double kEndPart = 0.14;  ///< of the length, over which the first law 
 struct NodeForm {
   std::size_t node;                  ///< of the first of three unknowns
   std::array<double, 3> change{};    // of u
-  std::array<double, 3> duration{};  // tangent of dt_i + dt_(i+1)
+  std::array<double, 3> duration{};  // tangent of j_before dt_i + j_behind dt_(i+1)
   double duration_rest = 0;          // its part that does not depend on x
 };
 
@@ -30,17 +30,17 @@ class Tangents {
  public:
   Tangents(const BandProgram& program, const std::vector<double>& x) : p_(program), x_(x) {}
 
-  NodeForm at(std::size_t i) const {
+  NodeForm at(std::size_t i, double before, double behind) const {
     const std::size_t n = x_.size();
     NodeForm f{std::min(i > 0 ? i - 1 : 0, n - 3)};
-    if (i > 0) add(f, i, 1.0);
-    if (i + 1 < n) add(f, i + 1, -1.0);
+    if (i > 0) add(f, i, 1.0, before);
+    if (i + 1 < n) add(f, i + 1, -1.0, behind);
     return f;
   }
 
  private:
   /// Interval i with its u taken away (or, negative, added: u_(i+1) - u_i).
-  void add(NodeForm& f, std::size_t i, double sign) const {
+  void add(NodeForm& f, std::size_t i, double sign, double jerk) const {
     const double ds = p_.ds_u[i], h = 0.5 * p_.unit_u2_s2 / ds;
     const double v0 = std::sqrt(x_[i - 1] * p_.unit_u2_s2), v1 = std::sqrt(x_[i] * p_.unit_u2_s2),
                  sum = v0 + v1;
@@ -48,24 +48,25 @@ class Tangents {
     f.change[i - 1 - f.node] += sign * h;
     const double slope = ds * p_.unit_u2_s2 / (sum * sum);
     const double d0 = v0 > 0.0 ? -slope / v0 : 0.0, d1 = v1 > 0.0 ? -slope / v1 : 0.0;
-    f.duration[i - 1 - f.node] += d0;
-    f.duration[i - f.node] += d1;
-    f.duration_rest += 2.0 * ds / sum - d0 * x_[i - 1] - d1 * x_[i];
+    f.duration[i - 1 - f.node] += jerk * d0;
+    f.duration[i - f.node] += jerk * d1;
+    f.duration_rest += jerk * (2.0 * ds / sum - d0 * x_[i - 1] - d1 * x_[i]);
   }
 
   const BandProgram& p_;
   const std::vector<double>& x_;
 };
 
-void add_jerk_rows(BandProgram& program, const std::vector<double>& x, double jerk) {
+void add_jerk_rows(BandProgram& program, const std::vector<double>& x, const NodeJerk& jerk) {
   const Tangents tangents(program, x);
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const NodeForm f = tangents.at(i);
-    const double bound = 0.5 * jerk * f.duration_rest;
+    const double before = i > 0 ? jerk.before[i] : 0.0, behind = i + 1 < x.size() ? jerk.behind[i] : 0.0;
+    if (!(before + behind < machine::kInfinity)) continue;
+    const NodeForm f = tangents.at(i, before, behind);
+    const double bound = 0.5 * f.duration_rest;
     for (const double side : {1.0, -1.0}) {
       BandRow row{static_cast<std::uint32_t>(f.node)};
-      for (std::size_t q = 0; q < 3; ++q)
-        row.a[q] = (side * f.change[q] - 0.5 * jerk * f.duration[q]) / bound;
+      for (std::size_t q = 0; q < 3; ++q) row.a[q] = (side * f.change[q] - 0.5 * f.duration[q]) / bound;
       program.rows.push_back(row);
     }
   }
@@ -79,7 +80,7 @@ double used(const BandProgram& program, const std::vector<double>& x) {
 }
 
 /// A slow law from rest to rest that keeps every limit: s ~ t^3 at the ends, so that jerk is finite there.
-std::vector<double> slow_law(const LawProblem& p, const BandProgram& base, double jerk) {
+std::vector<double> slow_law(const LawProblem& p, const BandProgram& base, const NodeJerk& jerk) {
   const std::size_t n = p.nodes();
   double least = base.cap[1];
   for (std::size_t i = 1; i + 1 < n; ++i) least = std::min(least, base.cap[i]);
@@ -98,6 +99,19 @@ std::vector<double> slow_law(const LawProblem& p, const BandProgram& base, doubl
     if (used(program, x) <= kStartSlack) return x;
   }
   return {};
+}
+
+BandProgram base_program(const LawProblem& problem) {
+  BandProgram base = cost_program(problem, node_caps(problem));
+  add_accel_rows(base, accel_rows(problem));
+  add_caps(base);
+  return base;
+}
+
+std::vector<double> speeds(const BandProgram& program, const std::vector<double>& x) {
+  std::vector<double> out(x.size(), 0.0);
+  for (std::size_t i = 1; i + 1 < x.size(); ++i) out[i] = std::sqrt(x[i] * program.unit_u2_s2);
+  return out;
 }
 
 }  // namespace
@@ -119,38 +133,45 @@ LawResult JerkLimitedLaw::solve(const LawProblem& problem) {
   const std::size_t n = problem.nodes();
   if (problem.begin_u_s != 0.0 || problem.end_u_s != 0.0) {
     const std::size_t node = problem.begin_u_s != 0.0 ? 0 : n - 1;
-    return tl::unexpected(
-        LawFailure{node, problem.s_u[node],
-                   fmt::format("the jerk-limited law runs from rest to rest, the speed here is to be {}",
-                               node == 0 ? problem.begin_u_s : problem.end_u_s)});
+    return tl::unexpected(LawFailure{
+        node, problem.s_u[node],
+        fmt::format("the jerk-limited law runs from rest to rest, the speed here is to be {:.6g} mm/s",
+                    node == 0 ? problem.begin_u_s : problem.end_u_s)});
   }
-  BandProgram base = cost_program(problem, node_caps(problem));
-  add_accel_rows(base, accel_rows(problem));
-  add_caps(base);
-  std::vector<double> x = slow_law(problem, base, jerk_u_s3_);
+  const NodeJerk jerk{std::vector<double>(n, jerk_u_s3_), std::vector<double>(n, jerk_u_s3_)};
+  const BandProgram base = base_program(problem);
+  const std::vector<double> x = slow_law(problem, base, jerk);
   if (x.empty())
-    return tl::unexpected(LawFailure{0, problem.s_u[0],
-                                     fmt::format("no law was found whose jerk stays within {}", jerk_u_s3_)});
+    return tl::unexpected(LawFailure{
+        0, problem.s_u[0], fmt::format("no law was found whose jerk stays within {:.6g} mm/s3", jerk_u_s3_)});
+  std::vector<double> speed = speeds(base, x);
   std::uint32_t steps = 0;
   double before = machine::kInfinity;
+  for (tangents_ = 1;; ++tangents_) {
+    LawResult law = jerk_tangent_law(problem, jerk, speed);
+    if (!law) return law;
+    steps += law->iterations;
+    law->iterations = steps;
+    if (before - law->cost_s < kSettled * law->cost_s || tangents_ == kMostTangents) return law;
+    before = law->cost_s;
+    speed = std::move(law->speed_u_s);
+  }
+}
+
+LawResult jerk_tangent_law(const LawProblem& problem, const NodeJerk& jerk,
+                           const std::vector<double>& at_u_s) {
+  BandProgram program = base_program(problem);
+  std::vector<double> x(at_u_s.size());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = at_u_s[i] * at_u_s[i] / program.unit_u2_s2;
+  add_jerk_rows(program, x, jerk);
   BandOptions options;
   options.relative_gap = kSettled;
-  for (tangents_ = 1; tangents_ <= kMostTangents; ++tangents_) {
-    BandProgram program = base;
-    add_jerk_rows(program, x, jerk_u_s3_);
-    BandOptimum optimum = planner::solve(program, x, options);
-    steps += optimum.steps;
-    if (!optimum.converged)
-      return tl::unexpected(LawFailure{
-          0, problem.s_u[0], fmt::format("the interior point method stopped after {} steps", optimum.steps)});
-    x = std::move(optimum.x);
-    if (before - optimum.cost_s < kSettled * optimum.cost_s) break;
-    before = optimum.cost_s;
-  }
-  std::vector<double> speed(n, 0.0);
-  for (std::size_t i = 1; i + 1 < n; ++i) speed[i] = std::sqrt(x[i] * base.unit_u2_s2);
-  LawSolution out = summed(problem, std::move(speed));
-  out.iterations = steps;
+  const BandOptimum optimum = planner::solve(program, std::move(x), options);
+  if (!optimum.converged)
+    return tl::unexpected(LawFailure{
+        0, problem.s_u[0], fmt::format("the interior point method stopped after {} steps", optimum.steps)});
+  LawSolution out = summed(problem, speeds(program, optimum.x));
+  out.iterations = optimum.steps;
   return out;
 }
 

@@ -35,8 +35,13 @@ double arc_share(double step_rad) { return 1.0 / (1.0 + 6.0 * step_rad * step_ra
 class ProblemMaker {
  public:
   ProblemMaker(const Path& path, const PathLimitTable& table, const Run& run,
-               const machine::MachineModel& machine)
-      : path_(path), table_(table), run_(run), machine_(machine), axes_(machine.axis.size()) {}
+               const machine::MachineModel& machine, RunLimits limits)
+      : path_(path),
+        table_(table),
+        run_(run),
+        machine_(machine),
+        axes_(machine.axis.size()),
+        even_(limits == RunLimits::path) {}
 
   RunProblem make() {
     LawProblem& p = out_.problem;
@@ -50,6 +55,7 @@ class ProblemMaker {
     p.penalty.per_length = true;
     p.penalty.weight_s5_u2 *= length / kPaperLength_u;
     longest_u_ = std::min(machine_.planner.node_mm, length / kLeastIntervals);
+    measure_joints();
     node(run_.first, 0.0);
     for (std::size_t i = run_.first; i <= run_.last; ++i) segment(i);
     // rest at both ends
@@ -77,19 +83,53 @@ class ProblemMaker {
     }
   }
 
-  /// Ends of a segment's intervals. Where a joint is slower than the segment, the way of the ramp between
-  /// them is kRampIntervals intervals, which widen from there on.
+  /// Longest interval of a segment where nothing is slow.
+  double widest_u(std::size_t i) const {
+    if (path_.segments[i].kind != SegmentKind::arc) return longest_u_;
+    return std::min(longest_u_, path_.segments[i].length_u * kArcStep_rad / arc_step_rad(path_, i, 1.0));
+  }
+
+  /// Longest interval of a segment at one of its joints. Where that is slower than the segment, the way of
+  /// the ramp between them is kRampIntervals intervals.
+  double finest_u(std::size_t i, std::size_t joint) const {
+    const double fast = table_.cap_u_s[2 * i + 1], slow = table_.cap_u_s[2 * joint];
+    if (!(slow < fast * kSlower)) return widest_u(i);
+    const double a = table_.accel_u_s2[i], ramp = (fast - slow) * (fast + slow) / (2.0 * a);
+    if (!even_) return ramp / kRampIntervals;
+    // and so is the way while acceleration rises, on a segment that may be too short for a ramp
+    const double j = table_.jerk_u_s3[i], rise_s = std::min(a / j, std::sqrt((fast - slow) / j));
+    const double rise = rise_s > 0.0 ? rise_s * (slow + j * rise_s * rise_s / 6.0) : ramp;
+    return std::min({ramp, rise, path_.segments[i].length_u}) / kRampIntervals;
+  }
+
+  /// Longest intervals at all joints of the run, from both sides; even ones do not differ much from their
+  /// neighbours, across joints and short segments too.
+  void measure_joints() {
+    const std::size_t n = run_.last - run_.first + 1;
+    const auto length = [&](std::size_t k) { return path_.segments[run_.first + k].length_u; };
+    before_u_.resize(n);
+    behind_u_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      behind_u_[k] = finest_u(run_.first + k, run_.first + k);
+      before_u_[k] = finest_u(run_.first + k, run_.first + k + 1);
+    }
+    if (!even_) return;
+    for (std::size_t k = 0; k < n; ++k) {
+      if (k > 0) behind_u_[k] = std::min(behind_u_[k], before_u_[k - 1]);
+      behind_u_[k] = std::min(behind_u_[k], length(k));
+      before_u_[k] = std::min({before_u_[k], length(k), behind_u_[k] + kWiden * length(k)});
+    }
+    for (std::size_t k = n; k-- > 0;) {
+      if (k + 1 < n) before_u_[k] = std::min(before_u_[k], behind_u_[k + 1]);
+      behind_u_[k] = std::min(behind_u_[k], before_u_[k] + kWiden * length(k));
+    }
+    for (std::size_t k = 1; k < n; ++k) behind_u_[k] = std::min(behind_u_[k], before_u_[k - 1]);
+  }
+
+  /// Ends of a segment's intervals, which widen from both joints on.
   void place_nodes(std::size_t i) {
-    const double length = path_.segments[i].length_u;
-    double widest = longest_u_;
-    if (path_.segments[i].kind == SegmentKind::arc)
-      widest = std::min(widest, length * kArcStep_rad / arc_step_rad(path_, i, 1.0));
-    const auto finest = [&](std::size_t joint) {
-      const double fast = table_.cap_u_s[2 * i + 1], slow = table_.cap_u_s[2 * joint];
-      const double ramp = (fast - slow) * (fast + slow) / (2.0 * table_.accel_u_s2[i]);
-      return slow < fast * kSlower ? ramp / kRampIntervals : widest;
-    };
-    const double left = finest(i), right = finest(i + 1);
+    const double length = path_.segments[i].length_u, widest = widest_u(i);
+    const double left = behind_u_[i - run_.first], right = before_u_[i - run_.first];
     places_.clear();
     for (double x = 0.0; x < length;) {
       const double y = length - x;
@@ -116,15 +156,15 @@ class ProblemMaker {
     at(i, local, share, out_.problem.slope_behind, out_.problem.curvature_behind);
   }
 
-  /// Derivatives of the last node, as if the axes' limits were lower by a share. Limits that are only
-  /// reported do not count: then the axes do not.
+  /// Derivatives of the last node, as if the axes' limits were lower by a share. Where limits are only
+  /// reported, or those along the path say it all, the axes do not count.
   void at(std::size_t i, double local, double share, std::vector<double>& slope,
           std::vector<double>& curvature) {
     std::array<double, kProgramAxes> d1{}, d2{};
     eval_tangent(path_, i, local, {d1.data(), axes_});
     eval_curvature(path_, i, local, {d2.data(), axes_});
-    const bool counts =
-        machine_.planner.axis_limits == machine::AxisLimitRule::enforce || path_.segments[i].rapid;
+    const bool counts = !even_ && (machine_.planner.axis_limits == machine::AxisLimitRule::enforce ||
+                                   path_.segments[i].rapid);
     for (std::size_t c = 0; c < axes_; ++c) {
       slope[slope.size() - axes_ + c] = counts ? d1[c] / share : 0.0;
       curvature[curvature.size() - axes_ + c] = counts ? d2[c] / share : 0.0;
@@ -136,13 +176,15 @@ class ProblemMaker {
   const Run& run_;
   const machine::MachineModel& machine_;
   std::size_t axes_;
+  bool even_;  ///< a motion of continuous acceleration needs intervals that do not differ much
   double longest_u_ = 1;
+  std::vector<double> behind_u_, before_u_;  // [segments of the run], intervals at their begin and end
   std::vector<double> places_;
   RunProblem out_;
 };
 
 LawResult solve(const LawProblem& problem, const machine::MachineModel& machine) {
-  if (machine.planner.method == PlanMethod::certified) return CertifiedLaw().solve(problem);
+  if (machine.planner.method != PlanMethod::tube) return CertifiedLaw().solve(problem);
   TubeOptions options;
   options.levels = machine.planner.tube_levels;
   options.grid = TubeGrid::nominal_kept;
@@ -157,7 +199,9 @@ LawResult solve(const LawProblem& problem, const machine::MachineModel& machine)
   return tube.refine(problem, *known, options.relative_half_width * fastest);
 }
 
-PlanError not_found(const Path& path, const RunProblem& run, const LawFailure& failure) {
+}  // namespace
+
+PlanError law_not_found(const Path& path, const RunProblem& run, const LawFailure& failure) {
   const PathSegment& seg = path.segments[run.segment[failure.node]];
   Diagnostic d{};
   d.code = Code::law_not_found;
@@ -169,27 +213,23 @@ PlanError not_found(const Path& path, const RunProblem& run, const LawFailure& f
   return {std::move(d)};
 }
 
-Signature signature_of(const PathLimitTable& table, const RunProblem& run, std::size_t node, double speed) {
-  const double cap = run.problem.cap_u_s[node];
+Signature law_signature(const PathLimitTable& table, std::size_t segment, double cap, double speed) {
   if (speed < cap * (1.0 - kAtCap)) return {LimitedBy::length, -1};
-  const std::size_t i = run.segment[node];
-  return table.signature[2 * i + 1];
+  return table.signature[2 * segment + 1];
 }
 
-}  // namespace
-
 RunProblem run_problem(const Path& path, const PathLimitTable& table, const Run& run,
-                       const machine::MachineModel& machine) {
-  return ProblemMaker(path, table, run, machine).make();
+                       const machine::MachineModel& machine, RunLimits limits) {
+  return ProblemMaker(path, table, run, machine, limits).make();
 }
 
 tl::expected<void, PlanError> plan_time_law(const Path& path, const PathLimitTable& table, const Run& run,
                                             const machine::MachineModel& machine, std::vector<Element>& out) {
   RunProblem stated = run_problem(path, table, run, machine);
   LawProblem& p = stated.problem;
-  if (const auto wrong = check_problem(p)) return tl::unexpected(not_found(path, stated, *wrong));
+  if (const auto wrong = check_problem(p)) return tl::unexpected(law_not_found(path, stated, *wrong));
   LawResult law = solve(p, machine);
-  if (!law) return tl::unexpected(not_found(path, stated, law.error()));
+  if (!law) return tl::unexpected(law_not_found(path, stated, law.error()));
   const std::vector<NodeCap> caps = node_caps(p);
   std::vector<double>& v = law->speed_u_s;
   // speeds that only rounding keeps off their cap are on it, so that holds are holds
@@ -197,7 +237,7 @@ tl::expected<void, PlanError> plan_time_law(const Path& path, const PathLimitTab
     if (std::fabs(v[i] - caps[i].speed_u_s) <= 1e-12 * v[i]) v[i] = caps[i].speed_u_s;
   for (std::size_t i = 1; i < v.size(); ++i) {
     const double length = p.ds_u(i);
-    const Signature why = signature_of(table, stated, i, std::max(v[i - 1], v[i]));
+    const Signature why = law_signature(table, stated.segment[i], p.cap_u_s[i], std::max(v[i - 1], v[i]));
     if (v[i - 1] == v[i]) {
       if (!out.empty() && out.back().is_hold() && out.back().v0_u_s == v[i] && out.back().signature == why)
         out.back().length_u += length;

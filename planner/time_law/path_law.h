@@ -17,10 +17,21 @@ struct RunProblem {
   std::vector<std::size_t>
       segment;  // [nodes], that the interval ending at a node lies on; of node 0 the first
 };
+/// Whose limits count: those of the axes themselves, or those along the path by which every axis keeps its
+/// own, jerk included (limit_table). These are for motions of continuous acceleration, which also need
+/// intervals that do not differ much from their neighbours.
+enum class RunLimits : std::uint8_t { axes, path };
 RunProblem run_problem(const Path& path, const PathLimitTable& table, const Run& run,
-                       const machine::MachineModel& machine);
+                       const machine::MachineModel& machine, RunLimits limits = RunLimits::axes);
 
-/// Plans a run by planner.method: one element for every interval whose speed changes, holds joined.
+/// K4008: a run without a time law, with its place.
+PlanError law_not_found(const Path& path, const RunProblem& run, const LawFailure& failure);
+
+/// What holds the speed in an interval of a segment that ends at a node with a cap.
+Signature law_signature(const PathLimitTable& table, std::size_t segment, double cap_u_s, double speed_u_s);
+
+/// Plans a run by planner.method "tube" or "certified": one element for every interval whose speed changes,
+/// holds joined.
 tl::expected<void, PlanError> plan_time_law(const Path& path, const PathLimitTable& table, const Run& run,
                                             const machine::MachineModel& machine, std::vector<Element>& out);
 

@@ -36,31 +36,35 @@ std::optional<LawFailure> check_values(const LawProblem& p) {
   for (std::size_t c = 0; c < p.axes; ++c) {
     if (!positive(p.max_feed_u_s[c]) || !positive(p.max_accel_u_s2[c]))
       return LawFailure{0, p.s_u[0],
-                        fmt::format("axis {}: speed limit {} and acceleration limit {}, both must be above 0",
+                        fmt::format("axis {}: speed limit {:.6g} and acceleration limit {:.6g} (units/s, "
+                                    "units/s2), both must be above 0",
                                     c + 1, p.max_feed_u_s[c], p.max_accel_u_s2[c])};
   }
   if (!positive(p.path_feed_u_s) || !positive(p.path_accel_u_s2))
-    return LawFailure{
-        0, p.s_u[0],
-        fmt::format("path limits {} and {}, both must be above 0", p.path_feed_u_s, p.path_accel_u_s2)};
+    return LawFailure{0, p.s_u[0],
+                      fmt::format("path limits {:.6g} mm/s and {:.6g} mm/s2, both must be above 0",
+                                  p.path_feed_u_s, p.path_accel_u_s2)};
   if (!(p.begin_u_s >= 0.0) || !(p.end_u_s >= 0.0) || !(p.penalty.weight_s5_u2 >= 0.0) ||
       !std::isfinite(p.penalty.weight_s5_u2))
-    return LawFailure{0, p.s_u[0],
-                      fmt::format("end speeds {} and {}, penalty {}, none may be below 0", p.begin_u_s,
-                                  p.end_u_s, p.penalty.weight_s5_u2)};
+    return LawFailure{
+        0, p.s_u[0],
+        fmt::format("end speeds {:.6g} and {:.6g} mm/s, penalty {:.6g} s5/mm2, none may be below 0",
+                    p.begin_u_s, p.end_u_s, p.penalty.weight_s5_u2)};
   for (const SpeedZone& z : p.zones)
     if (!positive(z.speed_u_s) || !(z.begin_u <= z.end_u))
-      return LawFailure{0, z.begin_u,
-                        fmt::format("zone from {} to {} at {}: it must not end before it begins, and its "
-                                    "speed must be above 0",
-                                    z.begin_u, z.end_u, z.speed_u_s)};
+      return LawFailure{
+          0, z.begin_u,
+          fmt::format(
+              "zone from {:.6g} to {:.6g} mm at {:.6g} mm/s: it must not end before it begins, and its "
+              "speed must be above 0",
+              z.begin_u, z.end_u, z.speed_u_s)};
   return std::nullopt;
 }
 
 std::optional<LawFailure> check_nodes(const LawProblem& p) {
   for (std::size_t i = 0; i < p.nodes(); ++i) {
     if (!std::isfinite(p.s_u[i]) || (i > 0 && !(p.s_u[i] > p.s_u[i - 1])))
-      return LawFailure{i, p.s_u[i], fmt::format("s is {}, nodes must ascend", p.s_u[i])};
+      return LawFailure{i, p.s_u[i], fmt::format("s is {:.6f} mm, nodes must ascend", p.s_u[i])};
     bool moves = false;
     for (std::size_t c = 0; c < p.axes; ++c) {
       const double slope = p.slopes(i)[c], curvature = p.curvatures(i)[c];
@@ -68,15 +72,17 @@ std::optional<LawFailure> check_nodes(const LawProblem& p) {
           !std::isfinite(p.curvatures_behind(i)[c]))
         return LawFailure{
             i, p.s_u[i],
-            fmt::format("axis {}: X' {} and X'' {}, both must be finite", c + 1, slope, curvature)};
+            fmt::format("axis {}: X' {:.6g} and X'' {:.6g} units/mm and /mm2, both must be finite", c + 1,
+                        slope, curvature)};
       moves = moves || slope != 0.0;
     }
     if (!p.cap_u_s.empty() && !(p.cap_u_s[i] >= 0.0))
-      return LawFailure{i, p.s_u[i], fmt::format("a cap of {}, it may not be below 0", p.cap_u_s[i])};
+      return LawFailure{i, p.s_u[i],
+                        fmt::format("a cap of {:.6g} mm/s, it may not be below 0", p.cap_u_s[i])};
     if (!p.interval_accel_u_s2.empty() && i > 0 && !positive(p.interval_accel_u_s2[i]))
       return LawFailure{
           i, p.s_u[i],
-          fmt::format("an acceleration limit of {}, it must be above 0", p.interval_accel_u_s2[i])};
+          fmt::format("an acceleration limit of {:.6g} mm/s2, it must be above 0", p.interval_accel_u_s2[i])};
     if (!moves && !std::isfinite(p.path_feed_u_s) && p.cap_u_s.empty())
       return LawFailure{i, p.s_u[i], "no axis moves here, and the path has no feed limit"};
   }
@@ -100,9 +106,9 @@ std::optional<LawFailure> check_problem(const LawProblem& p) {
   for (const std::size_t end : {std::size_t{0}, last}) {
     const double speed = end == 0 ? p.begin_u_s : p.end_u_s;
     if (speed > caps[end].speed_u_s)
-      return LawFailure{
-          end, p.s_u[end],
-          fmt::format("the speed here is to be {}, at most {} is allowed", speed, caps[end].speed_u_s)};
+      return LawFailure{end, p.s_u[end],
+                        fmt::format("the speed here is to be {:.6g} mm/s, at most {:.6g} mm/s is allowed",
+                                    speed, caps[end].speed_u_s)};
   }
   return std::nullopt;
 }

@@ -6,8 +6,8 @@
 
 #include "tests/support/run_program.h"
 
-/// Rapids of planner.rapid_law in the emulated machine: real step pulses, two masses under CVODE, and what still
-/// swings after the stop.
+/// Rapids of planner.rapid_law in the emulated machine: real step pulses, two masses under CVODE, and what
+/// still swings after the stop.
 namespace kadr::test {
 namespace {
 
@@ -56,8 +56,8 @@ TEST_CASE("on the emulated rig a rapid law leaves the swing of the steps alone")
   CHECK(plain.swing_um > 50);
   for (const RapidShape shape : {RapidShape::t_zero, RapidShape::zv, RapidShape::zvd}) {
     const Stop stop = stop_after(rig(shape));
-    INFO("law " << static_cast<int>(shape) << ": " << stop.swing_um << " um after " << stop.time_s << " s, plain "
-                << plain.swing_um << " um after " << plain.time_s << " s");
+    INFO("law " << static_cast<int>(shape) << ": " << stop.swing_um << " um after " << stop.time_s
+                << " s, plain " << plain.swing_um << " um after " << plain.time_s << " s");
     CHECK(stop.swing_um <= 0.01 * plain.swing_um);
     CHECK(stop.stated_um < 1e-3 * plain.swing_um);
     CHECK(stop.time_s - plain.time_s < 0.061);  // no more than the period
@@ -77,7 +77,8 @@ TEST_CASE("a law tuned to the link's own frequency rings on a base that gives wa
   REQUIRE(r.log.begin(header).has_value());
   REQUIRE(emulator::run(r.job, &r.log, {}).has_value());
   double swing_um = 0;
-  for (auto k = static_cast<std::size_t>((r.job.plan.law.duration_s + 0.2) * 1000); k < r.log.ticks.size(); ++k)
+  for (auto k = static_cast<std::size_t>((r.job.plan.law.duration_s + 0.2) * 1000); k < r.log.ticks.size();
+       ++k)
     swing_um = std::max(swing_um, 1e3 * std::fabs(r.log.ticks[k].axis[0].link_u));
   CHECK(swing_um > 5 * stop_after(rig(RapidShape::t_zero)).swing_um);
 }
@@ -110,7 +111,8 @@ TEST_CASE("the swing on the emulated rig is that of the closed form") {
   }
 }
 
-TEST_CASE("the motors' energy of a run is the sum of its blocks', and what a motor keeps ends in the dampers") {
+TEST_CASE(
+    "the motors' energy of a run is the sum of its blocks', and what a motor keeps ends in the dampers") {
   machine::MachineModel m = rig(RapidShape::zv);
   m.log.energy = true;
   RunResult r;

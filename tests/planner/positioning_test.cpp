@@ -289,7 +289,8 @@ TEST_CASE("the automatic choice follows the rule, and says why") {
 }
 
 TEST_CASE(
-    "3.5 m at 1 m/s2 and 3 m/s, T = 0.06 s: ZV loses 30 ms, ZVD 60 ms, the T law 0.06 ms; automatic if known to 1/3200") {
+    "3.5 m at 1 m/s2 and 3 m/s, T = 0.06 s: ZV loses 30 ms, ZVD 60 ms, the T law 0.06 ms; automatic if known "
+    "to 1/3200") {
   const ExcitedMode mode{{{100 * kPi / 3, 0}, 1}, 0, 1};
   const auto law = [&](RapidShape shape, double uncertainty) {
     return plan_positioning({3.5, 3, 1, machine::kInfinity, {&mode, 1}, shape, uncertainty, 0});
