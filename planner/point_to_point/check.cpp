@@ -30,8 +30,8 @@ PointResult<void> check(const Load& load) {
   if (auto r = positive("mass of the load", load.mass_kg, "kg"); !r) return r;
   if (auto r = positive("drive ratio", load.drive_ratio, ""); !r) return r;
   if (!(load.counterweight_ratio >= 0 && load.counterweight_ratio <= 1))
-    return tl::unexpected(
-        PointFault{Kind::bad_share, "counterweight ratio", load.counterweight_ratio, 1, ""});
+    return tl::unexpected(PointFault{Kind::bad_share, "counterweight ratio", load.counterweight_ratio,
+                                     load.counterweight_ratio > 1 ? 1.0 : 0.0, ""});
   if (!(load.gravity_m_s2 >= 0 && std::isfinite(load.gravity_m_s2)))
     return tl::unexpected(PointFault{Kind::bad_share, "gravity", load.gravity_m_s2, 0, "m/s2"});
   return {};

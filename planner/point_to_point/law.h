@@ -31,7 +31,7 @@ struct PointPiece {
 /// A motion of one coordinate from rest to rest, as pieces of constant jerk. Every law of paper 001 and those
 /// it is measured against are such: rectangular ones have jerk 0 and accelerations that jump.
 /// Units: u is whatever the coordinate is measured in (mm, deg; m where energies shall be joules).
-/// A value of some 1.2 kB that owns no memory; copies are independent.
+/// A value of some 1.7 kB that owns no memory; copies are independent.
 class PointLaw {
  public:
   /// An S-curve shaped by three impulses, the longest law that a builder makes, has 24 edges.

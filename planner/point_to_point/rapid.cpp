@@ -57,7 +57,7 @@ PointResult<RapidLaw> rapid_law(const RapidTask& task) {
   if (auto r = check(task.driven.mode); !r) return tl::unexpected(r.error());
   if (!(task.omega_uncertainty >= 0 && task.omega_uncertainty < 1))
     return tl::unexpected(PointFault{PointFault::Kind::bad_share, "uncertainty of the frequency",
-                                     task.omega_uncertainty, 1, ""});
+                                     task.omega_uncertainty, task.omega_uncertainty >= 1 ? 1.0 : 0.0, ""});
   const double bound_s = shortest_time_s(task.motion), periods = bound_s / task.driven.mode.period_s();
   if (!(periods <= kMostPeriods))
     return tl::unexpected(PointFault{PointFault::Kind::too_fine, "periods of the vibration in the motion",

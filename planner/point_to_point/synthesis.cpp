@@ -156,6 +156,19 @@ DoubleZero fastest_double_zero(const PointTask& t, const Mode& mode) {
   return {static_cast<int>(best_ramp), static_cast<int>(best_shift)};
 }
 
+std::optional<DoubleZero> double_zero_of(const PointTask& t, double duration_s, const Mode& mode) {
+  const double period_s = mode.period_s(), total = ceil_rounded(duration_s / period_s);
+  const double product = t.distance_u / (t.accel_limit_u_s2 * period_s * period_s);
+  for (double n = 1; 2 * n <= total; ++n) {
+    const double m = total - n;
+    if (n * m < product * (1 - kRounding)) continue;
+    if (m * period_s * t.speed_limit_u_s < t.distance_u * (1 - kRounding))
+      return {};  // longer ramps are faster
+    return DoubleZero{static_cast<int>(n), static_cast<int>(m)};
+  }
+  return {};
+}
+
 PointResult<PointLaw> steepest_t_law(const PointTask& task, double duration_s) {
   const XiRange range = duration_s > 0 ? xi_range(task, duration_s) : XiRange{1, 0};
   if (range.empty()) return too_short("time", duration_s, shortest_time_s(task));

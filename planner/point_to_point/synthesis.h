@@ -25,7 +25,7 @@ struct PointFault {
     not_positive,  ///< a quantity that has to be a finite number above zero
     bad_damping,   ///< zeta outside 0 <= zeta < 1
     too_short,     ///< no law of this kind is as fast as the time asks for; allowed: the shortest time
-    bad_share,     ///< a ratio outside of its range
+    bad_share,     ///< outside of its range; allowed: the nearer end of it
     too_fine,      ///< more zeros or frequencies than can be looked through (1e5)
   };
   Kind kind;
@@ -99,6 +99,21 @@ struct DoubleZero {
   int ramp = 0, shift = 0;
 };
 DoubleZero fastest_double_zero(const PointTask& task, const Mode& mode);
+
+/// A T law whose ramps are whole periods of their own, n1 and n2: silent too.
+struct AsymmetricPick {
+  int up = 0, down = 0;
+  PointLaw law;
+  double worst_u = 0;  ///< largest amplitude in the band
+};
+/// Of all such laws of a given time the one that leaves least if the frequency is off by up to `band`; by
+/// trying all pairs. Nothing if none is feasible, or with more than 200 periods in the motion.
+std::optional<AsymmetricPick> robust_asymmetric_law(const PointTask& task, double duration_s,
+                                                    const DrivenMode& driven, double band);
+
+/// The double zero that lasts at least a given time, the next whole number of periods, and has the shortest
+/// ramp (and so the least energy); nothing if its limits allow none.
+std::optional<DoubleZero> double_zero_of(const PointTask& task, double duration_s, const Mode& mode);
 
 /// T law of a given time with the shortest ramp its limits allow, which has the least energy of all.
 PointResult<PointLaw> steepest_t_law(const PointTask& task, double duration_s);

@@ -94,11 +94,11 @@ TEST_CASE("residual vibration of T laws: 14 reference values, by propagation, by
     const DrivenMode m = mode(r.omega, r.zeta);
     const PointLaw law = t_law(kDistance, kTime, r.xi);
     const LinkState end = link_at(law, m, kTime);
-    CHECK(agrees(end.link_u, r.x1, 1e-11));
-    CHECK(std::fabs(end.link_u_s - r.v1) <= 1e-11 * r.omega * r.envelope);
-    CHECK(agrees(envelope_u(end, m.mode), r.envelope, 1e-11));
-    CHECK(agrees(residual_amplitude_u(law, m), r.envelope, 1e-11));
-    CHECK(agrees(t_law_amplitude_u(kDistance, kTime, r.xi, m.mode), r.envelope, 1e-11));
+    CHECK(agrees(end.link_u, r.x1, 1e-12));
+    CHECK(std::fabs(end.link_u_s - r.v1) <= 1e-12 * r.omega * r.envelope);
+    CHECK(agrees(envelope_u(end, m.mode), r.envelope, 1e-12));
+    CHECK(agrees(residual_amplitude_u(law, m), r.envelope, 1e-12));
+    CHECK(agrees(t_law_amplitude_u(kDistance, kTime, r.xi, m.mode), r.envelope, 1e-12));
   }
   for (const double xi : {.36, .48, .33, .325})
     CHECK(residual_amplitude_u(t_law(kDistance, kTime, xi), mode(kOmega)) <= 1e-12);
@@ -131,8 +131,8 @@ TEST_CASE("a law by its jumps and by its pieces leaves the same vibration: 500 r
     if (i % 5 == 2) law = zv_shaped(law, m.mode);
     const double by_pieces = envelope_u(link_at(law, m, law.duration_s()), m.mode);
     const double w = m.mode.omega_rad_s, scale = m.gain * law.peak_accel_u_s2() / (w * w);
-    CHECK(std::fabs(residual_amplitude_u(law, m) - by_pieces) <= 1e-11 * scale);
-    if (i % 5 == 1 || i % 5 == 2) CHECK(by_pieces <= 1e-11 * scale);
+    CHECK(std::fabs(residual_amplitude_u(law, m) - by_pieces) <= 1e-12 * scale);
+    if (i % 5 == 1 || i % 5 == 2) CHECK(by_pieces <= 1e-12 * scale);
     // half way the state is the same whether one stops there or not
     const LinkState half = link_at(law, m, law.duration_s() / 2);
     CHECK(std::isfinite(half.link_u));
@@ -150,8 +150,8 @@ TEST_CASE("a force-driven axis rings at omega sqrt(1 + m1/m0): 1.1055 omega for 
     const DrivenMode m = DrivenMode::of({r.omega, r.zeta}, Drive::force, 4.5, 1);
     CHECK(agrees(m.mode.omega_rad_s, 1.1055415967851333 * r.omega, 1e-15));
     const LinkState end = link_at(t_law(kDistance, kTime, r.xi), m, kTime);
-    CHECK(agrees(end.link_u, r.x1, 1e-11));
-    CHECK(agrees(end.link_u_s, r.v1, 1e-11));
+    CHECK(agrees(end.link_u, r.x1, 1e-12));
+    CHECK(agrees(end.link_u_s, r.v1, 1e-12));
   }
 }
 
