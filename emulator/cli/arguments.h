@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulator/diff/diff_options.h"
+#include "emulator/point_to_point/point_study.h"
 #include "gcode/gcode.h"
 #include "machine/machine.h"
 #include "scenarios/generator/wind.h"
@@ -63,8 +64,10 @@ struct Arguments {
   bool in_place = false;    ///< fmt --in-place
   emulator::DiffOptions diff;
   std::vector<std::string> methods;  ///< tube --method
-  std::string csv_path, page_path;   ///< tube --csv, --page
+  std::string csv_path, page_path;   ///< tube, law --csv, --page
   bool timing = false;               ///< tube --timing
+  emulator::PointQuestion point;     ///< law
+  bool table2 = false;               ///< law --paper
   std::string junit_path;
   double until_s = machine::kInfinity;
   int threads = 1;

@@ -13,6 +13,7 @@ int canon_program(const Arguments& arguments, Console& console);
 int format_programs(const Arguments& arguments, Console& console);
 int diff_logs(const Arguments& arguments, Console& console);
 int solve_tube(const Arguments& arguments, Console& console);
+int compare_laws(const Arguments& arguments, Console& console);
 int log_info(const Arguments& arguments, Console& console);
 int machine_show(const Arguments& arguments, Console& console);
 int machine_list(const Arguments& arguments, Console& console);

@@ -41,6 +41,66 @@ void add_tube(Options& o) {
   sub->footer("Example: kadr tube docs/tube/laying.toml --page laying.html");
 }
 
+/// A number that goes where `take` puts it; its range is the library's business.
+void number(CLI::App* sub, const std::string& name, const std::string& unit, const std::string& meaning,
+            std::function<void(double)> take) {
+  sub->add_option_function<std::string>(
+         name,
+         [name, take = std::move(take)](const std::string& text) {
+           const auto value = parse_number(text);
+           if (!value) throw CLI::ValidationError(fmt::format("{} takes a number; got '{}'", name, text));
+           take(*value);
+         },
+         meaning)
+      ->type_name(unit);
+}
+
+void add_law(Options& o) {
+  CLI::App* sub = o.command(o.app, "law", compare_laws,
+                            "Compare motions from rest to rest: energy in J, residual vibration in mm, how\n"
+                            "sensitive to the frequency; the default question is Table 1 of paper 001");
+  emulator::PointQuestion& q = o.arguments.point;
+  number(sub, "--distance-m", "M", "Way (default 3.5)", [&q](double x) { q.task.distance_u = x; });
+  number(sub, "--time-s", "S", "Time of the motion (default 4)", [&q](double x) { q.time_s = x; });
+  sub->add_flag("--time-optimal", q.time_optimal, "As fast as the limits allow, instead");
+  number(sub, "--accel-m-s2", "A", "Largest acceleration (default 1)",
+         [&q](double x) { q.task.accel_limit_u_s2 = x; });
+  number(sub, "--speed-m-s", "V", "Largest speed (default 3)",
+         [&q](double x) { q.task.speed_limit_u_s = x; });
+  number(sub, "--omega-rad-s", "W", "Frequency of the load on its base (default 100 pi/3)",
+         [&q](double x) { q.mode.omega_rad_s = x; });
+  number(sub, "--zeta", "Z", "Its damping ratio (default 0)", [&q](double x) { q.mode.zeta = x; });
+  number(sub, "--mass-kg", "M", "Mass m of the load (default 1)", [&q](double x) { q.load.mass_kg = x; });
+  number(sub, "--drive-ratio", "P", "Inertia of the drive, of m (default 4)",
+         [&q](double x) { q.load.drive_ratio = x; });
+  number(sub, "--counterweight-ratio", "K", "Counterweight, of m (default 0.5)",
+         [&q](double x) { q.load.counterweight_ratio = x; });
+  number(sub, "--gravity-m-s2", "G", "Gravity along the axis (default 9.81; 0: level)",
+         [&q](double x) { q.load.gravity_m_s2 = x; });
+  sub->add_flag("--printed-gravity", q.printed_gravity,
+                "Take 9.81 for K_g, as the paper does, whatever the time and way");
+  o.choice(sub, "--drive", q.drive,
+           {{"position", planner::Drive::position}, {"force", planner::Drive::force}},
+           "What moves the base: position (stiff, default) or force")
+      ->group("Options");
+  number(sub, "--uncertainty-pct", "U", "How well the frequency is known, for the advice (default 1)",
+         [&q](double x) { q.omega_uncertainty = x / 100; });
+  o.repeated(sub, "--xi", "XI", "A T law to compare besides; repeatable",
+             [&q](const std::string& text) -> tl::expected<void, std::string> {
+               const auto value = parse_number(text);
+               if (!value) return tl::unexpected(fmt::format("takes a number; got '{}'", text));
+               q.xi.push_back(*value);
+               return {};
+             });
+  sub->add_flag("--paper", o.arguments.table2,
+                "Table 2 of the paper instead: printed, reproduced, and by physics");
+  sub->add_option("--csv", o.arguments.csv_path, "Write the table, a row a law")->type_name("FILE");
+  sub->add_option("--page", o.arguments.page_path, "Write charts and table as one HTML file")
+      ->type_name("FILE");
+  o.output(sub);
+  sub->footer("Example: kadr law --zeta 0.005 --xi 0.3601 --page laws.html");
+}
+
 /// Bounds are left to the generator, which knows those that hang on other parameters too.
 void wind_parameter(Options& o, CLI::App* sub, const scenarios::WindParameter& p) {
   const std::string flag = scenarios::wind_flag(p.key);
@@ -80,6 +140,7 @@ void add_wind(Options& o) {
 
 void add_law_commands(Options& o) {
   add_tube(o);
+  add_law(o);
   add_wind(o);
 }
 

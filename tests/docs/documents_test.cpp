@@ -95,6 +95,10 @@ TEST_CASE("an output that differs from the document is seen") {
         "text\n```console\n$ echo one\n> echo two\n1\ntwo\n$ false\n(exit 1)\n```\n```\n$ no\n```\n");
 }
 
+TEST_CASE("docs/motion_laws.md: every command gives the output that stands below it") {
+  check_document("docs/motion_laws.md");
+}
+
 TEST_CASE("wildcards stand for text within a line, or for lines") {
   CHECK(matches_line("wall [..] s, [..]x real time", "wall 0.94 s, 41x real time"));
   CHECK_FALSE(matches_line("wall [..] s", "wall 0.94 s, 41x"));
