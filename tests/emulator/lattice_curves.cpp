@@ -73,7 +73,7 @@ TEST_CASE(
   }
   // a tip of radius 0.15 folds inside a cell: the sign rule never closes
   const Trace sharp = trace(lattice::ellipse(60, 3), Method::half_step, {}, 5'000);
-  CHECK_FALSE(sharp.complete);
+  CHECK_FALSE(sharp.end_reached);
 }
 
 TEST_CASE("lattice: parabolas by half-step and by odd numbers are one path, within half a step") {
