@@ -235,7 +235,8 @@ TEST_CASE("lattice: Newton's polynomial has the errors of the study, and diverge
       for (int q = 0; q <= 400; ++q)
         worst = std::max(worst, std::fabs(p.value(q / 400.0 * n) - row.f(row.to * q / 400)));
       CAPTURE(row.name);
-      CAPTURE(degree);
+      const std::size_t order = degree;
+      CAPTURE(order);
       CHECK(worst == doctest::Approx(expected).epsilon(2e-3));
     }
 }
