@@ -13,6 +13,7 @@ using Numbers = std::vector<std::int64_t>;
 using Read = tl::expected<TeachCase, std::string>;
 
 constexpr int kMostDegree = 6;
+constexpr std::int64_t kMostGiven = std::int64_t{1} << 61;  // differences of two still fit
 
 tl::expected<std::int64_t, std::string> read_steps(const std::string& text) {
   std::int64_t value = 0;
@@ -20,6 +21,8 @@ tl::expected<std::int64_t, std::string> read_steps(const std::string& text) {
   const auto [stop, error] = std::from_chars(begin + (text.starts_with('+') ? 1 : 0), end, value);
   if (error != std::errc{} || stop != end)
     return tl::unexpected(fmt::format("'{}' is not a whole number of steps", text));
+  if (value > kMostGiven || value < -kMostGiven)
+    return tl::unexpected(fmt::format("'{}' is beyond {} steps", text, kMostGiven));
   return value;
 }
 

@@ -191,6 +191,16 @@ TEST_CASE("lattice: in n axes the half-step stays within sqrt(n)/2, V_i within s
           REQUIRE(2 * std::abs(done[k] * den - std::abs(l.delta[k]) * num) <= den);
         ++done[axis];
       }
+      // V_i: after slot j each axis is within half a step of its share j/longest
+      lattice::Point at{};
+      std::int64_t longest = 0;
+      for (const std::int64_t d : l.delta) longest = std::max(longest, std::abs(d));
+      for (std::size_t j = 0; j < v.slots.size(); ++j)
+        for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
+          at[k] += std::abs(v.slots[j].step[k]);
+          REQUIRE(2 * std::abs(at[k] * longest - std::abs(l.delta[k]) * static_cast<std::int64_t>(j + 1)) <=
+                  longest);
+        }
     }
     CHECK(half <= std::sqrt(n) / 2 + 1e-12);
     CHECK(diagonal <= std::sqrt(n - 1.0) / 2 + 1e-12);

@@ -71,7 +71,7 @@ bool Polynomial::fits(std::int64_t reach) const {
 }
 
 ImplicitCurve ellipse(std::int64_t a, std::int64_t b, Turn turn) {
-  return {Polynomial({{b * b, 2, 0}, {a * a, 0, 2}, {-a * a * b * b, 0, 0}}),
+  return {Polynomial({{Wide{b} * b, 2, 0}, {Wide{a} * a, 0, 2}, {-Wide{a} * a * b * b, 0, 0}}),
           {a, 0},
           {a, 0},
           turn == Turn::ccw ? 1 : -1};

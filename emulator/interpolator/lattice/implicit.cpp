@@ -6,15 +6,17 @@ namespace {
 /// F(x, y) = 0 by the signs of F and its gradient, in any quadrant; everything in doubled coordinates.
 class RuleCurve : public Stepper {
  public:
-  RuleCurve(const ImplicitCurve& curve, CurveRule rule)
+  RuleCurve(const ImplicitCurve& curve, CurveRule rule, std::int64_t reach)
       : rule_(rule),
         curve_(curve),
         fx_(curve.f.derivative_x()),
         fy_(curve.f.derivative_y()),
-        node_(curve.begin) {}
+        node_(curve.begin),
+        reach_(reach) {}
 
   bool next(Slot& slot) override {
     if (begun_ && node_ == curve_.end) return false;
+    if (magnitude(node_.x) > reach_ || magnitude(node_.y) > reach_) return false;
     begun_ = true;
     slot = {};
     const Ahead a = ahead();
@@ -82,13 +84,14 @@ class RuleCurve : public Stepper {
   ImplicitCurve curve_;
   Polynomial fx_, fy_;
   Node node_;
+  std::int64_t reach_;
   bool begun_ = false;
 };
 
 }  // namespace
 
-MadeStepper rule_curve(const ImplicitCurve& curve, CurveRule rule) {
-  return std::make_unique<RuleCurve>(curve, rule);
+MadeStepper rule_curve(const ImplicitCurve& curve, CurveRule rule, std::int64_t reach) {
+  return std::make_unique<RuleCurve>(curve, rule, reach);
 }
 
 }  // namespace kadr::emulator::lattice

@@ -74,18 +74,27 @@ MadeStepper make(const ArcCurve& arc, Method method, const MethodOptions& option
   }
 }
 
-MadeStepper make(const ImplicitCurve& curve, Method method, const MethodOptions&) {
+/// How far a curve given by its ends may go beyond them.
+std::int64_t reach_of(const ImplicitCurve& curve) {
+  return 1000 + 4 * std::max(largest({curve.begin.x, curve.begin.y}), largest({curve.end.x, curve.end.y}));
+}
+
+MadeStepper make_rule(const ImplicitCurve& curve, Method method, std::int64_t reach) {
   switch (method) {
     case Method::classic:
-      return rule_curve(curve, CurveRule::classic);
+      return rule_curve(curve, CurveRule::classic, reach);
     case Method::half_step:
     case Method::crossing:
-      return rule_curve(curve, CurveRule::half_step);
+      return rule_curve(curve, CurveRule::half_step, reach);
     case Method::extra_points:
-      return rule_curve(curve, CurveRule::extra_points);
+      return rule_curve(curve, CurveRule::extra_points, reach);
     default:
       return nullptr;
   }
+}
+
+MadeStepper make(const ImplicitCurve& curve, Method method, const MethodOptions&) {
+  return make_rule(curve, method, reach_of(curve));
 }
 
 MadeStepper make(const ParabolaCurve& parabola, Method method, const MethodOptions& options) {
@@ -98,9 +107,12 @@ bool is_conic(const BezierCurve& curve) {
   return curve.axes == 2 && curve.degree == 2 && curve.control[0] == Point{};
 }
 
-MadeStepper make(const BezierCurve& curve, Method method, const MethodOptions& options) {
+MadeStepper make(const BezierCurve& curve, Method method, const MethodOptions&) {
   if (method == Method::crossing) return bezier_events(curve);
-  return is_conic(curve) ? make(conic_of(curve), method, options) : nullptr;
+  // a Bezier lies among its control points
+  return is_conic(curve) ? make_rule(conic_of(curve), method,
+                                     2 + std::max(largest(curve.control[1]), largest(curve.control[2])))
+                         : nullptr;
 }
 
 /// Whether an arc's end is a node of the lattice's ring about the circle: |r_end - R| <= sqrt(2)/2.
@@ -144,7 +156,7 @@ Refusal check(const ParabolaCurve& parabola, Method) {
 Refusal check(const ImplicitCurve& curve, Method) {
   const std::int64_t reach =
       std::max(largest({curve.begin.x, curve.begin.y}), largest({curve.end.x, curve.end.y}));
-  if (reach > kMostPlane || !curve.f.fits(4 * reach)) return Refusal::range;
+  if (reach > kMostPlane || !curve.f.fits(reach_of(curve))) return Refusal::range;
   return curve.f.degree() == 0 ? Refusal::no_length : Refusal::none;
 }
 

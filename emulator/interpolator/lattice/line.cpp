@@ -99,7 +99,7 @@ class Diagonal : public Stepper {
       v_[k] += 2 * at_.length[k];
     }
     // F = a y - b x at the node before
-    if (at_.axes == 2) slot.value = at_.length[0] * done_.y - at_.length[1] * done_.x;
+    if (at_.axes == 2) slot.value = shown(Wide{at_.length[0]} * done_.y - Wide{at_.length[1]} * done_.x);
     done_.x += slot.step[0] != 0;
     done_.y += slot.step[1] != 0;
     return true;

@@ -30,7 +30,8 @@ MadeStepper chord_arc(const ArcCurve& arc, double tolerance);
 
 // F(x, y) = 0
 enum class CurveRule : std::uint8_t { classic, half_step, extra_points };
-MadeStepper rule_curve(const ImplicitCurve& curve, CurveRule rule);
+/// @param reach  no coordinate beyond it is followed: there a polynomial would leave 128 bits
+MadeStepper rule_curve(const ImplicitCurve& curve, CurveRule rule, std::int64_t reach);
 /// y^2 = 2px by the odd numbers: exact, and the half-step path.
 MadeStepper progression_parabola(const ParabolaCurve& parabola);
 /// x(y) by Newton's forward differences in fixed point.
