@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulator/diff/diff_options.h"
+#include "emulator/export/export_options.h"
 #include "gcode/gcode.h"
 #include "machine/machine.h"
 #include "scenarios/generator/wind.h"
@@ -31,6 +32,19 @@ struct OutputOptions {
   ProgressMode progress = ProgressMode::automatic;
   DiagnosticFormat format = DiagnosticFormat::human;
   std::optional<std::size_t> max_errors;  ///< diagnostics shown; 0: all. Not given: 20, in SARIF all
+};
+
+/// What `kadr export` writes.
+enum class ExportForm : std::uint8_t { none, csv, excel, json, vcd, svg };
+
+/// Commands that show what is in logs.
+struct ExportOptions {
+  ExportForm form = ExportForm::none;
+  emulator::SampleChoice choice;
+  emulator::PlotForm plot;
+  bool path = false;        ///< plot --path
+  std::string output_path;  ///< -o; empty: standard output
+  double max_size_mb = 10;  ///< of a report page, MB
 };
 
 /// The command line as read. Fields that a command does not have keep their defaults.
@@ -70,6 +84,7 @@ struct Arguments {
   int threads = 1;
   std::uint32_t first_line = 1;
   std::uint32_t last_line = UINT32_MAX;
+  ExportOptions exported;  ///< export, plot, report, compare
 };
 
 /// Reads the command line. Help goes to standard output, a complaint to standard error.
