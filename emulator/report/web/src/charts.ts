@@ -43,7 +43,6 @@ export class Charts {
   private readonly groups: Group[];
   private plots: uPlot[] = [];
   private values: HTMLElement[][] = [];
-  private quiet = false;
 
   constructor(private readonly run: Run, private readonly state: State, private readonly host: HTMLElement) {
     this.groups = groups(run);
@@ -92,11 +91,13 @@ export class Charts {
       axes: [{ ...axis, size: last ? 46 : 28, label: last ? `${say('time')}, s` : undefined, labelSize: 16, values: values_ }, { ...axis, size: 62, values: values_ }],
       series: [{}, ...group.tracks.map((_, k) => ({ stroke: colours[k], width: 1.2, dash: DASHES[k % 6], points: { show: false }, spanGaps: false }))],
       hooks: {
-        setCursor: [(u) => this.hover(u)],
         setSelect: [(u) => this.select(u)],
         draw: [(u) => this.marks(u)],
       },
     }, [[], ...group.tracks.map(() => [])] as unknown as uPlot.AlignedData, box));
+    // of the mouse alone: uPlot's own hook also speaks when a window moves below a cursor at rest
+    const plot = this.plots[this.plots.length - 1];
+    plot.over.addEventListener('mousemove', (e) => this.state.setCursor(plot.posToVal(e.clientX - plot.over.getBoundingClientRect().left, 'x')));
   }
 
   private scale(lo: number, hi: number): [number, number] {
@@ -141,13 +142,6 @@ export class Charts {
     }));
   }
 
-  private hover(u: uPlot): void {
-    if (this.quiet) return;
-    const { left } = u.cursor;
-    if (left === undefined || left < 0) return;
-    this.state.setCursor(u.posToVal(left, 'x'));
-  }
-
   private select(u: uPlot): void {
     const { left, width } = u.select;
     if (width > 3) this.state.setWindow(u.posToVal(left, 'x'), u.posToVal(left + width, 'x'));
@@ -155,7 +149,6 @@ export class Charts {
   }
 
   private showCursor(t_s: number): void {
-    this.quiet = true;
     const piece = pieceAt(this.run, t_s), there = !Number.isNaN(t_s);
     this.plots.forEach((plot, k) => {
       plot.setCursor({ left: there ? plot.valToPos(t_s, 'x') : -10, top: 10 }, false);
@@ -165,7 +158,6 @@ export class Charts {
         this.values[k][i].textContent = text;
       });
     });
-    this.quiet = false;
   }
 
   /** Events: full height when there are few in the window, alarms always. */
