@@ -87,8 +87,8 @@ export class Charts {
       width: this.width(), height: last ? 150 : 122,
       cursor: { y: false, drag: { x: true, y: false, setScale: false }, points: { show: false } },
       legend: { show: false },
-      scales: { x: { time: false, range: () => [this.state.from_s, this.state.to_s] }, y: { range: (_, lo, hi) => this.scale(lo, hi) } },
-      axes: [{ ...axis, size: last ? 46 : 28, label: last ? `${say('time')}, s` : undefined, labelSize: 16, values: values_ }, { ...axis, size: 62, values: values_ }],
+      scales: { x: { time: false, range: () => [this.state.from_s, this.state.to_s] }, y: { range: (_, lo, hi) => this.scale(lo, hi, Math.max(...group.tracks.map((t) => t.step))) } },
+      axes: [{ ...axis, size: last ? 46 : 28, label: last ? `${say('time')}, s` : undefined, labelSize: 16, values: values_ }, { ...axis, size: 62, space: 18, values: values_ }],
       series: [{}, ...group.tracks.map((_, k) => ({ stroke: colours[k], width: 1.2, dash: DASHES[k % 6], points: { show: false }, spanGaps: false }))],
       hooks: {
         setSelect: [(u) => this.select(u)],
@@ -100,10 +100,13 @@ export class Charts {
     plot.over.addEventListener('mousemove', (e) => this.state.setCursor(plot.posToVal(e.clientX - plot.over.getBoundingClientRect().left, 'x')));
   }
 
-  private scale(lo: number, hi: number): [number, number] {
+  /** Room round the values, from 0 if they come near it; what is finer than the data's own steps is not magnified. */
+  private scale(lo: number, hi: number, step: number): [number, number] {
     if (!Number.isFinite(lo) || !Number.isFinite(hi)) return [0, 1];
-    const room = hi > lo ? 0.06 * (hi - lo) : Math.max(Math.abs(hi) * 0.1, 1e-6);
-    return [Math.min(0, lo) === 0 && lo >= 0 && lo < 0.3 * hi ? 0 : lo - room, hi + room];
+    const least = Math.max(40 * step, 1e-3 * Math.abs(hi)) || 1, middle = (lo + hi) / 2;
+    if (hi - lo < least) [lo, hi] = [middle - least / 2, middle + least / 2];
+    const room = 0.06 * (hi - lo);
+    return [lo >= 0 && lo < 0.3 * hi ? 0 : lo - room, hi + room];
   }
 
   private width(): number { return Math.max(300, this.host.clientWidth); }
