@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/cli/programs.h"
 #include "tests/cli/run_kadr.h"
@@ -50,8 +54,10 @@ const SquareLog& square() {
 
 }  // namespace
 
-TEST_CASE("kadr export --csv has a head with units and a row a control tick, each number as it stands in the log") {
-  const Finished run = square().kadr({"export", "--csv", "--signals", "feed.commanded*,axis.X.steps,axis.X.step_rate*"});
+TEST_CASE(
+    "kadr export --csv has a head with units and a row a control tick, each number as it stands in the log") {
+  const Finished run =
+      square().kadr({"export", "--csv", "--signals", "feed.commanded*,axis.X.steps,axis.X.step_rate*"});
   CHECK(run.code == 0);
   const std::vector<std::string> lines = split(run.out, '\n');
   CHECK(lines[0] == "t_s,feed.commanded_mm_s,axis.X.steps,axis.X.step_rate_hz");
@@ -101,7 +107,8 @@ TEST_CASE("kadr export --json is an object a line, and events are told whatever 
   CHECK(all.back()["steps_hash"] == info["steps_hash"]);
 }
 
-TEST_CASE("kadr export --vcd has every pulse as a rising edge, in ascending order of time, with its direction") {
+TEST_CASE(
+    "kadr export --vcd has every pulse as a rising edge, in ascending order of time, with its direction") {
   const Finished run = square().kadr({"export", "--vcd", "--signals", "feed.line"});
   CHECK(run.code == 0);
   // 10 MHz: a base tick is 100 ns, ten units of 10 ns
@@ -127,7 +134,8 @@ TEST_CASE("kadr export --vcd has every pulse as a rising edge, in ascending orde
   }
   CHECK(ascending);
   const Json info = square().info();
-  for (const Json& axis : info["axes"]) CHECK(rises[axis["axis"].get<std::string>() + "_step"] == axis["pulses"].get<std::int64_t>());
+  for (const Json& axis : info["axes"])
+    CHECK(rises[axis["axis"].get<std::string>() + "_step"] == axis["pulses"].get<std::int64_t>());
   CHECK(net_x == 4000);  // from X0 to X10
   CHECK(rises["moving"] >= 2);
   CHECK(time >= info["valid_until_tick"].get<std::int64_t>() * 10);
@@ -145,7 +153,7 @@ TEST_CASE("kadr export --svg is one document that needs nothing from elsewhere")
 
 TEST_CASE("--list names the log's signals with their units; a run without plant has none of the load") {
   const std::string all = square().kadr({"export", "--list"}).out;
-  CHECK(contains(all, "axis.X.following_um        um\n"));
+  CHECK(contains(all, "\naxis.X.following_um  "));
   CHECK(contains(all, "path.error_um"));
   const Scratch scratch;
   scratch.write("square.ngc", kSquare);
@@ -164,7 +172,8 @@ TEST_CASE("what can't be exported is refused with the way out") {
     CHECK(run.out.empty());
     CHECK_MESSAGE(contains(run.err, reason), run.err);
   };
-  refused({"--csv", "--signals", "feed.commanded*,speed"}, "the log has no signal 'speed' (`kadr export LOG --list`");
+  refused({"--csv", "--signals", "feed.commanded*,speed"},
+          "the log has no signal 'speed' (`kadr export LOG --list`");
   refused({"--csv", "--from", "2", "--to", "1"}, "--from 2 s is behind --to 1 s");
   refused({"--vcd", "--rate-hz", "10"}, "--vcd holds every pulse");
   refused({"--csv", "--json"}, "");
@@ -186,7 +195,8 @@ TEST_CASE("a log that breaks off is exported up to there, and the answer is no")
 }
 
 TEST_CASE("kadr plot draws within the width asked for, in Braille or ASCII, the same on every call") {
-  const Finished plot = square().kadr({"plot", "--signals", "feed.commanded*", "--ascii", "--width", "60", "--height", "5"});
+  const Finished plot =
+      square().kadr({"plot", "--signals", "feed.commanded*", "--ascii", "--width", "60", "--height", "5"});
   CHECK(plot.code == 0);
   const auto lines = split(plot.out, '\n');
   REQUIRE(lines.size() == 7);
@@ -194,6 +204,7 @@ TEST_CASE("kadr plot draws within the width asked for, in Braille or ASCII, the 
   for (const std::string& line : lines) CHECK(line.size() <= 62);  // the frame's sign is three bytes
   CHECK(contains(lines[1], "#"));
   CHECK(contains(lines[6], "0.000 s"));
-  CHECK(contains(square().kadr({"plot", "--path"}).out, "path in X and Y   X 0.000 .. 30.000 mm, Y 0.000 .. 30.000 mm\n"));
+  CHECK(contains(square().kadr({"plot", "--path"}).out,
+                 "path in X and Y   X 0.000 .. 30.000 mm, Y 0.000 .. 30.000 mm\n"));
   CHECK(square().kadr({"plot"}).out == square().kadr({"plot"}).out);
 }

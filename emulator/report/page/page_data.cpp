@@ -22,9 +22,11 @@ std::string wanted(const LogSamples& log) {
   return out;
 }
 
+/// The settings of the log are a machine file, and behind it how the run was called.
 std::optional<machine::MachineModel> machine_of(const LogHeader& header) {
   SourceSet sources;
-  auto file = machine::read_machine(SourceText("settings", header.settings_toml), sources);
+  const std::string text = header.settings_toml.substr(0, header.settings_toml.find("[run]\n"));
+  auto file = machine::read_machine(SourceText("settings", text), sources);
   if (!file || file->model.axis.size() != header.axis.size()) return std::nullopt;
   return std::move(file->model);
 }
