@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulator/diff/diff_options.h"
+#include "emulator/export/export_options.h"
 #include "emulator/point_to_point/point_study.h"
 #include "emulator/teach/pulses.h"
 #include "gcode/gcode.h"
@@ -46,6 +47,19 @@ struct TeachArguments {
   double feed_mm_s = 0;           ///< bezier; 0: not asked
   double acceleration_mm_s2 = 0;  ///< bezier; 0: not given
   bool paper = false;             ///< bezier: t(S) by every method
+};
+
+/// What `kadr export` writes.
+enum class ExportForm : std::uint8_t { none, csv, excel, json, vcd, svg };
+
+/// Commands that show what is in logs.
+struct ExportOptions {
+  ExportForm form = ExportForm::none;
+  emulator::SampleChoice choice;
+  emulator::PlotForm plot;
+  bool path = false;        ///< plot --path
+  std::string output_path;  ///< -o; empty: standard output
+  double max_size_mb = 10;  ///< of a report page, MB
 };
 
 /// The command line as read. Fields that a command does not have keep their defaults.
@@ -89,6 +103,7 @@ struct Arguments {
   int threads = 1;
   std::uint32_t first_line = 1;
   std::uint32_t last_line = UINT32_MAX;
+  ExportOptions exported;  ///< export, plot, report, compare
 };
 
 /// Reads the command line. Help goes to standard output, a complaint to standard error.

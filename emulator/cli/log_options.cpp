@@ -65,11 +65,137 @@ void add_diff(Options& o) {
   sub->footer("Example: kadr diff golden.lcmlog new.lcmlog --tolerance load=0.5um");
 }
 
+/// A number of at least `least`.
+std::function<void(const std::string&)> number_option(const char* name, double& value, double least) {
+  return [name, &value, least](const std::string& text) {
+    if (!read_number(text, value) || !(value >= least) || value > 1e15)
+      throw CLI::ValidationError(
+          fmt::format("{} takes a number of at least {}; got '{}'", name, least, text));
+  };
+}
+
+std::function<void(const std::string&)> cells_option(const char* name, int& value, int least) {
+  return [name, &value, least](const std::string& text) {
+    if (!read_number(text, value) || value < least || value > 1000)
+      throw CLI::ValidationError(
+          fmt::format("{} takes a whole number from {} to 1000; got '{}'", name, least, text));
+  };
+}
+
+/// Which signals, and which part of the run.
+void add_choice(Options& o, CLI::App* sub, const char* signals_help) {
+  emulator::SampleChoice& choice = o.arguments.exported.choice;
+  sub->add_option("--signals", choice.signals, signals_help)->type_name("NAME,...");
+  sub->add_option_function<std::string>("--from", number_option("--from", choice.from_s, 0),
+                                        "Begin at that time of the run, s (default 0)")
+      ->type_name("S");
+  sub->add_option_function<std::string>("--to", number_option("--to", choice.to_s, 0),
+                                        "End at that time of the run, s (default: its end)")
+      ->type_name("S");
+}
+
+void add_export(Options& o) {
+  ExportOptions& out = o.arguments.exported;
+  CLI::App* sub = o.command(o.app, "export", export_log,
+                            "Write a log in a form of other tools: CSV, JSON lines, VCD, SVG");
+  sub->add_option("LOG", o.arguments.files, "Log written by kadr run")
+      ->required()
+      ->expected(1)
+      ->type_name("");
+  CLI::Option_group* forms = sub->add_option_group("Form");
+  forms->add_flag_callback(
+      "--csv", [&out] { out.form = ExportForm::csv; }, "A row a sample: comma, decimal point");
+  forms->add_flag_callback(
+      "--excel", [&out] { out.form = ExportForm::excel; },
+      "CSV with semicolon, decimal comma and byte order mark");
+  forms->add_flag_callback(
+      "--json", [&out] { out.form = ExportForm::json; },
+      "An object a line: run, blocks, events, samples, summary");
+  forms->add_flag_callback(
+      "--vcd", [&out] { out.form = ExportForm::vcd; },
+      "Value change dump: step and direction wires, chosen signals as reals");
+  forms->add_flag_callback(
+      "--svg", [&out] { out.form = ExportForm::svg; }, "Charts over time");
+  forms->add_flag("--list", o.arguments.list, "Only name the log's signals with their units");
+  forms->require_option(1);
+  add_choice(o, sub, "Signals, `*` for any text: 'feed.*,axis.X.load_mm' (default: all; vcd, svg: a few)");
+  sub->add_option_function<std::string>(
+         "--rate-hz", number_option("--rate-hz", out.choice.rate_hz, 1e-6),
+         "Take every n-th control tick, as near to this rate as it goes (default: all)")
+      ->type_name("HZ");
+  sub->add_option("-o,--output", out.output_path, "File to write (default: standard output)")
+      ->type_name("FILE");
+  sub->add_flag("-q,--quiet", o.arguments.output.quiet, "Only data and errors")->group("Output");
+  sub->footer("Example: kadr export part.lcmlog --csv --signals 'feed.*' --rate-hz 100 -o part.csv");
+}
+
+void add_plot(Options& o) {
+  ExportOptions& out = o.arguments.exported;
+  CLI::App* sub =
+      o.command(o.app, "plot", plot_log, "Draw a log in the terminal: signals over time, or the path");
+  sub->add_option("LOG", o.arguments.files, "Log written by kadr run")
+      ->required()
+      ->expected(1)
+      ->type_name("");
+  add_choice(o, sub, "Signals, `*` for any text (default: feed and path error)");
+  sub->add_flag("--path", out.path, "The commanded path seen along Z instead");
+  sub->add_option_function<std::string>("--width", cells_option("--width", out.plot.width, 24),
+                                        "Columns of the picture (default 80)")
+      ->type_name("N");
+  sub->add_option_function<std::string>("--height", cells_option("--height", out.plot.height, 3),
+                                        "Rows of each picture (default 10)")
+      ->type_name("N");
+  sub->add_flag("--ascii", out.plot.ascii, "Draw with # instead of Braille dots");
+  sub->footer("Example: kadr plot part.lcmlog --signals 'axis.*.following*' --from 1.2 --to 1.4");
+}
+
+void add_report(Options& o) {
+  ExportOptions& out = o.arguments.exported;
+  CLI::App* sub =
+      o.command(o.app, "report", report_log,
+                "Write one HTML page of a log: summary, path, charts, program; opens without network");
+  sub->add_option("LOG", o.arguments.files, "Log written by kadr run")
+      ->required()
+      ->expected(1)
+      ->type_name("");
+  sub->add_option("-o,--output", out.output_path, "Page to write (default: the log's name with .html)")
+      ->type_name("FILE");
+  sub->add_option_function<std::string>("--from", number_option("--from", out.choice.from_s, 0),
+                                        "Begin at that time of the run, s (default 0)")
+      ->type_name("S");
+  sub->add_option_function<std::string>("--to", number_option("--to", out.choice.to_s, 0),
+                                        "End at that time of the run, s (default: its end)")
+      ->type_name("S");
+  sub->add_option_function<std::string>("--max-size-mb", number_option("--max-size-mb", out.max_size_mb, 0.2),
+                                        "Size of the page, MB (default 10): a longer run shows extremes only")
+      ->type_name("MB");
+  sub->add_flag("-q,--quiet", o.arguments.output.quiet, "Only errors")->group("Output");
+  sub->footer("Example: kadr report part.lcmlog -o part.html");
+}
+
+void add_compare(Options& o) {
+  ExportOptions& out = o.arguments.exported;
+  CLI::App* sub = o.command(o.app, "compare", compare_logs,
+                            "Put runs of one program side by side: time, vibration, path error, work");
+  sub->add_option("LOG", o.arguments.files, "Two or more logs written by kadr run")
+      ->required()
+      ->expected(2, 16)
+      ->type_name("");
+  sub->add_option("-o,--output", out.output_path, "Also write a page with the runs drawn over each other")
+      ->type_name("FILE");
+  o.output(sub);
+  sub->footer("Example: kadr compare before.lcmlog after.lcmlog -o both.html");
+}
+
 }  // namespace
 
 void add_log_commands(Options& o) {
   add_info(o);
   add_diff(o);
+  add_export(o);
+  add_plot(o);
+  add_report(o);
+  add_compare(o);
 }
 
 }  // namespace kadr::cli

@@ -53,13 +53,12 @@ class Drawing {
 
   std::string text() {
     const std::string legend = legend_text();
-    const double height = top_ + kPlotHeight + kBelow;
     std::string out = fmt::format(
         "<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-labelledby=\"{}_d\">\n"
         "<desc id=\"{}_d\">{}</desc>\n"
         "<clipPath id=\"{}_c\"><rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" "
         "height=\"{:.0f}\"/></clipPath>\n",
-        kWidth, height, chart_.id, chart_.id, xml_text(chart_.description), chart_.id, kLeft, top_,
+        kWidth, height(), chart_.id, chart_.id, xml_text(chart_.description), chart_.id, kLeft, top_,
         kPlotWidth, kPlotHeight);
     out += legend + axes();
     out += fmt::format("<g clip-path=\"url(#{}_c)\">\n", chart_.id);
@@ -70,6 +69,8 @@ class Drawing {
                          path(line.points, 'M'));
     return out + "</g>\n</svg>\n";
   }
+  /// Of the whole drawing; known once its text is.
+  double height() const { return top_ + kPlotHeight + kBelow; }
 
  private:
   double across(double x) const { return kLeft + (x - x_.low) / (x_.high - x_.low) * kPlotWidth; }
@@ -178,7 +179,13 @@ class Drawing {
 
 }  // namespace
 
-std::string render_svg(const LineChart& chart) { return Drawing(chart).text(); }
+std::string render_svg(const LineChart& chart) { return draw_svg(chart).text; }
+
+SvgChart draw_svg(const LineChart& chart) {
+  Drawing drawing(chart);
+  std::string text = drawing.text();
+  return {std::move(text), kWidth, drawing.height()};
+}
 
 std::vector<double> nice_ticks(const ChartRange& range, int wanted) {
   const double width = range.high - range.low;

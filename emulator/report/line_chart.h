@@ -42,6 +42,13 @@ struct LineChart {
 /// Lines of more than two points a pixel keep first, lowest, highest and last of every pixel column.
 std::string render_svg(const LineChart& chart);
 
+/// The same with its size in pixels, to be placed in a larger drawing.
+struct SvgChart {
+  std::string text;
+  double width = 0, height = 0;
+};
+SvgChart draw_svg(const LineChart& chart);
+
 /// Places of ticks: multiples of 1, 2 or 5 times a power of ten, about `wanted` of them.
 std::vector<double> nice_ticks(const ChartRange& range, int wanted);
 /// A tick with as many decimals as its neighbours need: "0", "250", "0.05".

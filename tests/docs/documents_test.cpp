@@ -81,6 +81,10 @@ TEST_CASE("docs/interpolators.md: every command gives the output that stands bel
   check_document("docs/interpolators.md");
 }
 
+TEST_CASE("docs/report.md: every command gives the output that stands below it") {
+  check_document("docs/report.md");
+}
+
 TEST_CASE("an output that differs from the document is seen") {
   const auto document = split_lines(
       "text\n```console\n$ echo one\n> echo two\none\ntwo\n$ false\n(exit 1)\n```\n```\n$ no\n```\n");

@@ -1,0 +1,41 @@
+#include "emulator/report/page/compare.h"
+
+#include <fmt/format.h>
+
+#include "emulator/cli/commands.h"
+#include "emulator/cli/exit_codes.h"
+#include "emulator/cli/output_file.h"
+#include "emulator/report/text.h"
+
+namespace kadr::cli {
+
+int compare_logs(const Arguments& arguments, Console& console) {
+  std::vector<emulator::ComparedRun> runs;
+  for (const std::string& path : arguments.files) {
+    auto data = emulator::read_page_data(path, {});
+    if (data && !data->summary)
+      data = tl::unexpected(emulator::LogReadError{emulator::LogReadFault::not_a_log, path,
+                                                   "the log has no summary: it was cut off"});
+    if (!data) {
+      console.error(fmt::format("{}: {}", data.error().path, data.error().reason));
+      return kNotStarted;
+    }
+    runs.push_back({path, std::move(*data)});
+  }
+  if (console.options().json)
+    console.document(emulator::json_of(runs));
+  else if (!console.options().quiet)
+    console.data(emulator::render_comparison(runs));
+  const std::string& name = arguments.exported.output_path;
+  if (!name.empty()) {
+    const std::string page = emulator::render_compare_page(runs);
+    OutputFile file(name);
+    file.write(page);
+    file.close();
+    console.note(
+        fmt::format("wrote {}: {}", name, emulator::bytes_text(static_cast<std::int64_t>(page.size()))));
+  }
+  return kYes;
+}
+
+}  // namespace kadr::cli

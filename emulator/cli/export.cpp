@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "emulator/cli/commands.h"
+#include "emulator/cli/exit_codes.h"
+#include "emulator/cli/output_file.h"
+#include "emulator/export/export.h"
+#include "emulator/report/text.h"
+
+/// `kadr export` and `kadr plot`: a log's signals for other tools and for a quick look.
+namespace kadr::cli {
+namespace {
+
+using emulator::LogSamples;
+using emulator::LogState;
+
+// what is shown when nothing is asked for
+constexpr const char* kFew = "feed.commanded*,feed.programmed*,path.error*,axis.*.following*";
+constexpr const char* kTwo = "feed.commanded*,path.error*";
+
+/// The log with its choice made, or the exit code.
+tl::expected<LogSamples, int> open_log(const Arguments& arguments, const char* without_choice,
+                                       Console& console) {
+  auto log = LogSamples::open(arguments.files.front());
+  if (!log) {
+    console.error(fmt::format("{}: {}", log.error().path, log.error().reason));
+    return tl::unexpected(kNotStarted);
+  }
+  emulator::SampleChoice choice = arguments.exported.choice;
+  if (choice.from_s > choice.to_s) {
+    console.error(fmt::format("--from {} s is behind --to {} s", choice.from_s, choice.to_s));
+    return tl::unexpected(kNotStarted);
+  }
+  if (choice.signals.empty() && without_choice != nullptr) {
+    // of the usual ones those that the log has: without plant there is no path error
+    for (const emulator::Signal& signal : log->signals()) {
+      std::string_view rest = without_choice;
+      while (!rest.empty()) {
+        const auto comma = rest.find(',');
+        if (emulator::matches_pattern(signal.name, rest.substr(0, comma)))
+          choice.signals += (choice.signals.empty() ? "" : ",") + signal.name;
+        rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
+      }
+    }
+  }
+  if (const auto chosen = log->choose(choice); !chosen) {
+    console.error(fmt::format("{}: {}", arguments.files.front(), chosen.error()));
+    return tl::unexpected(kNotStarted);
+  }
+  return std::move(*log);
+}
+
+/// Yes if all that was asked for was there: a log that breaks off is told.
+int end_of(const LogSamples& log, const std::string& path, Console& console) {
+  const emulator::LogEnd* end = log.end();
+  if (end == nullptr || end->state == LogState::complete || end->state == LogState::interrupted) return kYes;
+  console.error(fmt::format("{}: {}; what was written ends at {} s", path, end->detail,
+                            emulator::fixed(log.header().seconds(end->valid_until), 6)));
+  return kNo;
+}
+
+std::string signal_list(const LogSamples& log) {
+  emulator::TextTable table(
+      {{"signal", emulator::TextTable::Align::left}, {"unit", emulator::TextTable::Align::left}});
+  for (const emulator::Signal& s : log.signals()) table.add({s.name, s.unit.empty() ? "-" : s.unit});
+  return table.render();
+}
+
+void write(LogSamples& log, ExportForm form, const emulator::Sink& sink) {
+  switch (form) {
+    case ExportForm::csv:
+      return emulator::write_csv(log, emulator::CsvForm::plain, sink);
+    case ExportForm::excel:
+      return emulator::write_csv(log, emulator::CsvForm::excel, sink);
+    case ExportForm::json:
+      return emulator::write_json_lines(log, sink);
+    case ExportForm::vcd:
+      return emulator::write_vcd(log, sink);
+    case ExportForm::svg:
+      return emulator::write_svg(log, log.header().program_name + " on " + log.header().machine_name, sink);
+    case ExportForm::none:
+      return;
+  }
+}
+
+}  // namespace
+
+int export_log(const Arguments& arguments, Console& console) {
+  const ExportOptions& out = arguments.exported;
+  const bool few = out.form == ExportForm::vcd || out.form == ExportForm::svg;
+  if (out.form == ExportForm::vcd && out.choice.rate_hz > 0) {
+    console.error("--vcd holds every pulse: it goes with --from and --to, not with --rate-hz");
+    return kNotStarted;
+  }
+  auto log = open_log(arguments, few ? kFew : nullptr, console);
+  if (!log) return log.error();
+  if (arguments.list) {
+    console.data(signal_list(*log));
+    return kYes;
+  }
+  std::optional<OutputFile> file;
+  if (!out.output_path.empty() && out.output_path != "-") file.emplace(out.output_path);
+  std::int64_t bytes = 0;
+  write(*log, out.form, [&](std::string_view text) {
+    bytes += static_cast<std::int64_t>(text.size());
+    if (file)
+      file->write(text);
+    else
+      console.data(text);
+  });
+  if (file) {
+    file->close();
+    console.note(fmt::format("wrote {}: {}", out.output_path, emulator::bytes_text(bytes)));
+  }
+  return end_of(*log, arguments.files.front(), console);
+}
+
+int plot_log(const Arguments& arguments, Console& console) {
+  const ExportOptions& out = arguments.exported;
+  auto log = open_log(arguments, out.path ? nullptr : kTwo, console);
+  if (!log) return log.error();
+  console.data(out.path ? emulator::render_path_plot(*log, out.plot) : emulator::render_plot(*log, out.plot));
+  return end_of(*log, arguments.files.front(), console);
+}
+
+}  // namespace kadr::cli

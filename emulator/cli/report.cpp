@@ -1,0 +1,47 @@
+#include <fmt/format.h>
+
+#include "emulator/cli/commands.h"
+#include "emulator/cli/exit_codes.h"
+#include "emulator/cli/output_file.h"
+#include "emulator/report/page/report_page.h"
+#include "emulator/report/text.h"
+
+namespace kadr::cli {
+namespace {
+
+/// "part.html" of "part.lcmlog".
+std::string page_path(const std::string& log) {
+  constexpr std::string_view kEnd = ".lcmlog";
+  const bool usual = log.size() > kEnd.size() && log.ends_with(kEnd);
+  return (usual ? log.substr(0, log.size() - kEnd.size()) : log) + ".html";
+}
+
+}  // namespace
+
+int report_log(const Arguments& arguments, Console& console) {
+  const ExportOptions& out = arguments.exported;
+  const std::string& path = arguments.files.front();
+  auto data = emulator::read_page_data(path, out.choice);
+  if (!data) {
+    console.error(fmt::format("{}: {}", data.error().path, data.error().reason));
+    return kNotStarted;
+  }
+  const bool whole =
+      data->end.state == emulator::LogState::complete || data->end.state == emulator::LogState::interrupted;
+  const std::string name = out.output_path.empty() ? page_path(path) : out.output_path;
+  const std::string page =
+      emulator::render_report_page(std::move(*data), static_cast<std::size_t>(out.max_size_mb * 1e6));
+  if (name == "-") {
+    console.data(page);
+  } else {
+    OutputFile file(name);
+    file.write(page);
+    file.close();
+    console.note(
+        fmt::format("wrote {}: {}", name, emulator::bytes_text(static_cast<std::int64_t>(page.size()))));
+  }
+  if (!whole) console.error(fmt::format("{}: the log breaks off; the page says where", path));
+  return whole ? kYes : kNo;
+}
+
+}  // namespace kadr::cli

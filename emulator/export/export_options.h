@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <string>
+
+/// What a user may ask of exports and plots; apart from them, so that the command line needs no more.
+namespace kadr::emulator {
+
+/// What of a log is wanted.
+struct SampleChoice {
+  std::string signals;  ///< comma-separated, `*` stands for any text: "feed.*,axis.X.load_mm"; empty: all
+  double from_s = 0;
+  double to_s = std::numeric_limits<double>::infinity();
+  double rate_hz =
+      0;  ///< every n-th control tick, n = round(control rate / rate_hz), at least 1; 0: every one
+};
+
+enum class CsvForm : std::uint8_t {
+  plain,  ///< comma, decimal point
+  excel,  ///< semicolon, decimal comma and a byte order mark: spreadsheets of a locale with decimal comma
+};
+
+/// What a plot in the terminal looks like.
+struct PlotForm {
+  int width = 80;      ///< cells, with the axis
+  int height = 10;     ///< cells of each picture
+  bool ascii = false;  ///< `#` instead of Braille dots
+};
+
+}  // namespace kadr::emulator

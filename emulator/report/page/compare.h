@@ -1,0 +1,38 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "emulator/report/json.h"
+#include "emulator/report/page/page_data.h"
+
+/// `kadr compare`: runs of one program side by side.
+namespace kadr::emulator {
+
+struct ComparedRun {
+  std::string path;
+  PageData data;
+};
+
+/// One quantity of every run; what a run does not have is not a number.
+struct ComparedQuantity {
+  std::string name;  ///< "vibration X, peak"
+  std::string key;   ///< "vibration_X_um"
+  std::string unit;
+  int decimals = 3;
+  std::vector<double> value;  ///< [runs]
+};
+
+/// Time, what it went into, feed, path error, vibration, following error and work of every run.
+std::vector<ComparedQuantity> compared_quantities(const std::vector<ComparedRun>& runs);
+
+/// What about the inputs is not the same in all runs: program, machine; empty: they are of one program.
+std::string compared_note(const std::vector<ComparedRun>& runs);
+
+std::string render_comparison(const std::vector<ComparedRun>& runs);
+Json json_of(const std::vector<ComparedRun>& runs);
+/// One HTML page without script: the table, feed over time, feed and path error over the path.
+std::string render_compare_page(const std::vector<ComparedRun>& runs);
+
+}  // namespace kadr::emulator
