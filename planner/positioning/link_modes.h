@@ -6,8 +6,8 @@
 
 namespace kadr::planner {
 
-/// Damping ratio from which a vibration is left to itself: in two periods it falls below a fifth.
-inline constexpr double kDampedEnough = 0.12;
+/// Damping ratio from which a vibration is left to itself: in five periods it falls to a fifth.
+inline constexpr double kDampedEnough = 0.05;
 
 /// The vibrations that motion along an axis leaves behind, as the driven system has them; none without a
 /// plant.

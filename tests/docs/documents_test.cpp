@@ -81,6 +81,10 @@ TEST_CASE("docs/interpolators.md: every command gives the output that stands bel
   check_document("docs/interpolators.md");
 }
 
+TEST_CASE("docs/rapids.md: every command gives the output that stands below it") {
+  check_document("docs/rapids.md");
+}
+
 TEST_CASE("docs/report.md: every command gives the output that stands below it") {
   check_document("docs/report.md");
 }

@@ -160,6 +160,8 @@ TEST_CASE("header, blocks, events, diagnostics and summary come back from a log"
   REQUIRE(ends.size() == 4);
   CHECK(ends[2]->line == 3);
   CHECK(ends[2]->peak_link_u == std::vector<double>(4, 0.003));
+  CHECK(ends[2]->positive_J == std::vector<double>(4, 0.25));
+  CHECK(ends[2]->recuperated_J == std::vector<double>(4, 0.25));
 
   const auto events = log.all<EventRecord>();
   REQUIRE(events.size() == 2);

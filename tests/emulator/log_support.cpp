@@ -222,6 +222,7 @@ std::int64_t write_log(const std::string& path, const machine::MachineModel& mac
   for (std::int64_t k = 0; k < control_ticks; ++k) {
     const auto number = static_cast<std::uint32_t>(k / 100);
     const std::vector<double> peaks(machine.axis.size(), 0.001 * static_cast<double>(number));
+    const std::vector<double> energies(peaks.size(), 0.25);
     if (k % 100 == 0) {
       check((*log)->block({Ticks{k * tau + 7},
                            number,
@@ -234,7 +235,9 @@ std::int64_t write_log(const std::string& path, const machine::MachineModel& mac
                            0,
                            0.105,
                            "axis X speed"}));
-      if (k > 0) check((*log)->block_end({Ticks{(k + 1) * tau}, number - 1, number, peaks, peaks}));
+      if (k > 0)
+        check(
+            (*log)->block_end({Ticks{(k + 1) * tau}, number - 1, number, peaks, peaks, energies, energies}));
     }
     if (k % 250 == 249)
       check((*log)->event({Ticks{k * tau + 9},

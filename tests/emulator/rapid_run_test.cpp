@@ -36,7 +36,7 @@ Stop stop_after(const machine::MachineModel& model, double off = 0.0) {
   REQUIRE(emulator::prepare(r.job, r.diagnostics, emulator::SoftLimitRule::warning));
   Stop stop;
   if (!r.job.plan.positioned.empty()) stop.stated_um = 1e3 * r.job.plan.positioned[0].residual_u[0];
-  stop.time_s = r.job.plan.law.duration_s;
+  stop.time_s = r.job.plan.segments[0].end_time_s;
   r.job.machine.model.axis[0].plant.link_stiffness *= (1 + off) * (1 + off);
   emulator::RunHeader header;
   header.machine = &r.job.machine.model;
@@ -77,8 +77,8 @@ TEST_CASE("a law tuned to the link's own frequency rings on a base that gives wa
   REQUIRE(r.log.begin(header).has_value());
   REQUIRE(emulator::run(r.job, &r.log, {}).has_value());
   double swing_um = 0;
-  for (auto k = static_cast<std::size_t>((r.job.plan.law.duration_s + 0.2) * 1000); k < r.log.ticks.size();
-       ++k)
+  for (auto k = static_cast<std::size_t>((r.job.plan.segments[0].end_time_s + 0.2) * 1000);
+       k < r.log.ticks.size(); ++k)
     swing_um = std::max(swing_um, 1e3 * std::fabs(r.log.ticks[k].axis[0].link_u));
   CHECK(swing_um > 5 * stop_after(rig(RapidShape::t_zero)).swing_um);
 }

@@ -247,7 +247,7 @@ TEST_CASE("with damping the swing of a T law's acceleration cancels that of its 
 
 TEST_CASE(
     "where a swing has died down before the deceleration a T law leaves the least, and that is stated") {
-  machine::MachineModel m = flexible_machine(RapidShape::t_zero, 0.1);
+  machine::MachineModel m = flexible_machine(RapidShape::t_zero, 0.04);
   m.planner.whole_ticks = false;
   for (auto& axis : m.axis) axis.max_jerk_u_s3 = machine::kInfinity;
   ProgramWriter w(m);
@@ -282,7 +282,7 @@ TEST_CASE("the automatic choice follows the rule, and says why") {
   CHECK(shape_for(0.0, 1.0, 6.25) ==
         RapidShape::zv);  // 1.25 periods, zeros known to 1 % of their width: 0.8 %
   CHECK(shape_for(0.0, 5.0, 6.25) == RapidShape::zvd);  // not known to 1 %
-  CHECK(shape_for(0.11, 0.1, 200) == RapidShape::zv);   // damped so much that no T law is silent
+  CHECK(shape_for(0.045, 0.1, 200) == RapidShape::zv);  // damped so much that no T law is silent
   // 200 mm: the speed limit asks for a ramp of 100 ms, two periods; but the time between the ramps is 1 s, 20
   // periods
   CHECK(shape_for(0.0, 0.1, 200) == RapidShape::zv);
