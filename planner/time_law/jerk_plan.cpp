@@ -45,7 +45,7 @@ IntervalMotion stretched(const IntervalMotion& m, double k) {
 class JerkPlanner {
  public:
   JerkPlanner(RunProblem& stated, const PathLimitTable& table)
-      : stated_(stated), p_(stated.problem), n_(p_.nodes()), limits_(n_), part_(n_, 1.0) {
+      : p_(stated.problem), n_(p_.nodes()), limits_(n_), part_(n_, 1.0) {
     std::vector<double> jerk(n_);
     for (std::size_t i = 1; i < n_; ++i) {
       const std::size_t segment = stated.segment[i];
@@ -139,7 +139,6 @@ class JerkPlanner {
     }
   }
 
-  RunProblem& stated_;
   LawProblem& p_;
   std::size_t n_;
   std::vector<IntervalLimits> limits_;
