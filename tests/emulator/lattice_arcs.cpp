@@ -111,7 +111,8 @@ TEST_CASE("lattice: radial errors of single circles are those of the study") {
 }
 
 TEST_CASE("lattice: random arcs both ways: the half-step misses no end and is never forced") {
-  const std::uint64_t count = environment_count("KADR_COUNT", 1'500);
+  // what the classic one misses is seen in a few of a hundred
+  const std::uint64_t count = std::max<std::uint64_t>(environment_count("KADR_COUNT", 1'500), 300);
   std::mt19937 random(7);
   Worst half, extra, classic;
   for (std::uint64_t i = 0; i < count; ++i) {
