@@ -168,6 +168,8 @@ Json json_of(const PlanRow& row) {
     rapid["law"] = row.rapid_law;
     rapid["reason"] = row.rapid_reason.empty() ? Json(nullptr) : Json(row.rapid_reason);
     rapid["loss_s"] = row.rapid_loss_s;
+    for (const auto& v : row.vibrations)
+      rapid["vibrations"].push_back({{"axis", std::string(1, v.axis)}, {"hz", v.hz}, {"zeta", v.zeta}});
     for (const auto& [axis, residual_u] : row.residual_u)
       rapid["residual_u"][std::string(1, axis)] = residual_u;
     j["rapid"] = std::move(rapid);

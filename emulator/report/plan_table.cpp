@@ -7,6 +7,8 @@
 
 #include "emulator/report/text.h"
 #include "emulator/report/travel.h"
+#include "machine/base/numbers.h"
+#include "planner/positioning/positioning.h"
 
 namespace kadr::emulator {
 namespace {
@@ -42,20 +44,27 @@ void add_ticks(const Job& job, std::size_t first, std::size_t end, PlanRow& row)
   row.rule = planner::tick_rule_name(rule);
 }
 
-void add_rapid(const Job& job, const planner::PositionedSegment& rapid, PlanRow& row) {
+void add_rapid(const Job& job, const planner::PositionedSegment& rapid, planner::PositioningPlanner& planner,
+               PlanRow& row) {
   row.positioned = true;
   row.rapid_law = planner::rapid_law_name(rapid.shape);
   row.rapid_reason = rapid.reason;
   row.rapid_loss_s = rapid.loss_s;
   const std::vector<machine::AxisModel>& axis = job.machine.model.axis;
+  for (const planner::ExcitedMode& m : planner.excited(job.path, rapid.segment))
+    row.vibrations.push_back({axis[static_cast<std::size_t>(m.axis)].letter,
+                              m.driven.mode.omega_rad_s / (2 * kPi), m.driven.mode.zeta});
   for (std::size_t c = 0; c < axis.size(); ++c)
     if (axis[c].has_plant) row.residual_u.emplace_back(axis[c].letter, rapid.residual_u[c]);
 }
 
-/// "zv +0.025 s", and what it leaves where that is not nothing.
+/// "zv +0.025 s for X 45.00 Hz", and what it leaves where that is not nothing.
 std::string rapid_text(const PlanRow& row) {
   constexpr double kNothing_u = 5e-7;
   std::string out = fmt::format("; {} +{} s", row.rapid_law, fixed(row.rapid_loss_s, 3));
+  for (std::size_t i = 0; i < row.vibrations.size(); ++i)
+    out += fmt::format("{} {} {} Hz", i == 0 ? " for" : ",", row.vibrations[i].axis,
+                       fixed(row.vibrations[i].hz, 2));
   for (const auto& [axis, residual_u] : row.residual_u)
     if (residual_u > kNothing_u) out += fmt::format(", {} swings {} um", axis, fixed(1e3 * residual_u, 1));
   return out;
@@ -68,6 +77,7 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
   std::size_t next_event = 0;
   double time_s = 0;
   auto rapid = job.plan.positioned.begin();
+  planner::PositioningPlanner rapids(machine);
   const auto pauses_before = [&](std::size_t segment) {
     for (; next_event < job.events.size() && job.events[next_event].after_segment <= segment; ++next_event) {
       const gcode::Block& block = job.events[next_event].block;
@@ -100,7 +110,7 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
     row.end_u_s = block.end_u_s;
     row.limited_by = limited_by_text(block.limited_by, block.limiting_axis, machine);
     if (is_blockwise(job)) add_ticks(job, i, block.end_segment, row);
-    if (rapid != job.plan.positioned.end() && rapid->segment == i) add_rapid(job, *rapid++, row);
+    if (rapid != job.plan.positioned.end() && rapid->segment == i) add_rapid(job, *rapid++, rapids, row);
     time_s = block.begin_s + block.time_s;
     sink(row);
     i = block.end_segment;

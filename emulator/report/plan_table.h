@@ -33,6 +33,11 @@ struct PlanRow {
   std::string rapid_law;     ///< "t-zero" "zv" "zvd", or "scurve" where nothing rings
   std::string rapid_reason;  ///< of an automatic choice, else empty
   double rapid_loss_s = 0;   ///< over the fastest way within the limits
+  struct Vibration {
+    char axis = 'X';
+    double hz = 0, zeta = 0;  ///< of the driven system
+  };
+  std::vector<Vibration> vibrations;  ///< that it excites, largest first
   std::vector<std::pair<char, double>>
       residual_u;  ///< amplitude left to swing, of the axes that have a plant
 };
