@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "emulator/scenario/scenario.h"
 #include "planner/planner.h"
@@ -17,7 +19,9 @@ constexpr const char* kProgram =
 
 /// Plans kProgram by a scenario with further keys. @return whether it could be planned
 bool prepared(const std::string& keys, Job& job, Diagnostics& diagnostics) {
-  const auto folder = std::filesystem::temp_directory_path() / "kadr_technology_rule";
+  // cases run side by side, each in a process of its own
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("kadr_technology_rule_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "program.ngc") << kProgram;
   std::ofstream(folder / "scenario.toml")
