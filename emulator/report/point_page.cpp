@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/report/chart_page.h"
 #include "emulator/report/line_chart.h"
 #include "emulator/report/point_report.h"
 #include "emulator/report/text.h"
@@ -20,33 +21,12 @@ constexpr double kPeriodsAfter = 10;  ///< of swinging, shown after the end
 constexpr int kMostPoints = 20'000;   ///< of a line
 constexpr const char* kStyles[kMostLines] = {"a", "b", "c", "d", "e", "f"};
 
-constexpr std::string_view kHead = R"html(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'">
-<style>
-:root { color-scheme: light dark; --ground: #ffffff; --ink: #1c2024; --soft: #5c646d; --rule: #dfe3e8; --blue: #0072b2;
-  --orange: #c14f00; --green: #007d5c; --pink: #a8487f; --brown: #8a5a00; }
-@media (prefers-color-scheme: dark) { :root { --ground: #14171a; --ink: #e6e9ec; --soft: #9aa3ad; --rule: #2c3238;
-  --blue: #56b4e9; --orange: #f0883e; --green: #2fbf93; --pink: #e39ac4; --brown: #e6c04a; } }
-body { margin: 0 auto; padding: 1.5rem; max-width: 1040px; background: var(--ground); color: var(--ink);
-  font: 15px/1.5 system-ui, sans-serif; }
-h1 { font-size: 1.4rem; margin: 0; } h2 { font-size: 1.1rem; margin: 2rem 0 0.25rem; }
-p { margin: 0.25rem 0 0.75rem; color: var(--soft); }
-svg { display: block; width: 100%; height: auto; font: 12px system-ui, sans-serif; }
-svg text { fill: var(--ink); } svg text.x { text-anchor: middle; } svg text.y { text-anchor: end; }
-svg text.name { fill: var(--soft); }
-.grid { stroke: var(--rule); fill: none; } .frame { stroke: var(--soft); fill: none; }
-.line { fill: none; stroke-width: 1.5; stroke-linejoin: round; }
+constexpr std::string_view kStyle = R"css(.line { fill: none; stroke-width: 1.5; stroke-linejoin: round; }
 .a { stroke: var(--blue); stroke-width: 2.2; } .b { stroke: var(--orange); stroke-dasharray: 7 3; }
 .c { stroke: var(--green); stroke-dasharray: 2 3; stroke-width: 2; } .d { stroke: var(--pink); }
 .e { stroke: var(--brown); stroke-dasharray: 10 3 2 3; } .f { stroke: var(--ink); stroke-width: 0.9; }
 pre { overflow-x: auto; font-size: 12px; }
-@media print { :root { --ground: #ffffff; --ink: #000000; --soft: #444444; } }
-</style>
-)html";
+)css";
 
 /// The chosen law first, then those that differ most in kind.
 std::vector<const PointRow*> shown(const PointStudy& study) {
@@ -79,8 +59,7 @@ class Page {
 
   std::string text() const {
     const planner::Load& load = study_.load;
-    std::string out(kHead);
-    out += "<title>Laws from rest to rest</title>\n</head>\n<body>\n<h1>Laws from rest to rest</h1>\n";
+    std::string out = chart_page_head("Laws from rest to rest", kStyle) + "<h1>Laws from rest to rest</h1>\n";
     out += fmt::format("<pre>{}</pre>\n<pre>{}\n{}</pre>\n", xml_text(render_point_question(q_, study_)),
                        xml_text(render_point_table(study_)), xml_text(render_point_answer(study_)));
     out += chart("accel", "Acceleration", "acceleration, m/s2",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/report/chart_page.h"
 #include "emulator/report/law_report.h"
 #include "emulator/report/line_chart.h"
 #include "emulator/report/text.h"
@@ -17,26 +18,8 @@ constexpr double kCloseUp = 0.025;      ///< of the length, to either side
 constexpr std::size_t kTableRows = 24;  ///< of the tables beside the charts, less one
 constexpr double kFaintest = 0.4;       ///< opacity of the first pass between
 
-constexpr std::string_view kHead = R"html(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'">
-<style>
-:root { color-scheme: light dark; --ground: #ffffff; --ink: #1c2024; --soft: #5c646d; --rule: #dfe3e8; --blue: #0072b2;
-  --orange: #c14f00; --green: #007d5c; --pink: #a8487f; --brown: #8a5a00; --band: #009e73; }
-@media (prefers-color-scheme: dark) { :root { --ground: #14171a; --ink: #e6e9ec; --soft: #9aa3ad; --rule: #2c3238;
-  --blue: #56b4e9; --orange: #f0883e; --green: #2fbf93; --pink: #e39ac4; --brown: #e6c04a; --band: #2fbf93; } }
-body { margin: 0 auto; padding: 1.5rem; max-width: 1040px; background: var(--ground); color: var(--ink);
-  font: 15px/1.5 system-ui, sans-serif; }
-h1 { font-size: 1.4rem; margin: 0; } h2 { font-size: 1.1rem; margin: 2rem 0 0.25rem; }
-p { margin: 0.25rem 0 0.75rem; color: var(--soft); }
-svg { display: block; width: 100%; height: auto; font: 12px system-ui, sans-serif; }
-svg text { fill: var(--ink); } svg text.x { text-anchor: middle; } svg text.y { text-anchor: end; }
-svg text.name { fill: var(--soft); }
-.grid { stroke: var(--rule); fill: none; } .frame { stroke: var(--soft); fill: none; }
-.line { fill: none; stroke: var(--blue); stroke-width: 1.3; stroke-linejoin: round; }
+constexpr std::string_view kStyle =
+    R"css(.line { fill: none; stroke: var(--blue); stroke-width: 1.3; stroke-linejoin: round; }
 .cap { stroke: var(--soft); stroke-width: 1; } .first { stroke: var(--orange); stroke-dasharray: 7 3; }
 .last { stroke-width: 2.2; } .tube { fill: var(--band); fill-opacity: 0.16; stroke: var(--band); stroke-width: 0.8; }
 .classical { stroke: var(--orange); stroke-dasharray: 7 3; stroke-width: 1.8; } .tube-law { stroke-width: 1.6; }
@@ -48,9 +31,7 @@ th, td { padding: 0.15rem 0.6rem; text-align: right; border-bottom: 1px solid va
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
 caption { text-align: left; color: var(--soft); padding-bottom: 0.25rem; }
 summary { cursor: pointer; color: var(--soft); margin: 0.25rem 0; } pre { overflow-x: auto; font-size: 13px; }
-@media print { :root { --ground: #ffffff; --ink: #000000; --soft: #444444; } }
-</style>
-)html";
+)css";
 
 /// A table of HTML; the first row is its head.
 std::string html_table(const std::string& caption, const std::vector<std::vector<std::string>>& rows) {
@@ -328,9 +309,7 @@ class Page {
 
 }  // namespace
 
-std::string law_page_head(std::string_view title) {
-  return fmt::format("{}<title>{}</title>\n</head>\n<body>\n", kHead, xml_text(title));
-}
+std::string law_page_head(std::string_view title) { return chart_page_head(title, kStyle); }
 
 std::string law_page_table(const std::string& caption, const std::vector<std::vector<std::string>>& rows) {
   return html_table(caption, rows);

@@ -8,6 +8,7 @@
 #include "planner/point_to_point/builders.h"
 #include "planner/point_to_point/minimise.h"
 #include "planner/point_to_point/residual.h"
+#include "planner/positioning/damped_zero.h"
 #include "planner/positioning/link_modes.h"
 
 namespace kadr::planner {
@@ -22,13 +23,11 @@ constexpr double kZvUncertainty = 0.01;
 constexpr double kRampSearch = 0.03;  ///< of a period, either way
 constexpr double kSilent = 1e-3;  ///< of what a single jump of acceleration leaves: a law without residual
 constexpr double kMostShifts = 50;
-constexpr int kScan = 24;  ///< places of a period looked at
-constexpr int kBisections = 60;
 constexpr double kWhole = 1e-12;  ///< relative: a time that is whole but for rounding
 
 /// What a law is made of before the impulses: constant acceleration, cruise and deceleration, averaged over a
 /// window.
-struct Base {
+struct Ramps {
   double ramp_s = 0, down_s = 0;  ///< of acceleration and deceleration
   double shift_s = 0;             ///< between the beginnings of both ramps
   double window_s = 0;            ///< 0: not averaged
@@ -36,7 +35,7 @@ struct Base {
   double duration_s() const { return shift_s + down_s + window_s; }
 };
 
-PointLaw ramps_of(double distance_u, const Base& b) {
+PointLaw ramps_of(double distance_u, const Ramps& b) {
   return ramp_law(distance_u, b.ramp_s, std::max(b.shift_s - b.ramp_s, 0.0), b.down_s);
 }
 
@@ -73,11 +72,13 @@ class Maker {
   }
 
  private:
-  double top_u_s(const Base& b) const { return task_.distance_u / (b.shift_s + 0.5 * (b.down_s - b.ramp_s)); }
-  double accel_u_s2(const Base& b) const { return top_u_s(b) / std::min(b.ramp_s, b.down_s); }
+  double top_u_s(const Ramps& b) const {
+    return task_.distance_u / (b.shift_s + 0.5 * (b.down_s - b.ramp_s));
+  }
+  double accel_u_s2(const Ramps& b) const { return top_u_s(b) / std::min(b.ramp_s, b.down_s); }
 
   /// The S-curve of least time; a jerk without limit makes it the T law of least time.
-  Base fastest() const {
+  Ramps fastest() const {
     const double d = task_.distance_u, v = task_.speed_u_s, j = task_.jerk_u_s3;
     const bool limited = j < machine::kInfinity;
     double a = limited ? std::min(task_.accel_u_s2, std::sqrt(v * j)) : task_.accel_u_s2;
@@ -94,7 +95,7 @@ class Maker {
 
   void choose(Positioning& out) const {
     const double half_s = 0.5 * mode_[0].driven.mode.damped_period_s();
-    const Base zero_law = zero();
+    const Ramps zero_law = zero();
     const PointLaw law = ramps_of(task_.distance_u, zero_law);
     const bool quick = zero_law.duration_s() - fastest_.duration_s() < half_s;
     // the zero of an interval of n periods is 1/n wide
@@ -123,7 +124,7 @@ class Maker {
   }
 
   /// Fills whole ticks, then the impulses.
-  PointLaw finished(Base b, RapidShape shape) const {
+  PointLaw finished(Ramps b, RapidShape shape) const {
     double late = 0;
     for (std::size_t i = 0; i < tuned_; ++i) late += delay_s(shape, mode_[i].driven.mode);
     if (b.free_shift) {
@@ -163,15 +164,18 @@ class Maker {
     const double root = std::sqrt(ramp_s * ramp_s + 4.0 * d / (ramp_s * task_.jerk_u_s3));
     return std::max({0.5 * (ramp_s + root), d / (task_.accel_u_s2 * ramp_s), d / task_.speed_u_s});
   }
-  Base base_of(double ramp_s, double shift_s, bool free_shift) const {
-    Base b{ramp_s, ramp_s, shift_s, 0, free_shift};
+  Ramps equal_ramps(double ramp_s, double shift_s, bool free_shift) const {
+    return with_window({ramp_s, ramp_s, shift_s, 0, free_shift});
+  }
+  /// As long a window as the jerk limit asks for.
+  Ramps with_window(Ramps b) const {
     if (task_.jerk_u_s3 < machine::kInfinity) b.window_s = accel_u_s2(b) / task_.jerk_u_s3;
     return b;
   }
 
-  Base zero() const {
-    Base best;
-    const auto take = [&](const Base& b) {
+  Ramps zero() const {
+    Ramps best;
+    const auto take = [&](const Ramps& b) {
       if (best.ramp_s == 0 || b.duration_s() < best.duration_s()) best = b;
     };
     const auto period = [&](std::size_t i) { return mode_[i].driven.mode.damped_period_s(); };
@@ -179,107 +183,54 @@ class Maker {
       for (const std::size_t ramp : {0u, 1u}) {
         const double t_ramp = period(ramp), t_shift = period(1 - ramp);
         for (double n = 1; best.ramp_s == 0 || n * t_ramp < best.duration_s(); ++n)
-          take(base_of(n * t_ramp, whole_up(shift_for(n * t_ramp) / t_shift) * t_shift, false));
+          take(equal_ramps(n * t_ramp, whole_up(shift_for(n * t_ramp) / t_shift) * t_shift, false));
       }
       return best;
     }
     // without a jerk limit the time is convex in the ramp and least at the fastest law's
     const double t = period(0);
     for (double n = 1; best.ramp_s == 0 || n * t < best.duration_s(); ++n)
-      take(base_of(n * t, shift_for(n * t), true));
+      take(equal_ramps(n * t, shift_for(n * t), true));
     const double d = task_.distance_u;
     for (double m = whole_up(d / task_.speed_u_s / t); m * t < best.duration_s(); ++m) {
       const double shift = m * t, ramp = d / (task_.accel_u_s2 * shift);
-      if (shift_for(ramp) <= shift * (1.0 + kWhole)) take(base_of(ramp, shift, false));
+      if (shift_for(ramp) <= shift * (1.0 + kWhole)) take(equal_ramps(ramp, shift, false));
     }
     if (!(mode_[0].driven.mode.zeta > 0)) return best;
-    const std::optional<Base> silent = silent_damped();
+    const std::optional<Ramps> silent = silent_damped();
     return silent ? *silent : tuned_to_least(best);
   }
 
-  /// With damping, S = zeta omega + i omega_d: what the acceleration leaves swinging has died down to what
-  /// the deceleration leaves, and they cancel:
-  ///   F(up) = e^(S shift) F(down),   F(x) = (e^(S x) - 1)/x
-  /// The deceleration lasts n periods, which is the least it can leave; the acceleration up to half a period
-  /// more. None if the swing dies down too fast for that.
-  std::optional<Base> silent_damped() const {
+  /// With damping: the fastest that cancels its own swing (damped_zero()) within the limits.
+  std::optional<Ramps> silent_damped() const {
     const double period = mode_[0].driven.mode.damped_period_s();
-    std::optional<Base> best;
+    std::optional<Ramps> best;
     const double at = std::max(1.0, std::floor(fastest_.ramp_s / period));
     for (const double n : {at, at + 1})
       for (double from = shift_for(n * period), last = from + kMostShifts * period; from < last;
            from += period) {
-        const std::optional<Base> b = silent_damped(n * period, from);
-        if (!b) break;
-        if (!within_limits(*b)) continue;
-        if (!best || b->duration_s() < best->duration_s()) best = b;
+        const std::optional<DampedZero> zero = damped_zero(mode_[0].driven.mode, n * period, from);
+        if (!zero) break;
+        const Ramps b = with_window({zero->ramp_s, n * period, zero->shift_s, 0, false});
+        if (!within_limits(b)) continue;
+        if (!best || b.duration_s() < best->duration_s()) best = b;
         break;
       }
     return best;
   }
 
-  bool within_limits(const Base& b) const {
+  bool within_limits(const Ramps& b) const {
     constexpr double kRounding = 1.0 + 1e-12;
     return top_u_s(b) <= task_.speed_u_s * kRounding && accel_u_s2(b) <= task_.accel_u_s2 * kRounding &&
            b.shift_s - b.ramp_s >= b.window_s;
   }
 
-  /// The one whose deceleration begins within a period of a moment.
-  std::optional<Base> silent_damped(double down_s, double from_s) const {
-    const Mode& mode = mode_[0].driven.mode;
-    const double decay = mode.zeta * mode.omega_rad_s, w = mode.damped_rad_s(),
-                 period = mode.damped_period_s();
-    struct Swing {
-      double size, angle_rad;
-    };
-    const auto left_by = [&](double ramp_s) {
-      const SinCos turn = exact_sincos(w * ramp_s);
-      const double grown = exact_exp(decay * ramp_s);
-      const double re = grown * turn.cos - 1.0, im = grown * turn.sin;
-      return Swing{std::sqrt(re * re + im * im) / ramp_s, exact_atan2(im, re)};
-    };
-    const Swing down = left_by(down_s);
-    // the acceleration that leaves as much as has to be left
-    const auto up_for = [&](double shift_s) {
-      const double wanted = exact_exp(decay * shift_s) * down.size;
-      double low = down_s, high = down_s + 0.5 * period;
-      for (int i = 0; i < kBisections; ++i) {
-        const double mid = 0.5 * (low + high);
-        (left_by(mid).size < wanted ? low : high) = mid;
-      }
-      return low;
-    };
-    const auto late_rad = [&](double shift_s) {
-      const double turns = (w * shift_s + down.angle_rad - left_by(up_for(shift_s)).angle_rad) / (2.0 * kPi);
-      return turns - std::floor(turns + 0.5);
-    };
-    if (left_by(down_s + 0.5 * period).size < exact_exp(decay * (from_s + period)) * down.size)
-      return std::nullopt;
-    double low = from_s, at_low = late_rad(low);
-    for (int i = 1; i <= kScan; ++i) {
-      double high = from_s + period * i / kScan;
-      const double at_high = late_rad(high);
-      if (at_low <= 0.0 && at_high > 0.0 && at_high - at_low < 0.5) {
-        for (int k = 0; k < kBisections; ++k) {
-          const double mid = 0.5 * (low + high);
-          (late_rad(mid) <= 0.0 ? low : high) = mid;
-        }
-        Base b{up_for(low), down_s, low, 0, false};
-        if (task_.jerk_u_s3 < machine::kInfinity) b.window_s = accel_u_s2(b) / task_.jerk_u_s3;
-        return b;
-      }
-      low = high;
-      at_low = at_high;
-    }
-    return std::nullopt;
-  }
-
   /// With damping, where none is silent: the ramp near a zero of the undamped vibration that leaves least.
-  Base tuned_to_least(const Base& b) const {
+  Ramps tuned_to_least(const Ramps& b) const {
     const DrivenMode& driven = mode_[0].driven;
     const double reach = kRampSearch * driven.mode.damped_period_s();
     const auto with = [&](double ramp_s) {
-      return base_of(ramp_s, std::max(b.shift_s, shift_for(ramp_s)), b.free_shift);
+      return equal_ramps(ramp_s, std::max(b.shift_s, shift_for(ramp_s)), b.free_shift);
     };
     const Minimum least = minimise(
         [&](double ramp_s) { return residual_amplitude_u(ramps_of(task_.distance_u, with(ramp_s)), driven); },
@@ -288,7 +239,7 @@ class Maker {
   }
 
   const PositioningTask& task_;
-  Base fastest_;
+  Ramps fastest_;
   std::array<ExcitedMode, kMostTuned> mode_{};
   std::size_t tuned_ = 0;
 };
@@ -318,7 +269,12 @@ double residual_u(const PointLaw& law, const ExcitedMode& mode) {
 }
 
 PositioningPlanner::PositioningPlanner(const machine::MachineModel& machine) : machine_(machine) {
-  for (const machine::AxisModel& axis : machine.axis) modes_.push_back(link_modes(axis));
+  std::size_t most = 0;
+  for (const machine::AxisModel& axis : machine.axis) {
+    modes_.push_back(link_modes(axis));
+    most += modes_.back().size();
+  }
+  excited_.reserve(most);  // the cycle plans rapids too, and allocates nothing
 }
 
 std::span<const ExcitedMode> PositioningPlanner::excited(const Path& path, std::size_t segment) {

@@ -6,18 +6,11 @@
 #include "tests/cli/run_kadr.h"
 
 using kadr::test::call;
+using kadr::test::contains;
 using kadr::test::Finished;
 using kadr::test::Scratch;
 
 /// Programs in several files, and the bounds that a user sets.
-namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-}  // namespace
-
 TEST_CASE("a called file is part of a run: --subs finds it, its text is in the inputs' hash") {
   const Scratch scratch;
   std::filesystem::create_directory(scratch.file("lib"));

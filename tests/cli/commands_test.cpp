@@ -12,15 +12,12 @@
 namespace test = kadr::test;
 using kadr::test::call;
 using kadr::test::check_golden;
+using kadr::test::contains;
 using kadr::test::Finished;
 using kadr::test::Scratch;
 using Json = nlohmann::json;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// The summary without its last line, the only one with wall-clock figures.
 std::string without_wall(const std::string& summary) {

@@ -9,16 +9,13 @@
 #include "tests/cli/run_kadr.h"
 
 using kadr::test::call;
+using kadr::test::contains;
 using kadr::test::Finished;
 using kadr::test::kSquare;
 using kadr::test::Scratch;
 using Json = nlohmann::json;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::size_t lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));

@@ -15,16 +15,13 @@
 #include "tests/cli/run_kadr.h"
 
 using kadr::test::call;
+using kadr::test::contains;
 using kadr::test::Finished;
 using kadr::test::kSquare;
 using kadr::test::Scratch;
 using Json = nlohmann::json;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> out;

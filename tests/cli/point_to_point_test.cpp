@@ -12,13 +12,10 @@
 namespace {
 
 using kadr::test::call;
+using kadr::test::contains;
 using kadr::test::Finished;
 using kadr::test::Scratch;
 using Json = nlohmann::json;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 Finished law(std::vector<std::string> arguments, const std::string& folder = ".") {
   arguments.insert(arguments.begin(), "law");

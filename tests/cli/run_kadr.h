@@ -54,6 +54,10 @@ class Scratch {
   std::string path_;
 };
 
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// Compares with tests/golden/cli/NAME below its first line; KADR_REGENERATE=1 rewrites the file instead.
 void check_golden(const std::string& name, const std::string& text);
 

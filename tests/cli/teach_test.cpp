@@ -10,6 +10,7 @@
 #include "tests/cli/run_kadr.h"
 
 using kadr::test::call;
+using kadr::test::contains;
 using kadr::test::Finished;
 using kadr::test::Scratch;
 using Json = nlohmann::json;
@@ -27,10 +28,6 @@ Finished teach(const std::string& text, const std::string& folder = ".") {
   std::vector<std::string> arguments = words(text);
   arguments.insert(arguments.begin(), "teach");
   return call(std::move(arguments), folder);
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 std::vector<int> column(const Json& j, const char* key) {

@@ -7,6 +7,7 @@
 #include "tests/cli/run_kadr.h"
 
 using kadr::test::call;
+using kadr::test::contains;
 using kadr::test::Finished;
 using kadr::test::Launch;
 using kadr::test::run_kadr;
@@ -14,10 +15,6 @@ using kadr::test::Scratch;
 namespace test = kadr::test;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 Finished with_environment(std::vector<std::string> arguments, const std::string& folder,
                           std::vector<std::string> environment) {

@@ -11,6 +11,7 @@
 #include "tests/cli/run_kadr.h"
 
 using kadr::test::call;
+using kadr::test::contains;
 using kadr::test::Finished;
 using kadr::test::Launch;
 using kadr::test::run_kadr;
@@ -20,10 +21,6 @@ using Json = nlohmann::json;
 namespace {
 
 const std::string kDocs = std::string(KADR_SOURCE_DIR) + "/docs/tube";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;

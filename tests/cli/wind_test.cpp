@@ -14,15 +14,12 @@
 
 using namespace kadr;
 using kadr::test::call;
+using kadr::test::contains;
 using kadr::test::Finished;
 using kadr::test::Scratch;
 using Json = nlohmann::json;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// The words of the line of a page that begins with a command.
 std::vector<std::string> words_of(const std::string& page, const std::string& command) {
