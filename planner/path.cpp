@@ -28,10 +28,6 @@ std::pair<double, double> circle_derivative(const ArcShape& arc, double u, int o
   }
 }
 
-const ArcShape& shape_of(const Path& path, std::size_t segment) {
-  return path.arcs[static_cast<std::size_t>(path.segments[segment].arc)];
-}
-
 /// Where an extreme of one circular coordinate lies near u: zero of its derivative, Newton with a fixed
 /// count.
 double polish_extreme(const ArcShape& arc, double u, bool first) {
@@ -54,9 +50,15 @@ Path Path::tail(std::size_t i) const {
   rest.nodes_u.assign(nodes_u.begin() + at * axes_, nodes_u.end());
   rest.start_s_u.assign(start_s_u.begin() + at, start_s_u.end());
   for (PathSegment& segment : rest.segments) {
-    if (segment.arc < 0) continue;
-    rest.arcs.push_back(arcs[static_cast<std::size_t>(segment.arc)]);
-    segment.arc = static_cast<std::int32_t>(rest.arcs.size()) - 1;
+    if (segment.shape < 0) continue;
+    const auto shape = static_cast<std::size_t>(segment.shape);
+    if (segment.kind == SegmentKind::arc) {
+      segment.shape = static_cast<std::int32_t>(rest.arcs.size());
+      rest.arcs.push_back(arcs[shape]);
+    } else {
+      segment.shape = static_cast<std::int32_t>(rest.curves.size());
+      rest.curves.push_back(curves[shape]);
+    }
   }
   return rest;
 }
@@ -88,10 +90,14 @@ void eval_position(const Path& path, std::size_t segment, double s_u, std::span<
     std::copy(at.begin(), at.end(), position_u.begin());
     return;
   }
+  if (seg.kind == SegmentKind::curve) {
+    const PathCurve& curve = path.curve_of(segment);
+    return curve.position(curve.t(s_u), position_u);
+  }
   const double u = s_u / seg.length_u;
   for (std::size_t j = 0; j < from.size(); ++j) position_u[j] = from[j] + (to[j] - from[j]) * u;
   if (seg.kind == SegmentKind::arc) {
-    const ArcShape& arc = shape_of(path, segment);
+    const ArcShape& arc = path.arc_of(segment);
     const auto p = circle_derivative(arc, u, 0);
     position_u[static_cast<std::size_t>(arc.first_axis)] = p.first;
     position_u[static_cast<std::size_t>(arc.second_axis)] = p.second;
@@ -100,11 +106,17 @@ void eval_position(const Path& path, std::size_t segment, double s_u, std::span<
 
 void eval_tangent(const Path& path, std::size_t segment, double s_u, std::span<double> tangent) {
   const PathSegment& seg = path.segments[segment];
+  if (seg.kind == SegmentKind::curve) {
+    const PathCurve& curve = path.curve_of(segment);
+    const LengthDerivatives x = curve.by_length(curve.t(s_u));
+    std::copy_n(x.d1.begin(), path.axes(), tangent.begin());
+    return;
+  }
   const auto from = path.node(segment);
   const auto to = path.node(segment + 1);
   for (std::size_t j = 0; j < from.size(); ++j) tangent[j] = (to[j] - from[j]) / seg.length_u;
   if (seg.kind == SegmentKind::arc) {
-    const ArcShape& arc = shape_of(path, segment);
+    const ArcShape& arc = path.arc_of(segment);
     const auto d = circle_derivative(arc, std::clamp(s_u / seg.length_u, 0.0, 1.0), 1);
     tangent[static_cast<std::size_t>(arc.first_axis)] = d.first / seg.length_u;
     tangent[static_cast<std::size_t>(arc.second_axis)] = d.second / seg.length_u;
@@ -115,11 +127,15 @@ void eval_curvature(const Path& path, std::size_t segment, double s_u, std::span
   const PathSegment& seg = path.segments[segment];
   std::fill_n(curvature_per_u.begin(), path.axes(), 0.0);
   if (seg.kind == SegmentKind::arc) {
-    const ArcShape& arc = shape_of(path, segment);
+    const ArcShape& arc = path.arc_of(segment);
     const auto d = circle_derivative(arc, std::clamp(s_u / seg.length_u, 0.0, 1.0), 2);
     const double scale = seg.length_u * seg.length_u;
     curvature_per_u[static_cast<std::size_t>(arc.first_axis)] = d.first / scale;
     curvature_per_u[static_cast<std::size_t>(arc.second_axis)] = d.second / scale;
+  } else if (seg.kind == SegmentKind::curve) {
+    const PathCurve& curve = path.curve_of(segment);
+    const LengthDerivatives x = curve.by_length(curve.t(s_u));
+    std::copy_n(x.d2.begin(), path.axes(), curvature_per_u.begin());
   }
 }
 
@@ -127,8 +143,16 @@ std::pair<double, double> axis_extent(const Path& path, std::size_t segment, int
   const auto j = static_cast<std::size_t>(axis);
   double low = std::min(path.node(segment)[j], path.node(segment + 1)[j]);
   double high = std::max(path.node(segment)[j], path.node(segment + 1)[j]);
+  if (path.segments[segment].kind == SegmentKind::curve) {
+    const PathCurve& curve = path.curve_of(segment);
+    for (const double t : curve.turning_points(j)) {
+      const double value = curve.position(j, t);
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
   if (path.segments[segment].kind != SegmentKind::arc) return {low, high};
-  const ArcShape& arc = shape_of(path, segment);
+  const ArcShape& arc = path.arc_of(segment);
   if ((axis != arc.first_axis && axis != arc.second_axis) || arc.sweep_rad == 0.0) return {low, high};
 
   // a coordinate turns round every half turn: cos at k pi, sin at (k + 1/2) pi; the radius is monotone, so

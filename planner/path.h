@@ -5,10 +5,12 @@
 #include <span>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "gcode/block.h"
 #include "machine/machine.h"
+#include "planner/bezier/path_curve.h"
 
 /// The tool path: segments in the machine's n axes, joined end to end. Geometry only; timing is elsewhere.
 ///
@@ -18,7 +20,7 @@
 /// in mm. Suffix `_u`.
 namespace kadr::planner {
 
-enum class SegmentKind : std::uint8_t { line, arc };
+enum class SegmentKind : std::uint8_t { line, arc, curve };
 
 /// Why the operator's percent does not count on a segment.
 enum class FeedLock : std::uint8_t {
@@ -44,6 +46,9 @@ struct ArcShape {
   double sweep_rad = 0;  ///< signed, > 0 from first to second axis; several turns possible
 };
 
+/// Geometry of a segment that is not a straight line.
+using SegmentShape = std::variant<std::monostate, ArcShape, PathCurve>;
+
 /// One piece of path. Its end points are Path::node(i) and Path::node(i + 1).
 struct PathSegment {
   SegmentKind kind = SegmentKind::line;
@@ -52,7 +57,7 @@ struct PathSegment {
   FeedLock lock = FeedLock::none;
   bool path_limits = false;                           ///< feed_length_u is of X Y Z: PathLimits apply to it
   gcode::BlockKind made_by = gcode::BlockKind::feed;  ///< what the program asked for
-  std::int32_t arc = -1;                              ///< index into Path::arcs
+  std::int32_t shape = -1;  ///< arc: index into Path::arcs; curve: into Path::curves
   std::uint32_t block = 0;  ///< running number of the motion block; a spline has many segments, a tap two
   Span span;
   double length_u = 0;                          ///< > 0
@@ -60,6 +65,13 @@ struct PathSegment {
   double feed_length_u = 0;  ///< the length that the programmed feed measures (gcode::FeedLength), mm or deg
   double feed_u_s =
       0;  ///< programmed speed of s (already converted by length_u / feed_length_u); inf for a rapid
+};
+
+/// What G64 P did to a path.
+struct Smoothing {
+  std::size_t corners = 0;                               ///< rounded (RoundedCorner)
+  std::size_t curves = 0;                                ///< dense lines that became curves (PointFit)
+  double corner_deviation_u = 0, curve_deviation_u = 0;  ///< largest, from the programmed lines
 };
 
 class Path {
@@ -79,13 +91,21 @@ class Path {
     return i;
   }
 
+  /// @pre the segment is an arc; a curve
+  const ArcShape& arc_of(std::size_t i) const { return arcs[static_cast<std::size_t>(segments[i].shape)]; }
+  const PathCurve& curve_of(std::size_t i) const {
+    return curves[static_cast<std::size_t>(segments[i].shape)];
+  }
+
   /// The segments from i on; s still counts from the whole path's beginning.
   Path tail(std::size_t i) const;
 
   std::vector<PathSegment> segments;
   std::vector<ArcShape> arcs;
-  std::vector<double> nodes_u;     ///< [(segments + 1) * axes], made by build_path
-  std::vector<double> start_s_u;   ///< [segments + 1], path length at each joint; first is 0
+  std::vector<PathCurve> curves;
+  std::vector<double> nodes_u;    ///< [(segments + 1) * axes], made by build_path
+  std::vector<double> start_s_u;  ///< [segments + 1], path length at each joint; first is 0
+  Smoothing smoothing;
   std::vector<Diagnostic> faults;  ///< moves this machine can't make; plan() refuses with the first
 
  private:
@@ -109,47 +129,5 @@ constexpr bool is_motion(gcode::BlockKind kind) {
          kind == gcode::BlockKind::arc || kind == gcode::BlockKind::spline ||
          kind == gcode::BlockKind::probe || kind == gcode::BlockKind::rigid_tap;
 }
-
-/// Turns motion Blocks into a Path, one by one.
-class PathBuilder {
- public:
-  /// @param start_u position of every program axis before the first block, machine coordinates
-  PathBuilder(const machine::MachineModel& machine, const AxisValues& start_u);
-  /// Appends the block's motion; a move of zero length adds nothing. A spline becomes arcs (arcs_along), a
-  /// probing move ends at rest where the probe changes, a tap goes to its end and back, at rest between.
-  /// @pre is_motion(block.kind)
-  void add(const gcode::Block& block);
-  /// The last segment ends at rest (dwell, stop, spindle word follows).
-  void stop();
-  /// A technology point: the next block begins at that speed at most, mm/s or deg/s along what F measures.
-  void limit_speed(double speed_u_s) { speed_limit_u_s_ = std::min(speed_limit_u_s_, speed_u_s); }
-  /// The blocks from here on follow the spindle's angle, or no longer.
-  void follow_spindle(bool on) { follows_spindle_ = on; }
-  const Path& path() const { return path_; }
-  Path take() { return std::move(path_); }
-
- private:
-  using Point = AxisValues;  ///< by machine axis
-
-  PathSegment segment_of(const gcode::Block& block);
-  void add_line(PathSegment segment, const gcode::Block& block, const Point& end);
-  void add_arc(PathSegment segment, const gcode::Block& block);
-  void add_spline(PathSegment segment, const gcode::Block& block);
-  void append(const PathSegment& segment, const gcode::Block& block, const Point& end, const ArcShape& arc);
-  void set_feed(PathSegment& segment, const gcode::Block& block, double xyz_u);
-  bool plane_axes(const gcode::Block& block, ArcShape& arc);  ///< false: a fault was noted
-  ArcShape circle(ArcShape arc, double center_first_u, double center_second_u, const Point& end) const;
-  Point machine_point(const AxisValues& program) const;
-  std::span<const double> last_node() const { return path_.node(path_.size()); }
-  Point last_point() const;
-  void fault(Code code, const gcode::Block& block, std::string label, std::string help);
-
-  const machine::MachineModel& machine_;
-  Path path_;
-  std::vector<int> program_axis_;  ///< [machine axes] index into AxisValues
-  std::uint32_t blocks_ = 0;
-  bool follows_spindle_ = false;
-  double speed_limit_u_s_ = machine::kInfinity;  ///< of the next segment's beginning
-};
 
 }  // namespace kadr::planner

@@ -7,7 +7,8 @@
 
 #include "machine/base/numbers.h"
 #include "machine/base/require.h"
-#include "planner/path.h"
+#include "planner/bezier/curve_parts.h"
+#include "planner/path_builder.h"
 #include "planner/spline_arcs.h"
 
 namespace kadr::planner {
@@ -50,11 +51,22 @@ PathBuilder::PathBuilder(const machine::MachineModel& machine, const AxisValues&
 }
 
 void PathBuilder::stop() {
+  settle();
   if (!path_.segments.empty()) path_.segments.back().stop_at_end = true;
 }
 
-void PathBuilder::add(const gcode::Block& block) {
+Path PathBuilder::take() {
+  settle();
+  return std::move(path_);
+}
+
+bool PathBuilder::add(const gcode::Block& block) {
   require(is_motion(block.kind), "only moves make path");
+  add_motion(block);
+  return path_.size() > 0 && path_.segments.back().block + 1 == blocks_;
+}
+
+void PathBuilder::add_motion(const gcode::Block& block) {
   PathSegment segment = segment_of(block);
   switch (block.kind) {
     case gcode::BlockKind::arc:
@@ -100,7 +112,19 @@ void PathBuilder::add_line(PathSegment segment, const gcode::Block& block, const
   }
   segment.length_u = std::sqrt(squares);
   set_feed(segment, block, std::sqrt(xyz_squares));
-  append(segment, block, end, {});
+  const SmoothLine line = smooth_line(segment, block, end);
+  if (joins(segment, line)) {
+    if (is_dense(line)) {
+      open_curve(line);
+    } else {
+      settle();
+      if (brakes(segment, line)) return round_into(segment, block, end, line);
+    }
+  } else {
+    settle();
+  }
+  append(segment, block, end);
+  last_line_ = line;
 }
 
 void PathBuilder::add_arc(PathSegment segment, const gcode::Block& block) {
@@ -127,16 +151,18 @@ void PathBuilder::add_arc(PathSegment segment, const gcode::Block& block) {
                    end[first] - arc.center_first_u, end[second] - arc.center_second_u, block.turns,
                    block.feed_length == gcode::FeedLength::xyz ? told : 0.0, mean_radius);
   const double planar = mean_radius * std::fabs(arc.sweep_rad);
-  // a circle of radius zero is a point: what is left is the straight motion of the other axes
-  if (planar > 0.0) segment.kind = SegmentKind::arc;
   segment.length_u = std::sqrt(squares + planar * planar);
   set_feed(segment, block, std::sqrt(xyz_squares + planar * planar));
-  append(segment, block, end, arc);
+  settle();
+  // a circle of radius zero is a point: what is left is the straight motion of the other axes
+  append(segment, block, end, planar > 0.0 ? SegmentShape(arc) : SegmentShape());
 }
 
 void PathBuilder::add_spline(PathSegment segment, const gcode::Block& block) {
   ArcShape plane;
   if (!plane_axes(block, plane)) return;
+  settle();
+  if (add_curve(segment, block, plane)) return;
   std::vector<SplineControl> points;
   for (const gcode::SplinePoint& p : block.control_points) points.push_back({p.x_mm, p.y_mm, p.weight});
   const double deviation_mm = std::max(kSplineDeviation_mm, block.path_tolerance_mm);
@@ -153,18 +179,69 @@ void PathBuilder::add_spline(PathSegment segment, const gcode::Block& block) {
       end[static_cast<std::size_t>(plane.first_axis)] = piece.end_first_mm;
       end[static_cast<std::size_t>(plane.second_axis)] = piece.end_second_mm;
     }
-    ArcShape arc;
-    segment.kind = piece.arc ? SegmentKind::arc : SegmentKind::line;
+    SegmentShape shape;
     if (piece.arc) {
-      arc = circle(plane, piece.center_first_mm, piece.center_second_mm, end);
+      ArcShape arc = circle(plane, piece.center_first_mm, piece.center_second_mm, end);
       arc.sweep_rad = piece.sweep_rad;
+      shape = arc;
     }
     segment.stop_at_end = stops && last;
     segment.path_limits = true;
     segment.length_u = segment.feed_length_u = piece.length_mm;
     segment.feed_u_s = block.duration_s > 0.0 ? length_mm / block.duration_s : block.feed_u_s;
-    append(segment, block, end, arc);
+    append(segment, block, end, std::move(shape));
   }
+}
+
+/// Curvature that brakes a block at no percent of the override up to 200.
+double PathBuilder::harmless_curvature_per_u(const gcode::Block& block,
+                                             std::span<const double> control_u) const {
+  constexpr double kFastest = 2.0, kShare = 0.8;
+  const double feed_u_s = block.duration_s > 0.0
+                              ? PathCurve(control_u, program_axis_.size()).length_u() / block.duration_s
+                              : block.feed_u_s;
+  double accel = machine_.path.centripetal_accel_mm_s2;
+  for (const machine::AxisModel& axis : machine_.axis) accel = std::min(accel, kShare * axis.max_accel_u_s2);
+  return accel / (kFastest * feed_u_s * kFastest * feed_u_s);
+}
+
+/// A spline of one span without weights, which is a Bezier curve: exactly, in parts.
+bool PathBuilder::add_curve(PathSegment segment, const gcode::Block& block, const ArcShape& plane) {
+  const std::vector<gcode::SplinePoint>& points = block.control_points;
+  const auto plain = [](const gcode::SplinePoint& p) { return p.weight == 1; };
+  if (static_cast<int>(points.size()) != block.order || points.size() > PathCurve::kPowers ||
+      !std::all_of(points.begin(), points.end(), plain))
+    return false;
+  const std::size_t axes = program_axis_.size();
+  const Point start = last_point(), end = machine_point(block.end);
+  std::vector<double> control;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    // both ends are the path's own nodes, to the last bit
+    const bool last = i + 1 == points.size();
+    Point at = last ? end : start;
+    if (i > 0 && !last) {
+      at[static_cast<std::size_t>(plane.first_axis)] = points[i].x_mm;
+      at[static_cast<std::size_t>(plane.second_axis)] = points[i].y_mm;
+    }
+    control.insert(control.end(), at.begin(), at.begin() + static_cast<int>(axes));
+  }
+  const auto parts = parts_of_like_curvature(control, axes, harmless_curvature_per_u(block, control));
+  if (!parts) return false;
+  std::vector<PathCurve> curves;
+  double length_mm = 0.0;
+  for (const std::vector<double>& part : *parts) length_mm += curves.emplace_back(part, axes).length_u();
+  const bool stops = segment.stop_at_end;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const bool last = i + 1 == curves.size();
+    Point to = end;
+    if (!last) std::copy_n((*parts)[i + 1].begin(), axes, to.begin());
+    segment.stop_at_end = stops && last;
+    segment.path_limits = true;
+    segment.length_u = segment.feed_length_u = curves[i].length_u();
+    segment.feed_u_s = block.duration_s > 0.0 ? length_mm / block.duration_s : block.feed_u_s;
+    append(segment, block, to, std::move(curves[i]));
+  }
+  return true;
 }
 
 void PathBuilder::set_feed(PathSegment& segment, const gcode::Block& block, double xyz_u) {
@@ -181,7 +258,8 @@ void PathBuilder::set_feed(PathSegment& segment, const gcode::Block& block, doub
 }
 
 void PathBuilder::append(const PathSegment& segment, const gcode::Block& block, const Point& end,
-                         const ArcShape& arc) {
+                         SegmentShape shape) {
+  last_line_ = {};
   const std::size_t axes = program_axis_.size();
   const double s = path_.start_s_u.back();
   if (!(s + segment.length_u > s)) {
@@ -201,9 +279,19 @@ void PathBuilder::append(const PathSegment& segment, const gcode::Block& block, 
   path_.segments.push_back(segment);
   path_.segments.back().begin_limit_u_s = speed_limit_u_s_ * (segment.length_u / segment.feed_length_u);
   speed_limit_u_s_ = machine::kInfinity;
-  if (segment.kind != SegmentKind::arc) return;
-  path_.segments.back().arc = static_cast<std::int32_t>(path_.arcs.size());
-  path_.arcs.push_back(arc);
+  set_shape(path_.segments.back(), std::move(shape));
+}
+
+void PathBuilder::set_shape(PathSegment& segment, SegmentShape shape) {
+  if (const auto* arc = std::get_if<ArcShape>(&shape)) {
+    segment.kind = SegmentKind::arc;
+    segment.shape = static_cast<std::int32_t>(path_.arcs.size());
+    path_.arcs.push_back(*arc);
+  } else if (auto* curve = std::get_if<PathCurve>(&shape)) {
+    segment.kind = SegmentKind::curve;
+    segment.shape = static_cast<std::int32_t>(path_.curves.size());
+    path_.curves.push_back(std::move(*curve));
+  }
 }
 
 PathBuilder::Point PathBuilder::machine_point(const AxisValues& program) const {

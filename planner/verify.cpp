@@ -14,6 +14,9 @@ namespace {
 constexpr double kUlp = std::numeric_limits<double>::epsilon();
 using AxisVector = std::array<double, kProgramAxes>;
 
+// a curve's ends may miss the path's nodes by the rounding of its powers
+constexpr double kCurveEnd_u = 1e-9;
+
 using State = VerifiedState;
 State at(const JerkPiece& p, double t) { return verified_state(p, t); }
 
@@ -21,6 +24,37 @@ State at(const JerkPiece& p, double t) { return verified_state(p, t); }
 struct Derivatives {
   AxisVector d1{}, d2{}, d3{};
 };
+/// With f(t) = x(t), w = dt/ds = 1/|f'|:  x' = w f',  w' = -w^4 (f'.f''),
+/// x'' = w^2 f'' + w w' f' and so on, by the chain rule; another way than PathCurve::by_length.
+Derivatives curve_derivatives(const PathCurve& curve, double local_s) {
+  const double t = curve.t(local_s);
+  AxisVector f1{}, f2{}, f3{};
+  double p11 = 0, p12 = 0, p22 = 0, p13 = 0;
+  for (std::size_t k = 0; k < curve.axes(); ++k) {
+    double p1 = 1, p2 = 0, p3 = 0;  // t^(n-1), t^(n-2), t^(n-3), 0 for negative powers
+    for (std::size_t n = 1; n < PathCurve::kPowers; ++n) {
+      const double c = curve.coefficient(k, n), m = static_cast<double>(n);
+      f1[k] += c * m * p1;
+      f2[k] += c * m * (m - 1) * p2;
+      f3[k] += c * m * (m - 1) * (m - 2) * p3;
+      p3 = p2, p2 = p1, p1 *= t;
+    }
+    p11 += f1[k] * f1[k], p12 += f1[k] * f2[k], p22 += f2[k] * f2[k], p13 += f1[k] * f3[k];
+  }
+  // derivatives of w by t, then by s: d/ds = w d/dt
+  const double w = 1 / std::sqrt(p11);
+  const double w_t = -w * w * w * p12;
+  const double w_tt = 3 * w * w * w * w * w * p12 * p12 - w * w * w * (p22 + p13);
+  Derivatives d;
+  for (std::size_t k = 0; k < curve.axes(); ++k) {
+    d.d1[k] = w * f1[k];
+    const double slope = w_t * f1[k] + w * f2[k];  // of x' by t
+    d.d2[k] = w * slope;
+    d.d3[k] = w * (w_t * slope + w * (w_tt * f1[k] + 2 * w_t * f2[k] + w * f3[k]));
+  }
+  return d;
+}
+
 Derivatives derivatives(const Path& path, std::size_t segment, double local_s) {
   const PathSegment& seg = path.segments[segment];
   const double length = seg.length_u;
@@ -29,8 +63,9 @@ Derivatives derivatives(const Path& path, std::size_t segment, double local_s) {
     const auto i = static_cast<std::size_t>(k);
     d.d1[i] = (path.node(segment + 1)[i] - path.node(segment)[i]) / length;
   }
-  if (seg.kind != SegmentKind::arc) return d;
-  const ArcShape& arc = path.arcs[static_cast<std::size_t>(seg.arc)];
+  if (seg.kind == SegmentKind::curve) return curve_derivatives(path.curve_of(segment), local_s);
+  if (seg.kind == SegmentKind::line) return d;
+  const ArcShape& arc = path.arc_of(segment);
   const double u = std::clamp(local_s / length, 0.0, 1.0);
   const double dr = arc.radius_end_u - arc.radius_begin_u;
   const double r = arc.radius_begin_u + dr * u;
@@ -70,6 +105,7 @@ class Verifier {
       report("path without law", 0.0, 0, -1, 0.0, path_.length_u());
       return std::move(found_);
     }
+    check_curves();
     check_ends();
     for (std::size_t k = 0; k < law_.pieces.size() && !full(); ++k) {
       check_piece(k);
@@ -96,6 +132,33 @@ class Verifier {
   double speed_tolerance(double v, double a, double time) const {
     return options_.relative_tolerance * (std::fabs(v) + 1e-3 * top_speed_) +
            16.0 * kUlp * time * std::fabs(a);
+  }
+
+  /// Curves: their ends are the path's nodes, their length is that of 256 chords, within what chords lose.
+  void check_curves() {
+    constexpr int kChords = 256;
+    const std::size_t axes = machine_.axis.size();
+    for (std::size_t i = 0; i < path_.size() && !full(); ++i) {
+      if (path_.segments[i].kind != SegmentKind::curve) continue;
+      const PathCurve& curve = path_.curve_of(i);
+      const double length = path_.segments[i].length_u;
+      AxisVector from{}, to{};
+      double sum = 0, off = 0;
+      for (int k = 0; k <= kChords; ++k) {
+        curve.position(static_cast<double>(k) / kChords, {to.data(), axes});
+        double square = 0;
+        for (std::size_t j = 0; j < axes; ++j) {
+          square += (to[j] - from[j]) * (to[j] - from[j]);
+          if (k == 0) off = std::max(off, std::fabs(to[j] - path_.node(i)[j]));
+          if (k == kChords) off = std::max(off, std::fabs(to[j] - path_.node(i + 1)[j]));
+        }
+        if (k > 0) sum += std::sqrt(square);
+        from = to;
+      }
+      if (!(off <= kCurveEnd_u)) report("ends of a curve", 0.0, i, -1, off, kCurveEnd_u);
+      if (!(std::fabs(sum - length) <= 1e-4 * length) || curve.length_u() != length)
+        report("length of a curve", 0.0, i, -1, length, sum);
+    }
   }
 
   // --- the law by itself
@@ -175,8 +238,9 @@ class Verifier {
   bool moves(std::size_t i, std::size_t axis) const {
     const PathSegment& seg = path_.segments[i];
     if (path_.node(i)[axis] != path_.node(i + 1)[axis]) return true;
-    if (seg.kind != SegmentKind::arc) return false;
-    const ArcShape& arc = path_.arcs[static_cast<std::size_t>(seg.arc)];
+    if (seg.kind == SegmentKind::line) return false;
+    if (seg.kind == SegmentKind::curve) return path_.curve_of(i).moves(axis);
+    const ArcShape& arc = path_.arc_of(i);
     return static_cast<int>(axis) == arc.first_axis || static_cast<int>(axis) == arc.second_axis;
   }
   bool axes_enforced(const PathSegment& seg) const {
@@ -215,12 +279,13 @@ class Verifier {
     for (std::size_t i = segment_at(p.s_u); i < path_.size() && path_.start_s_u[i] <= s_end && !full(); ++i) {
       if (i > 0 && path_.start_s_u[i] >= p.s_u) check_joint(p, i);
       if (path_.segments[i].kind == SegmentKind::arc) look_at_quadrants(p, i);
+      if (path_.segments[i].kind == SegmentKind::curve) look_along_curve(p, i);
     }
   }
 
   /// Places of an arc where one of its coordinates turns round, or the other is fastest.
   void look_at_quadrants(const JerkPiece& p, std::size_t i) {
-    const ArcShape& arc = path_.arcs[static_cast<std::size_t>(path_.segments[i].arc)];
+    const ArcShape& arc = path_.arc_of(i);
     const double length = path_.segments[i].length_u;
     const double s_end = at(p, p.duration_s).s;
     const double quarter = kPi / 2.0;
@@ -232,6 +297,16 @@ class Verifier {
     for (double n = std::ceil(low / quarter); n * quarter <= high && !full(); n += 1.0) {
       const double s = path_.start_s_u[i] + length * (n * quarter - arc.angle_begin_rad) / arc.sweep_rad;
       look_inside(p, time_of(p, s));
+    }
+  }
+
+  /// Places of a curve, wherever the times of the grid fall.
+  void look_along_curve(const JerkPiece& p, std::size_t i) {
+    constexpr int kPlaces = 10;
+    const double s_end = at(p, p.duration_s).s;
+    for (int k = 1; k < kPlaces; ++k) {
+      const double s = path_.start_s_u[i] + path_.segments[i].length_u * k / kPlaces;
+      if (s > p.s_u && s < s_end) look_inside(p, time_of(p, s));
     }
   }
 
@@ -284,6 +359,12 @@ class Verifier {
     }
     const Derivatives d = derivatives(path_, i, x.s - path_.start_s_u[i]);
     if (seg.kind == SegmentKind::arc) check_centripetal(i, x, d, time);
+    if (seg.kind == SegmentKind::curve) {
+      double square = 0;
+      for (const double d2 : d.d2) square += d2 * d2;
+      at_most("centripetal acceleration", time, i, -1, x.v * x.v * std::sqrt(square),
+              limits.centripetal_accel_mm_s2);
+    }
     const bool enforced = axes_enforced(seg);
     for (std::size_t j = 0; j < machine_.axis.size(); ++j) {
       const machine::AxisModel& axis = machine_.axis[j];
@@ -301,7 +382,7 @@ class Verifier {
   }
 
   void check_centripetal(std::size_t i, const State& x, const Derivatives& d, double time) {
-    const ArcShape& arc = path_.arcs[static_cast<std::size_t>(path_.segments[i].arc)];
+    const ArcShape& arc = path_.arc_of(i);
     const auto f = static_cast<std::size_t>(arc.first_axis);
     const auto g = static_cast<std::size_t>(arc.second_axis);
     // the part of x'' across the direction of motion in the plane

@@ -107,6 +107,11 @@ int plan_program(const Arguments& arguments, Console& console) {
     Json j = head("plan", program, job, diagnostics);
     j["exit_code"] = code;
     j["time_s"] = planned ? Json(job.motion_s + job.dwell_s) : Json(nullptr);
+    const planner::Smoothing& smoothing = job.path.smoothing;
+    j["smoothing"] = {{"corners", smoothing.corners},
+                      {"corner_deviation_u", smoothing.corner_deviation_u},
+                      {"curves", smoothing.curves},
+                      {"curve_deviation_u", smoothing.curve_deviation_u}};
     j["rows"] = Json::array();
     // the rows of a long program are streamed into the document's last key
     std::string text = emulator::json_text(j);

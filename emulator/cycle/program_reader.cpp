@@ -38,17 +38,17 @@ void ProgramReader::take(const Block& block) {
 }
 
 void ProgramReader::take_motion(const Block& block) {
-  const std::size_t before = builder_.path().size();
+  const std::uint32_t number = builder_.blocks();
   for (LineLimit& point : job_.line_limits) {
     if (point.met || point.line != block.span.line || block.span.file != job_.program) continue;
     builder_.limit_speed(point.max_u_s);
     point.met = true;
   }
-  builder_.add(block);
+  const bool moves = builder_.add(block);
   ++job_.blocks;
   moved_by_angle_ = sync_by_angle_;
-  if (builder_.path().size() != before) {
-    for (const Block& output : outputs_) job_.events.push_back({output, before});
+  if (moves) {
+    for (const Block& output : outputs_) job_.events.push_back({output, number});
     outputs_.clear();
   }
   if (block.kind == BlockKind::probe) add_event(block);
@@ -133,7 +133,18 @@ void ProgramReader::keep_output(const Block& block) {
   outputs_.push_back(block);
 }
 
-void ProgramReader::add_event(const Block& block) { job_.events.push_back({block, builder_.path().size()}); }
+/// The place of an event is the number of the motion block that follows, until place_events().
+void ProgramReader::add_event(const Block& block) { job_.events.push_back({block, builder_.blocks()}); }
+
+/// From motion blocks to segments: a block may have none, or several.
+void ProgramReader::place_events() {
+  const std::vector<planner::PathSegment>& segments = job_.path.segments;
+  std::size_t segment = 0;
+  for (ProgramEvent& event : job_.events) {
+    while (segment < segments.size() && segments[segment].block < event.after_segment) ++segment;
+    event.after_segment = segment;
+  }
+}
 
 void ProgramReader::finish() {
   for (const LineLimit& point : job_.line_limits)
@@ -150,6 +161,7 @@ void ProgramReader::finish() {
                              "M64, M65 and M68 change an output at once"));
   outputs_.clear();
   job_.path = builder_.take();
+  place_events();
 }
 
 }  // namespace kadr::emulator

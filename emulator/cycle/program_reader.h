@@ -4,6 +4,7 @@
 
 #include "emulator/cycle/input_timeline.h"
 #include "emulator/emulator.h"
+#include "planner/path_builder.h"
 
 namespace kadr::emulator {
 
@@ -26,6 +27,7 @@ class ProgramReader {
   void take_wait(gcode::Block block);
   void keep_output(const gcode::Block& block);
   void add_event(const gcode::Block& block);
+  void place_events();
   WaitOutcome begin_wait(const gcode::InputWait& wait);
   double time_so_far_s();
 

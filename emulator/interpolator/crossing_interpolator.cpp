@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "emulator/interpolator/arc_crossings.h"
+#include "emulator/interpolator/curve_crossings.h"
 #include "emulator/interpolator/interpolator.h"
 #include "emulator/interpolator/line_crossings.h"
 #include "emulator/interpolator/node_check.h"
@@ -20,7 +21,7 @@ constexpr double kRest_u_s = 1e-6;
 // reversals are stored as 16-bit pulse numbers
 constexpr std::size_t kMostPulsesBeforeReversal = 65535;
 
-enum class Course : std::uint8_t { still, line, arc };
+enum class Course : std::uint8_t { still, line, arc, curve };
 
 /// One axis on the current segment.
 struct AxisTrack {
@@ -28,6 +29,7 @@ struct AxisTrack {
   int sign = 1;  // of the last pulse in this tick
   LineCrossings line;
   ArcCrossings arc;
+  CurveCrossings curve;
 };
 
 }  // namespace
@@ -45,11 +47,13 @@ struct CrossingInterpolator::Impl {
   void prepare(StepBatch& batch) const;
   void rest(StepBatch& batch);
   void enter(std::size_t segment);
-  void enter_axis(std::size_t axis, const planner::ArcShape* arc);
+  void enter_axis(std::size_t axis, const planner::ArcShape* arc, const planner::PathCurve* curve);
   bool reaches_joint(const planner::TickMotion& motion) const;
   void emit(const planner::TickMotion& motion, const TickClock& clock, bool whole, StepBatch& batch);
   void emit_line(std::size_t axis, const TickClock& clock, double s_end_u, bool whole, AxisPulses& pulses);
-  void emit_arc(std::size_t axis, const TickClock& clock, double s_end_u, bool whole, AxisPulses& pulses);
+  template <class Crossings>
+  void emit_runs(std::size_t axis, Crossings& crossings, const TickClock& clock, double s_end_u, bool whole,
+                 AxisPulses& pulses);
   std::uint16_t* append(std::size_t axis, std::size_t count, int sign, AxisPulses& pulses);
   void remember(std::size_t axis, const TickClock& clock, double s_u, int sign);
   void begin_commands(const planner::TickMotion& motion, bool corner, StepBatch& batch);
@@ -108,14 +112,16 @@ void CrossingInterpolator::Impl::enter(std::size_t to) {
   const planner::PathSegment& piece = path.segments[to];
   const planner::ArcShape* arc = nullptr;
   if (piece.kind == planner::SegmentKind::arc) {
-    arc = &path.arcs[static_cast<std::size_t>(piece.arc)];
+    arc = &path.arc_of(to);
     // a circle without extent is a straight line of the other axes
     if (arc->sweep_rad == 0.0 || !(std::max(arc->radius_begin_u, arc->radius_end_u) > 0.0)) arc = nullptr;
   }
-  for (std::size_t k = 0; k < axes; ++k) enter_axis(k, arc);
+  const planner::PathCurve* curve = piece.kind == planner::SegmentKind::curve ? &path.curve_of(to) : nullptr;
+  for (std::size_t k = 0; k < axes; ++k) enter_axis(k, arc, curve);
 }
 
-void CrossingInterpolator::Impl::enter_axis(std::size_t axis, const planner::ArcShape* arc) {
+void CrossingInterpolator::Impl::enter_axis(std::size_t axis, const planner::ArcShape* arc,
+                                            const planner::PathCurve* curve) {
   const double begin_u = path.node(segment)[axis], end_u = path.node(segment + 1)[axis];
   const double length_u = path.segments[segment].length_u;
   const double step_u = machine.axis[axis].step_u;
@@ -123,12 +129,16 @@ void CrossingInterpolator::Impl::enter_axis(std::size_t axis, const planner::Arc
   at.course = Course::still;
   const bool first = arc != nullptr && arc->first_axis == static_cast<int>(axis);
   const bool second = arc != nullptr && arc->second_axis == static_cast<int>(axis);
-  if (begin_u == end_u && !first && !second) {
+  const bool curved = first || second || (curve != nullptr && curve->moves(axis));
+  if (begin_u == end_u && !curved) {
     node_end[axis] = steps[axis];
     return;
   }
   node_end[axis] = lattice_node(end_u, step_u);
-  if (first || second) {
+  if (curve != nullptr && curved) {
+    at.course = Course::curve;
+    at.curve.start(*curve, axis, step_u, steps[axis], node_end[axis]);
+  } else if (first || second) {
     at.course = Course::arc;
     at.arc.start(*arc, second, step_u, {steps[axis], node_end[axis], length_u});
   } else if (node_end[axis] != steps[axis]) {
@@ -207,10 +217,13 @@ void CrossingInterpolator::Impl::emit(const planner::TickMotion& motion, const T
   ahead_u = path.start_s_u[segment] - motion.s_begin_u;
   const double s_end_u = motion.s_end_u - path.start_s_u[segment];
   for (const std::size_t k : moving) {
-    if (track[k].course == Course::line)
+    AxisTrack& at = track[k];
+    if (at.course == Course::line)
       emit_line(k, clock, s_end_u, whole, batch.axis[k]);
+    else if (at.course == Course::arc)
+      emit_runs(k, at.arc, clock, s_end_u, whole, batch.axis[k]);
     else
-      emit_arc(k, clock, s_end_u, whole, batch.axis[k]);
+      emit_runs(k, at.curve, clock, s_end_u, whole, batch.axis[k]);
     if (whole) require(steps[k] == node_end[k], "an axis ends a segment on the node of its end point");
   }
 }
@@ -228,23 +241,24 @@ void CrossingInterpolator::Impl::emit_line(std::size_t axis, const TickClock& cl
   line.next = to;
 }
 
-void CrossingInterpolator::Impl::emit_arc(std::size_t axis, const TickClock& clock, double s_end_u,
-                                          bool whole, AxisPulses& pulses) {
-  ArcCrossings& arc = track[axis].arc;
+template <class Crossings>
+void CrossingInterpolator::Impl::emit_runs(std::size_t axis, Crossings& crossings, const TickClock& clock,
+                                           double s_end_u, bool whole, AxisPulses& pulses) {
   for (;;) {
-    if (arc.next == arc.count && !arc.find_run()) return;
-    const double* s = arc.s_u.data();
+    if (crossings.next == crossings.count && !crossings.find_run()) return;
+    const double* s = crossings.s_u.data();
     const auto to =
-        whole ? arc.count : static_cast<int>(std::upper_bound(s + arc.next, s + arc.count, s_end_u) - s);
-    const auto count = static_cast<std::size_t>(to - arc.next);
+        whole ? crossings.count
+              : static_cast<int>(std::upper_bound(s + crossings.next, s + crossings.count, s_end_u) - s);
+    const auto count = static_cast<std::size_t>(to - crossings.next);
     if (count > 0) {
-      std::uint16_t* offsets = append(axis, count, arc.sign, pulses);
-      stamp_list(clock, s + arc.next, count, ahead_u, offsets);
+      std::uint16_t* offsets = append(axis, count, crossings.sign, pulses);
+      stamp_list(clock, s + crossings.next, count, ahead_u, offsets);
       if (tracing || checking)
-        for (int k = arc.next; k < to; ++k) remember(axis, clock, s[k], arc.sign);
-      arc.next = to;
+        for (int k = crossings.next; k < to; ++k) remember(axis, clock, s[k], crossings.sign);
+      crossings.next = to;
     }
-    if (to < arc.count) return;
+    if (to < crossings.count) return;
   }
 }
 

@@ -39,7 +39,7 @@ void NodeCheck::add(const planner::TickMotion& motion, const std::vector<std::in
     planner::eval_position(path_, event.segment, s_u, position_u_);
     std::fill(reach_u_.begin(), reach_u_.end(), 0.0);
     if (piece.kind == planner::SegmentKind::arc) {
-      const planner::ArcShape& arc = path_.arcs[static_cast<std::size_t>(piece.arc)];
+      const planner::ArcShape& arc = path_.arc_of(event.segment);
       reach_u_[static_cast<std::size_t>(arc.first_axis)] = std::fabs(arc.center_first_u) + arc.radius_begin_u;
       reach_u_[static_cast<std::size_t>(arc.second_axis)] =
           std::fabs(arc.center_second_u) + arc.radius_begin_u;

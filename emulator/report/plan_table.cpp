@@ -168,9 +168,19 @@ std::string PlanTable::row(const PlanRow& r) const {
 }
 
 std::string PlanTable::footer(const Job& job, std::size_t rows) const {
-  return fmt::format("{} rows, {}: {} in motion, {} standing\n", grouped(static_cast<std::int64_t>(rows)),
-                     duration_text(job.motion_s + job.dwell_s), duration_text(job.motion_s),
-                     duration_text(job.dwell_s));
+  const planner::Smoothing& smoothing = job.path.smoothing;
+  std::string out = fmt::format(
+      "{} rows, {}: {} in motion, {} standing\n", grouped(static_cast<std::int64_t>(rows)),
+      duration_text(job.motion_s + job.dwell_s), duration_text(job.motion_s), duration_text(job.dwell_s));
+  if (smoothing.corners > 0)
+    out += fmt::format("G64 P: {} corners rounded, at most {} {} from the program\n",
+                       grouped(static_cast<std::int64_t>(smoothing.corners)),
+                       fixed(smoothing.corner_deviation_u, 4), unit_);
+  if (smoothing.curves > 0)
+    out += fmt::format("G64 P: {} lines became curves through their points, at most {} {} from the program\n",
+                       grouped(static_cast<std::int64_t>(smoothing.curves)),
+                       fixed(smoothing.curve_deviation_u, 4), unit_);
+  return out;
 }
 
 std::string plan_csv_title(const machine::MachineModel& machine) {

@@ -7,6 +7,10 @@
 
 namespace kadr::emulator {
 
+namespace {
+constexpr std::size_t kCurveChords = 16;
+}
+
 std::vector<AxisTravel> axis_travel(const planner::Path& path) {
   const auto axes = static_cast<std::size_t>(path.axes());
   std::vector<AxisTravel> travel(axes);
@@ -26,8 +30,10 @@ std::vector<AxisTravel> axis_travel(const planner::Path& path) {
     // chords of a sixteenth turn lose at most 1 - cos(pi/16) of the way at each turning point
     std::size_t chords = 1;
     if (arc) {
-      const double sweep_rad = std::fabs(path.arcs[static_cast<std::size_t>(segment.arc)].sweep_rad);
+      const double sweep_rad = std::fabs(path.arc_of(i).sweep_rad);
       chords = static_cast<std::size_t>(std::min(sweep_rad / (kPi / 8), 1e6)) + 1;
+    } else if (segment.kind == planner::SegmentKind::curve) {
+      chords = kCurveChords;
     }
     const auto begin = path.node(i);
     std::copy(begin.begin(), begin.end(), from_u.begin());

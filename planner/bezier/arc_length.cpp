@@ -8,62 +8,21 @@
 namespace kadr::planner {
 namespace {
 
-// Gauss-Legendre, eight points on [-1, 1]: the four on one side
-constexpr double kPlace[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
-constexpr double kWeight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                               0.1012285362903763};
-constexpr int kFewestPanels = 16, kMostPanels = 1 << 14;
-constexpr double kSettled = 1e-14;
-constexpr int kMostIterations = 100;
+constexpr int kFewestPanels = 16;
 constexpr int kFewestParts = 8, kMostParts = 4096;
 
 }  // namespace
 
 ArcLength::ArcLength(const Bezier& curve) : curve_(curve) {
-  double before = 0;
-  for (int panels = kFewestPanels;; panels *= 2) {
-    sums_u_.assign(1, 0.0);
-    for (int i = 0; i < panels; ++i)
-      sums_u_.push_back(sums_u_.back() + panel_u(static_cast<double>(i) / panels, (i + 1.0) / panels));
-    const bool settled = std::fabs(sums_u_.back() - before) <= kSettled * sums_u_.back();
-    if (settled || panels == kMostPanels) return;
-    before = sums_u_.back();
-  }
-}
-
-double ArcLength::panel_u(double from, double to) const {
-  const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-  double sum = 0;
-  for (int i = 0; i < 4; ++i)
-    sum += kWeight[i] * (curve_.speed(middle - half * kPlace[i]) + curve_.speed(middle + half * kPlace[i]));
-  return sum * half;
+  panels_.measure([&](double t) { return curve_.speed(t); }, kFewestPanels);
 }
 
 double ArcLength::s_u(double t) const {
-  const auto panels = static_cast<double>(sums_u_.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(t * panels), sums_u_.size() - 2);
-  return sums_u_[i] + panel_u(static_cast<double>(i) / panels, t);
+  return panels_.s_u([&](double at) { return curve_.speed(at); }, t);
 }
 
 double ArcLength::t(double s_u) const {
-  if (!(s_u > 0)) return 0;
-  if (s_u >= length_u()) return 1;
-  const auto above = std::upper_bound(sums_u_.begin(), sums_u_.end(), s_u);
-  const auto i = static_cast<std::size_t>(above - sums_u_.begin()) - 1;
-  const auto panels = static_cast<double>(sums_u_.size() - 1);
-  const double begin = static_cast<double>(i) / panels;
-  double low = begin, high = static_cast<double>(i + 1) / panels;
-  double at = low + (high - low) * (s_u - sums_u_[i]) / (sums_u_[i + 1] - sums_u_[i]);
-  for (int n = 0; n < kMostIterations; ++n) {
-    const double ahead = sums_u_[i] + panel_u(begin, at) - s_u;
-    (ahead > 0 ? high : low) = at;
-    double next = at - ahead / curve_.speed(at);
-    if (std::fabs(next - at) <= 1e-16) return next;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (next == at) return at;
-    at = next;
-  }
-  return at;
+  return panels_.t([&](double at) { return curve_.speed(at); }, s_u);
 }
 
 ArcTable::ArcTable(const ArcLength& arc, int parts)

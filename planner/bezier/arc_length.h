@@ -3,26 +3,23 @@
 #include <vector>
 
 #include "planner/bezier/bezier_curve.h"
+#include "planner/bezier/length_panels.h"
 
 namespace kadr::planner {
 
-/// Arc length S(t) = integral of |B'| (paper 004), and t(S) by Newton's method inside a bracket.
-/// [0, 1] is cut into panels of one Gauss-Legendre rule of eight points each, as many as it takes until twice
-/// as many change the length by less than 1e-14 of it.
+/// Arc length S(t) of a Bezier curve and t(S), see LengthPanels.
 class ArcLength {
  public:
   explicit ArcLength(const Bezier& curve);
   const Bezier& curve() const { return curve_; }
-  double length_u() const { return sums_u_.back(); }
+  double length_u() const { return panels_.length_u(); }
   double s_u(double t) const;
   /// Exact to rounding: |S(t) - s| within some ulp of the length.
   double t(double s_u) const;
 
  private:
-  double panel_u(double from, double to) const;
-
   Bezier curve_;
-  std::vector<double> sums_u_;  ///< [panels + 1], S at the panels' ends
+  LengthPanels panels_;
 };
 
 /// t(S) by quintic pieces over equal parts of the length, with the exact dt/dS = 1/|B'| and d2t/dS2 =

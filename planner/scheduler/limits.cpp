@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "machine/base/numbers.h"
+#include "planner/bezier/curve_bounds.h"
 #include "planner/positioning/positioning.h"
 
 namespace kadr::planner {
@@ -27,7 +28,7 @@ using AxisVector = std::array<double, kProgramAxes>;
 
 struct Ends {
   AxisVector tangent_begin, tangent_end;
-  AxisVector curvature_begin, curvature_end;  // only set on arcs
+  AxisVector curvature_begin, curvature_end;  // not set on lines
   bool curved = false;
 };
 
@@ -92,15 +93,19 @@ double cube_root(double x) {
   return r;
 }
 
+/// Part of an axis' acceleration that may go into turning.
+double normal_share(double accel, double centripetal) {
+  return centripetal < kInfinity ? std::clamp(centripetal / accel, kNormalShare, kNormalShareMost)
+                                 : kNormalShare;
+}
+
 /// One circular axis on an arc: the normal part first takes its share of speed, then the tangential limits
 /// follow.
 void lower_speed_on_arc(SegmentCaps& caps, const ArcBounds& b, const machine::AxisModel& axis, int index,
                         double centripetal) {
   const double accel = axis.max_accel_u_s2 / b.skew;
-  const double share = centripetal < kInfinity
-                           ? std::clamp(centripetal / accel, kNormalShare, kNormalShareMost)
-                           : kNormalShare;
-  caps.lower_speed(std::sqrt(share * accel / b.curvature), LimitedBy::centripetal, index);
+  caps.lower_speed(std::sqrt(normal_share(accel, centripetal) * accel / b.curvature), LimitedBy::centripetal,
+                   index);
   const double jerk = axis.max_jerk_u_s3 / b.skew;
   caps.lower_speed(cube_root(kTurningJerkShare * jerk / b.turning), LimitedBy::centripetal, index);
 }
@@ -113,6 +118,32 @@ void lower_tangential_on_arc(SegmentCaps& caps, const ArcBounds& b, const machin
   const double jerk = axis.max_jerk_u_s3 / b.skew;
   caps.lower_accel(kNormalJerkShare * jerk / (3.0 * v * b.curvature));
   if (jerk < kInfinity) caps.lower_jerk((kTangentJerkShare * jerk - v * v * v * b.turning) / b.tangent);
+}
+
+/// One axis on a curve: as on an arc, with the axis' share of what happens in the plane of the curve.
+void lower_speed_on_curve(SegmentCaps& caps, const CurveBounds& b, const machine::AxisModel& axis, int index,
+                          double centripetal) {
+  const auto j = static_cast<std::size_t>(index);
+  if (!(b.plane[j] > 0.0)) return;
+  const double accel = axis.max_accel_u_s2 / b.plane[j];
+  caps.lower_speed(std::sqrt(normal_share(accel, centripetal) * accel / b.curvature_per_u),
+                   LimitedBy::centripetal, index);
+  caps.lower_speed(cube_root(kTurningJerkShare * axis.max_jerk_u_s3 / b.third_u2[j]), LimitedBy::centripetal,
+                   index);
+}
+
+void lower_tangential_on_curve(SegmentCaps& caps, const CurveBounds& b, const machine::AxisModel& axis,
+                               std::size_t j) {
+  if (!(b.plane[j] > 0.0)) return;
+  const double v = caps.speed;
+  const double accel = axis.max_accel_u_s2 / b.plane[j];
+  const double normal = v * v * b.curvature_per_u;
+  caps.lower_accel(std::sqrt(std::max(accel * accel - normal * normal, 0.0)));
+  if (!(axis.max_jerk_u_s3 < kInfinity)) return;
+  // what the curve itself leaves; its third derivative has any direction
+  const double jerk = (axis.max_jerk_u_s3 - v * v * v * b.third_u2[j]) / b.plane[j];
+  caps.lower_accel(kNormalJerkShare * jerk / (3.0 * v * b.curvature_per_u));
+  caps.lower_jerk(kTangentJerkShare * jerk);
 }
 
 class TableMaker {
@@ -154,7 +185,7 @@ class TableMaker {
  private:
   void measure_ends(std::size_t i, Ends& ends) const {
     eval_line_tangent(i, ends.tangent_begin);
-    ends.curved = path_.segments[i].kind == SegmentKind::arc;
+    ends.curved = path_.segments[i].kind != SegmentKind::line;
     if (!ends.curved) {
       ends.tangent_end = ends.tangent_begin;
       return;
@@ -188,8 +219,8 @@ class TableMaker {
     // a segment without an acceleration limit of the path keeps those of the axes, whatever the setting
     const bool enforce =
         machine_.planner.axis_limits == machine::AxisLimitRule::enforce || caps.accel == kInfinity;
-    const ArcShape* arc =
-        seg.kind == SegmentKind::arc ? &path_.arcs[static_cast<std::size_t>(seg.arc)] : nullptr;
+    if (seg.kind == SegmentKind::curve) return curve_caps(i, caps, enforce);
+    const ArcShape* arc = seg.kind == SegmentKind::arc ? &path_.arc_of(i) : nullptr;
     const ArcBounds bounds = arc ? arc_bounds(*arc, seg.length_u) : ArcBounds{};
     if (arc)
       caps.lower_speed(std::sqrt(limits.centripetal_accel_mm_s2 / bounds.curvature), LimitedBy::centripetal);
@@ -215,6 +246,22 @@ class TableMaker {
     if (arc && enforce)
       for (const int j : {arc->first_axis, arc->second_axis})
         lower_tangential_on_arc(caps, bounds, machine_.axis[static_cast<std::size_t>(j)]);
+    return caps;
+  }
+
+  SegmentCaps curve_caps(std::size_t i, SegmentCaps caps, bool enforce) const {
+    const CurveBounds bounds = curve_bounds(path_.curve_of(i));
+    const double centripetal = machine_.path.centripetal_accel_mm_s2;
+    caps.lower_speed(std::sqrt(centripetal / bounds.curvature_per_u), LimitedBy::centripetal);
+    if (!enforce) return caps;
+    for (std::size_t j = 0; j < axes_; ++j) {
+      const machine::AxisModel& axis = machine_.axis[j];
+      const int index = static_cast<int>(j);
+      if (bounds.tangent[j] > 0.0)
+        caps.lower_speed(axis.max_feed_u_s / bounds.tangent[j], LimitedBy::axis_speed, index);
+      lower_speed_on_curve(caps, bounds, axis, index, centripetal);
+    }
+    for (std::size_t j = 0; j < axes_; ++j) lower_tangential_on_curve(caps, bounds, machine_.axis[j], j);
     return caps;
   }
 

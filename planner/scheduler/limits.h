@@ -42,6 +42,10 @@ struct PathLimitTable {
 /// so that both parts together obey the axis at every angle (0.8^2 + 0.6^2 = 1). A finite centripetal limit
 /// asks for its own share instead of 0.8 A_j; it is met exactly up to 0.98 A_j.
 ///
+/// Curves (PathCurve) likewise, by bounds over the whole segment (CurveBounds: kappa, plane_j, |x'''_j|):
+///   v^2 kappa <= 0.8 A_j/plane_j,   a^2 + (v^2 kappa)^2 <= (A_j/plane_j)^2,   v^3 |x'''_j| <= 0.4 J_j
+///   J' = (J_j - v^3 |x'''_j|)/plane_j:   jerk <= 0.8 J',   3 v a kappa <= 0.6 J'
+///
 /// Joint (paper 003, section 1.2), a curvature step counting as a jump of acceleration:
 ///   v <= min_j min(a_inst_j tau, j_inst_j tau^2) / |delta e_j|,    v^2 |delta kappa_j| <= a_inst_j
 /// and 0 at both ends of a rapid that planner.rapid_law takes care of.

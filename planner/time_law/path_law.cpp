@@ -23,9 +23,10 @@ constexpr double kWiden = 0.3;   ///< an interval's length by its distance from 
 constexpr double kSlower = 0.9;  ///< of a segment's cap: a joint that is slow
 constexpr double kAtCap = 1e-9;  ///< relative: a speed that its cap holds
 
+/// Angle of an arc's intervals; a curve counts by the limits along its path, which hold all over it.
 double arc_step_rad(const Path& path, std::size_t segment, double intervals) {
   if (path.segments[segment].kind != SegmentKind::arc) return 0.0;
-  const ArcShape& arc = path.arcs[static_cast<std::size_t>(path.segments[segment].arc)];
+  const ArcShape& arc = path.arc_of(segment);
   return std::fabs(arc.sweep_rad) / intervals;
 }
 
@@ -163,8 +164,9 @@ class ProblemMaker {
     std::array<double, kProgramAxes> d1{}, d2{};
     eval_tangent(path_, i, local, {d1.data(), axes_});
     eval_curvature(path_, i, local, {d2.data(), axes_});
-    const bool counts = !even_ && (machine_.planner.axis_limits == machine::AxisLimitRule::enforce ||
-                                   path_.segments[i].rapid);
+    const bool counts =
+        !even_ && path_.segments[i].kind != SegmentKind::curve &&
+        (machine_.planner.axis_limits == machine::AxisLimitRule::enforce || path_.segments[i].rapid);
     for (std::size_t c = 0; c < axes_; ++c) {
       slope[slope.size() - axes_ + c] = counts ? d1[c] / share : 0.0;
       curvature[curvature.size() - axes_ + c] = counts ? d2[c] / share : 0.0;

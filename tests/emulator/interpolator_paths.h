@@ -95,7 +95,7 @@ class PathMaker {
   void append(const std::vector<double>& end, double length_u, std::int32_t arc_index) {
     planner::PathSegment segment;
     segment.kind = arc_index < 0 ? planner::SegmentKind::line : planner::SegmentKind::arc;
-    segment.arc = arc_index;
+    segment.shape = arc_index;
     segment.length_u = length_u;
     segment.block = static_cast<std::uint32_t>(path.segments.size());
     path.segments.push_back(segment);
@@ -189,7 +189,7 @@ inline long double exact_position(const planner::Path& path, std::size_t segment
   const long double u = static_cast<long double>(s_u) / piece.length_u;
   const auto k = static_cast<std::size_t>(axis);
   if (piece.kind == planner::SegmentKind::arc) {
-    const planner::ArcShape& arc = path.arcs[static_cast<std::size_t>(piece.arc)];
+    const planner::ArcShape& arc = path.arc_of(segment);
     const long double r =
         arc.radius_begin_u + (static_cast<long double>(arc.radius_end_u) - arc.radius_begin_u) * u;
     const long double angle = arc.angle_begin_rad + arc.sweep_rad * u;
