@@ -1,4 +1,5 @@
 #include "gcode/advice.h"
+#include "gcode/constants.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +8,6 @@
 namespace kadr::gcode {
 namespace {
 
-constexpr std::size_t kZ = 2;
 constexpr double kLevel_mm = 1e-6;       // a move that goes down by less is level
 constexpr double kSameLength_mm = 1e-3;  // of two tools
 constexpr double kLongDwell_s = 100;     // P of another control's program is in milliseconds

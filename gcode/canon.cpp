@@ -77,7 +77,7 @@ class LineWriter {
   char* at_ = buffer_.data();
 };
 
-void position(LineWriter& line, const AxisValues& v) {
+void coordinates(LineWriter& line, const AxisValues& v) {
   for (std::size_t axis = 0; axis < 3; ++axis) line.fixed(v[axis]);
   // most machines have three axes
   if (v[3] == 0 && v[4] == 0 && v[5] == 0 && v[6] == 0 && v[7] == 0 && v[8] == 0) {
@@ -91,7 +91,7 @@ void spindle(LineWriter& line, std::string_view name) {
   line.text(" 0");  // the number of the spindle
 }
 
-std::string_view plane_name(Plane plane) {
+std::string_view plane_word(Plane plane) {
   return plane == Plane::xy ? "XY" : plane == Plane::zx ? "XZ" : "YZ";
 }
 
@@ -130,17 +130,17 @@ bool write(LineWriter& line, const Block& block) {
   switch (block.kind) {
     case BlockKind::traverse:
       line.text("STRAIGHT_TRAVERSE");
-      position(line, block.end);
+      coordinates(line, block.end);
       break;
     case BlockKind::feed:
       line.text("STRAIGHT_FEED");
-      position(line, block.end);
+      coordinates(line, block.end);
       break;
     case BlockKind::arc:
       line.text("ARC_FEED");
-      position(line, block.end);
+      coordinates(line, block.end);
       line.text(" ");
-      line.text(plane_name(block.plane));
+      line.text(plane_word(block.plane));
       line.fixed(block.center_first_mm);
       line.fixed(block.center_second_mm);
       line.text(" ");
@@ -148,15 +148,15 @@ bool write(LineWriter& line, const Block& block) {
       break;
     case BlockKind::spline:
       line.text("NURBS_FEED");
-      position(line, block.end);
+      coordinates(line, block.end);
       break;
     case BlockKind::probe:
       line.text("STRAIGHT_PROBE");
-      position(line, block.end);
+      coordinates(line, block.end);
       break;
     case BlockKind::rigid_tap:
       line.text("RIGID_TAP");
-      position(line, block.end);
+      coordinates(line, block.end);
       break;
     case BlockKind::sync_start:
       line.text("START_SPEED_FEED_SYNC");

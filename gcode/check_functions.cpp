@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "gcode/constants.h"
 #include "gcode/interpreter.h"
 
 /// May these words of outputs, inputs, spindle and modal state stand together?
@@ -8,7 +9,6 @@ namespace {
 
 constexpr double kLargestChannel = 9999;
 constexpr double kLastWaitMode = 4;
-constexpr double kFullTurn_deg = 360;
 constexpr double kLastOrientWay = 2;  // P of M19: 0 the nearer way, 1 clockwise, 2 counter-clockwise
 
 }  // namespace

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
+#include "gcode/constants.h"
 #include "gcode/interpreter.h"
 
 /// May these words of tools and offsets stand together, and do they name what there is?
 namespace kadr::gcode {
 namespace {
 
-constexpr double kLargestTool = 99999;
-constexpr double kLargestOrientation = 9;
 constexpr std::size_t kToolsListed = 12;  // of a table, in a message
 
 std::string listed(const ToolTable& table) {

@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 
+#include "gcode/constants.h"
 #include "gcode/interpreter.h"
 
 namespace kadr::gcode {
 namespace {
-
-constexpr double kLargestTool = 99999;
-constexpr double kLargestOrientation = 9;
 
 /// What a tool-independent code does that compensation can't stand; empty: nothing.
 std::string_view conflict_of_nonmodal(int code) {

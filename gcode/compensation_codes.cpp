@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gcode/constants.h"
 #include "gcode/interpreter.h"
 
 namespace kadr::gcode {
 namespace {
 
-constexpr double kSecondsPerMinute = 60.0;
-constexpr double kSamePoint_u = 1e-9;
 /// LinuxCNC takes this angle for a length: under G21 it is 25.4 times as large.
 constexpr double kSweepTolerance_rad = 1e-3;
 

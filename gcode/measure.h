@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "gcode/block.h"
+#include "gcode/constants.h"
 
 namespace kadr::gcode {
 
@@ -19,7 +20,7 @@ inline double length_of(const AxisValues& from, const AxisValues& to, std::size_
 /// Sets what F measures along a straight move. The NIST rule, in this one place: X Y Z if one of them moves,
 /// else U V W, else A B C.
 inline void measure_straight(const AxisValues& from, Block& block) {
-  constexpr std::size_t kX = 0, kA = 3, kU = 6;
+  constexpr std::size_t kA = 3, kU = 6;
   block.feed_length = FeedLength::xyz;
   block.length_u = length_of(from, block.end, kX);
   if (block.length_u > 0) return;

@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gcode/constants.h"
 #include "gcode/interpreter.h"
 #include "gcode/measure.h"
 
 namespace kadr::gcode {
 namespace {
 
-constexpr double kSecondsPerMinute = 60.0;
-// absolute coordinates computed through offsets return to a point only up to rounding; nearer than this is
-// the same point
-constexpr double kSamePoint_u = 1e-9;
 constexpr double kLeastInverseFeed = 0.1;  // #<_feed> of a very slow move under G93, per minute
 
 }  // namespace

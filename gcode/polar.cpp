@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "gcode/constants.h"
 #include "gcode/interpreter.h"
 #include "machine/base/numbers.h"
 
@@ -9,7 +10,6 @@
 namespace kadr::gcode {
 namespace {
 
-constexpr double kRadiansPerDegree = kPi / 180.0;
 constexpr double kOrigin_u = 1e-12;  // nearer than this the angle is rounding
 
 }  // namespace

@@ -145,7 +145,7 @@ const std::array kEntries = {
     Entry{"_vminor", [](const Context&) { return kVersionMinor; }},
 };
 
-const std::array<std::string_view, kEntries.size()> kNames = [] {
+const std::array<std::string_view, kEntries.size()> kEntryNames = [] {
   std::array<std::string_view, kEntries.size()> names;
   for (std::size_t i = 0; i < names.size(); ++i) names[i] = kEntries[i].name;
   return names;
@@ -153,7 +153,7 @@ const std::array<std::string_view, kEntries.size()> kNames = [] {
 
 }  // namespace
 
-std::span<const std::string_view> predefined_names() { return kNames; }
+std::span<const std::string_view> predefined_names() { return kEntryNames; }
 
 bool is_predefined(std::int32_t name) { return name < static_cast<std::int32_t>(kEntries.size()); }
 

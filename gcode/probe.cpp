@@ -2,14 +2,13 @@
 
 #include <cmath>
 
+#include "gcode/constants.h"
 #include "gcode/interpreter.h"
 #include "gcode/measure.h"
 
 namespace kadr::gcode {
 namespace {
 
-constexpr double kSamePoint_u = 1e-9;
-constexpr double kSecondsPerMinute = 60.0;
 constexpr int kAway = 384;  // G38.4 G38.5
 
 bool same_point(const AxisValues& a, const AxisValues& b) {

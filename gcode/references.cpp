@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "gcode/constants.h"
 #include "gcode/interpreter.h"
 
 namespace kadr::gcode {
@@ -9,7 +10,6 @@ namespace {
 
 constexpr std::uint32_t kAllAxes = (1U << kProgramAxes) - 1;
 constexpr std::uint32_t kXYAxes = 3;
-constexpr std::size_t kX = 0, kY = 1;
 
 }  // namespace
 

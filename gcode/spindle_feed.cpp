@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gcode/constants.h"
 #include "gcode/interpreter.h"
 #include "machine/base/numbers.h"
 
 namespace kadr::gcode {
 namespace {
 
-constexpr double kSecondsPerMinute = 60.0;
 constexpr double kMillimetresPerMetre = 1000.0;
 constexpr double kMetresPerFoot = 0.3048;
 /// G96 without D: at X0 the speed would be infinite. No spindle turns faster than this.

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "gcode/constants.h"
 #include "gcode/interpreter.h"
 #include "machine/base/plane_spline.h"
 
@@ -12,7 +13,6 @@ constexpr int kQuadratic = 3;  // orders: degree and one
 constexpr int kCubic = 4;
 constexpr std::uint32_t kPlaneBits = letter_bits("XY");
 constexpr std::uint32_t kPlaneAxes = 3;  // X and Y in Uncertain::axes
-constexpr double kSecondsPerMinute = 60.0;
 
 double length_mm(const Block& block) {
   std::vector<SplineControl> points;

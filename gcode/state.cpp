@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gcode/constants.h"
 #include "machine/base/numbers.h"
 
 namespace kadr::gcode {
 namespace {
 
 constexpr double kQuarterTurn_deg = 90;
-constexpr double kFullTurn_deg = 360;
-constexpr double kRadiansPerDegree = kPi / 180;
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gcode/constants.h"
 #include "gcode/interpreter.h"
 #include "machine/base/numbers.h"
 
@@ -15,8 +16,7 @@ constexpr double kMostPasses = 10'000;
 constexpr double kRightAngle_deg = 90;
 /// LinuxCNC marks a Q that was not written with this value, so it takes Q-1 for none.
 constexpr double kNoAngle_deg = -1;
-constexpr double kRadiansPerDegree = kPi / 180;
-constexpr std::size_t kX = 0, kZ = 2, kFirstOther = 3;
+constexpr std::size_t kFirstOther = 3;
 constexpr int kEntryTaper = 1, kExitTaper = 2;
 
 }  // namespace

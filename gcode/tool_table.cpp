@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "gcode/constants.h"
 #include "gcode/message.h"
 #include "gcode/report.h"
 #include "gcode/scanner.h"
@@ -17,8 +18,6 @@ namespace kadr::gcode {
 namespace {
 
 constexpr std::string_view kLetters = "TPXYZABCUVWDIJQ";
-constexpr double kLargestNumber = 99999;  // of a tool or pocket
-constexpr double kLargestOrientation = 9;
 constexpr double kLargestOffset_u = 1e9;  // far beyond any machine
 constexpr double kWholeTolerance = 1e-4;  // RS-274/NGC
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -123,7 +122,7 @@ class TableReader {
       return fail(Code::tool_table_range, place,
                   fmt::format("{} is {:.6g}, allowed up to {:.0e}", letter, value, kLargestOffset_u));
     }
-    const double most = letter == 'Q' ? kLargestOrientation : kLargestNumber;
+    const double most = letter == 'Q' ? kLargestOrientation : kLargestTool;
     const double whole = std::floor(value + 0.5);
     if (!(std::fabs(value - whole) <= kWholeTolerance) || whole < 0 || whole > most)
       return fail(

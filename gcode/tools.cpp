@@ -1,14 +1,11 @@
 #include <fmt/format.h>
 
+#include "gcode/constants.h"
 #include "gcode/interpreter.h"
 
 /// Tools: T, M6, M61, G43 G43.1 G43.2 G49, and G10 L1 L10 L11, which write the tool table.
 namespace kadr::gcode {
-namespace {
-
-constexpr std::size_t kX = 0, kY = 1;
-
-}  // namespace
+namespace {}  // namespace
 
 void Interpreter::select_tool() {
   if (!words_.has('T')) return;

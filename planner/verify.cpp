@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "machine/base/numbers.h"
 #include "planner/verify_blocks.h"
@@ -11,7 +10,6 @@
 namespace kadr::planner {
 namespace {
 
-constexpr double kUlp = std::numeric_limits<double>::epsilon();
 using AxisVector = std::array<double, kProgramAxes>;
 
 // a curve's ends may miss the path's nodes by the rounding of its powers

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace kadr::planner {
 namespace {
 
-constexpr double kUlp = std::numeric_limits<double>::epsilon();
 // kl are numbers near 1: their products agree to this
 constexpr double kSameFeed = 1e-9;
 

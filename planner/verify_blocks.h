@@ -1,11 +1,14 @@
 #pragma once
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "planner/verify.h"
 
 /// The part of verify() that knows about blocks: plans of the blockwise scheduler.
 namespace kadr::planner {
+
+inline constexpr double kUlp = std::numeric_limits<double>::epsilon();
 
 struct VerifiedState {
   double s, v, a, j;

@@ -9,7 +9,7 @@
 namespace kadr::emulator {
 namespace {
 
-const char* unit(const machine::AxisModel& axis) {
+const char* limit_unit(const machine::AxisModel& axis) {
   return axis.kind == machine::AxisKind::rotary ? "deg" : "mm";
 }
 
@@ -23,11 +23,11 @@ void report(const planner::PathSegment& segment, const machine::AxisModel& axis,
                segment.span,
                fmt::format("axis {} leaves its soft limits", axis.letter),
                fmt::format("{} reaches {:.3f} {}, {:.3f} {} beyond the limit", axis.letter, reached_u,
-                           unit(axis), std::abs(reached_u - limit_u), unit(axis)),
+                           limit_unit(axis), std::abs(reached_u - limit_u), limit_unit(axis)),
                {},
                {}};
   d.notes.push_back(fmt::format("allowed {:.3f} to {:.3f} {} (axis {} range_{}, machine coordinates)",
-                                axis.soft_min_u, axis.soft_max_u, unit(axis), axis.letter, unit(axis)));
+                                axis.soft_min_u, axis.soft_max_u, limit_unit(axis), axis.letter, limit_unit(axis)));
   diagnostics.add(std::move(d));
 }
 

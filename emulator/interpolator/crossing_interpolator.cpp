@@ -7,6 +7,7 @@
 #include "emulator/interpolator/interpolator.h"
 #include "emulator/interpolator/line_crossings.h"
 #include "emulator/interpolator/node_check.h"
+#include "emulator/interpolator/slot_track.h"
 #include "emulator/interpolator/tick_clock.h"
 #include "machine/base/require.h"
 
@@ -50,6 +51,8 @@ struct CrossingInterpolator::Impl {
   void enter_axis(std::size_t axis, const planner::ArcShape* arc, const planner::PathCurve* curve);
   bool reaches_joint(const planner::TickMotion& motion) const;
   void emit(const planner::TickMotion& motion, const TickClock& clock, bool whole, StepBatch& batch);
+  void emit_slots(const TickClock& clock, double s_end_u, bool whole, StepBatch& batch);
+  void emit_pulse(std::size_t axis, const TickClock& clock, double s_u, int sign, AxisPulses& pulses);
   void emit_line(std::size_t axis, const TickClock& clock, double s_end_u, bool whole, AxisPulses& pulses);
   template <class Crossings>
   void emit_runs(std::size_t axis, Crossings& crossings, const TickClock& clock, double s_end_u, bool whole,
@@ -70,8 +73,10 @@ struct CrossingInterpolator::Impl {
   double reached_u = 0;  // s_end of the last tick
   double ahead_u = 0;    // segment's beginning minus the tick's beginning
 
-  std::vector<AxisTrack> track;             // [axes]
-  std::vector<std::size_t> moving;          // axes with pulses on this segment, ascending
+  std::vector<AxisTrack> track;     // [axes]
+  std::vector<std::size_t> moving;  // axes with pulses on this segment, ascending
+  SlotTrack slots;                  // another method than crossings, on this segment
+  bool by_slots = false;
   std::vector<std::int64_t> steps;          // [axes] lattice nodes now
   std::vector<std::int64_t> node_end;       // [axes] lattice nodes of the segment's end
   std::vector<double> position_u, tangent;  // [axes] at the end of the last tick
@@ -118,6 +123,7 @@ void CrossingInterpolator::Impl::enter(std::size_t to) {
   }
   const planner::PathCurve* curve = piece.kind == planner::SegmentKind::curve ? &path.curve_of(to) : nullptr;
   for (std::size_t k = 0; k < axes; ++k) enter_axis(k, arc, curve);
+  by_slots = slots.start(path, to, machine, steps, node_end);
 }
 
 void CrossingInterpolator::Impl::enter_axis(std::size_t axis, const planner::ArcShape* arc,
@@ -216,6 +222,7 @@ void CrossingInterpolator::Impl::emit(const planner::TickMotion& motion, const T
                                       StepBatch& batch) {
   ahead_u = path.start_s_u[segment] - motion.s_begin_u;
   const double s_end_u = motion.s_end_u - path.start_s_u[segment];
+  if (by_slots) return emit_slots(clock, s_end_u, whole, batch);
   for (const std::size_t k : moving) {
     AxisTrack& at = track[k];
     if (at.course == Course::line)
@@ -226,6 +233,25 @@ void CrossingInterpolator::Impl::emit(const planner::TickMotion& motion, const T
       emit_runs(k, at.curve, clock, s_end_u, whole, batch.axis[k]);
     if (whole) require(steps[k] == node_end[k], "an axis ends a segment on the node of its end point");
   }
+}
+
+/// Pulses by slots; a method that misses the segment's end is taken there at it, as controllers do.
+void CrossingInterpolator::Impl::emit_slots(const TickClock& clock, double s_end_u, bool whole,
+                                            StepBatch& batch) {
+  for (; !slots.at_end() && (whole || slots.s_u() <= s_end_u); slots.advance())
+    for (std::size_t k = 0; k < axes; ++k)
+      if (const int sign = slots.step(k); sign != 0) emit_pulse(k, clock, slots.s_u(), sign, batch.axis[k]);
+  if (!whole) return;
+  const double length_u = path.segments[segment].length_u;
+  for (std::size_t k = 0; k < axes; ++k)
+    while (steps[k] != node_end[k])
+      emit_pulse(k, clock, length_u, node_end[k] > steps[k] ? 1 : -1, batch.axis[k]);
+}
+
+void CrossingInterpolator::Impl::emit_pulse(std::size_t axis, const TickClock& clock, double s_u, int sign,
+                                            AxisPulses& pulses) {
+  *append(axis, 1, sign, pulses) = clock.offset(clock.moment_ticks(s_u + ahead_u));
+  if (tracing || checking) remember(axis, clock, s_u, sign);
 }
 
 void CrossingInterpolator::Impl::emit_line(std::size_t axis, const TickClock& clock, double s_end_u,

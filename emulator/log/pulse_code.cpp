@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMaxVarintBytes = 5;  // 32 bits, 7 in a byte
 
-tl::unexpected<std::string> invalid(const char* why) { return tl::unexpected<std::string>(why); }
+tl::unexpected<std::string> broken(const char* why) { return tl::unexpected<std::string>(why); }
 
 std::uint8_t* put_varint(std::uint8_t* out, std::uint32_t value) {
   while (value >= 0x80) {
@@ -59,11 +59,11 @@ tl::expected<void, std::string> decode_times(VarintReader& in, const PulseCounts
   std::size_t tick = 0;
   for (std::int32_t i = 0; i < counts.pulses; ++i) {
     const auto coded = in.next();
-    if (!coded) return invalid("a pulse is cut off");
+    if (!coded) return broken("a pulse is cut off");
     interval += unzigzag(*coded);
     time += interval;
-    if (interval < 0) return invalid("pulse times run back");
-    if (time >= block_ticks) return invalid("a pulse lies beyond its block of control ticks");
+    if (interval < 0) return broken("pulse times run back");
+    if (time >= block_ticks) return broken("a pulse lies beyond its block of control ticks");
     while (time >= begin + counts.control_tick_ticks) {
       begin += counts.control_tick_ticks;
       ++tick;
@@ -79,10 +79,10 @@ tl::expected<std::int64_t, std::string> next_reversal(VarintReader& in, std::int
   if (left == 0) return pulses;
   --left;
   const auto gap = in.next();
-  if (!gap) return invalid("a reversal is cut off");
-  if (*gap == 0 && !first) return invalid("two reversals at one pulse");
+  if (!gap) return broken("a reversal is cut off");
+  if (*gap == 0 && !first) return broken("two reversals at one pulse");
   const std::int64_t at = last + *gap;
-  if (at >= pulses) return invalid("a reversal beyond the last pulse");
+  if (at >= pulses) return broken("a reversal beyond the last pulse");
   return at;
 }
 
@@ -182,11 +182,11 @@ tl::expected<void, std::string> decode_pulses(std::span<const std::uint8_t> code
           "one batch for each control tick of the block");
   for (StepBatch& batch : batches) batch.axis.at(axis).clear();
   if (counts.pulses < 0 || counts.reversals < 0 || counts.reversals > counts.pulses)
-    return invalid("impossible pulse counts");
+    return broken("impossible pulse counts");
   VarintReader in(code);
   if (auto times = decode_times(in, counts, batches, axis); !times) return times;
   if (auto signs = decode_signs(in, counts, batches, axis); !signs) return signs;
-  if (!in.at_end()) return invalid("bytes left over after the last pulse");
+  if (!in.at_end()) return broken("bytes left over after the last pulse");
   return {};
 }
 

@@ -7,7 +7,7 @@
 namespace kadr::emulator {
 namespace {
 
-double seconds(Ticks ticks, const machine::MachineModel& model) {
+double at_seconds(Ticks ticks, const machine::MachineModel& model) {
   return static_cast<double>(ticks.value) / static_cast<double>(model.clock.base_hz);
 }
 
@@ -29,7 +29,7 @@ Json axis_json(const AxisSummary& x, const machine::AxisModel& axis, const machi
   j["min_u"] = x.min_u;
   j["max_u"] = x.max_u;
   j["peak_feed_u_s"] = x.peak_feed_u_s;
-  j["peak_feed_at_s"] = seconds(x.peak_feed_tick, model);
+  j["peak_feed_at_s"] = at_seconds(x.peak_feed_tick, model);
   j["peak_accel_u_s2"] = x.peak_accel_u_s2;
   j["max_accel_u_s2"] = limit(axis.max_accel_u_s2);
   j["peak_jerk_u_s3"] = x.peak_jerk_u_s3;
@@ -40,7 +40,7 @@ Json axis_json(const AxisSummary& x, const machine::AxisModel& axis, const machi
   }
   Json load;
   load["peak_vibration_u"] = x.peak_vibration_u;
-  load["peak_vibration_at_s"] = seconds(x.peak_vibration_tick, model);
+  load["peak_vibration_at_s"] = at_seconds(x.peak_vibration_tick, model);
   load["peak_vibration_line"] = x.peak_vibration_line;
   load["rms_vibration_u"] = x.rms_vibration_u;
   load["residual_u"] = x.residual_u;
@@ -60,7 +60,7 @@ Json alarm_json(const EventRecord& e, const machine::MachineModel& model) {
   Json j;
   j["code"] = code_name(e.code);
   j["tick"] = e.tick.value;
-  j["at_s"] = seconds(e.tick, model);
+  j["at_s"] = at_seconds(e.tick, model);
   j["line"] = e.span.line;
   j["axis"] = e.axis < 0 ? Json(nullptr)
                          : Json(std::string(1, model.axis.at(static_cast<std::size_t>(e.axis)).letter));
@@ -83,7 +83,7 @@ Json json_of(const RunSummary& s, const SummaryContext& c) {
   const machine::MachineModel& model = *c.model;
   Json j;
   j["outcome"] = s.outcome;
-  j["time_s"] = seconds(s.ticks, model);
+  j["time_s"] = at_seconds(s.ticks, model);
   j["ticks"] = s.ticks.value;
   j["base_hz"] = model.clock.base_hz;
   j["control_ticks"] = s.control_ticks.value;

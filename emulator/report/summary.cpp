@@ -12,7 +12,7 @@
 namespace kadr::emulator {
 namespace {
 
-constexpr std::size_t kWidth = 90;
+constexpr std::size_t kSummaryWidth = 90;
 constexpr std::size_t kHeadWidth = 15;
 constexpr std::size_t kAlarmsShown = 10;
 
@@ -50,8 +50,8 @@ std::string title(const RunSummary& s, const SummaryContext& c) {
   if (c.program_warnings > 0) right += ", " + counted(c.program_warnings, "warning");
   if (s.alarms > 0) right += ", " + counted(s.alarms, "alarm");
   const std::size_t used = display_width(left) + display_width(right);
-  return left + std::string(used + 2 < kWidth ? kWidth - used : 2, ' ') + right + '\n' +
-         std::string(kWidth, '-') + '\n';
+  return left + std::string(used + 2 < kSummaryWidth ? kSummaryWidth - used : 2, ' ') + right + '\n' +
+         std::string(kSummaryWidth, '-') + '\n';
 }
 
 std::string motion_table(const RunSummary& s, const SummaryContext& c) {
@@ -159,7 +159,7 @@ std::string render_limits(const std::vector<LimitShare>& shares) {
     const double percent = 100 * time_s / total_s;
     const std::string item =
         fmt::format("{} {} %", name, percent >= 0.95 ? fixed(percent, 0) : fixed(percent, 1));
-    if (column > 0 && kHeadWidth + 1 + column + 3 + item.size() > kWidth) {
+    if (column > 0 && kHeadWidth + 1 + column + 3 + item.size() > kSummaryWidth) {
       text += '\n' + std::string(kHeadWidth + 1, ' ');
       column = 0;
     }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kPlaces = 2000;
 
-using Read = tl::expected<std::vector<planner::BezierVector>, std::string>;
+using ReadPoints = tl::expected<std::vector<planner::BezierVector>, std::string>;
 
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> out;
@@ -25,7 +25,7 @@ std::vector<std::string> split(const std::string& text, char at) {
   return out;
 }
 
-Read read_points(const std::string& text, std::size_t& axes) {
+ReadPoints read_points(const std::string& text, std::size_t& axes) {
   std::vector<planner::BezierVector> points;
   for (const std::string& word : split(text, ' ')) {
     const std::vector<std::string> numbers = split(word, ',');

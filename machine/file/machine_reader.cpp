@@ -136,6 +136,17 @@ PlannerSettings read_planner(const Node* table, const Span& place, ReadContext& 
   return s;
 }
 
+StepMethod read_interpolator(const Node* table, const Span& place, ReadContext& context) {
+  TableReader r(table, "interpolator", place, context);
+  const auto method =
+      r.choice("method",
+               {"crossing", "classic", "half_step", "diagonal", "extra_points", "octant_midpoint", "dda",
+                "dda_preloaded", "dda_sequential", "dda_simultaneous", "progression", "chords", "ptp"},
+               0);
+  r.finish();
+  return static_cast<StepMethod>(method.value);
+}
+
 OverrideSettings read_override(const Node* table, const Span& place, ReadContext& context) {
   TableReader r(table, "override", place, context);
   OverrideSettings s;
@@ -200,11 +211,11 @@ PlantSettings read_plant_settings(const Node* table, const Span& place, const st
 std::optional<StockModel> read_stock(const Node* table, const Span& place, const MachineModel& model,
                                      ReadContext& context) {
   if (!table) return std::nullopt;
-  constexpr std::string_view kLinear = "XYZUVW";
+  constexpr std::string_view kLinearLetters = "XYZUVW";
   TableReader r(table, "stock", place, context);
   StockModel stock;
-  const auto axis = r.choice("axis", {"X", "Y", "Z", "U", "V", "W"}, kLinear.find('Z'));
-  stock.axis = kLinear[axis.value];
+  const auto axis = r.choice("axis", {"X", "Y", "Z", "U", "V", "W"}, kLinearLetters.find('Z'));
+  stock.axis = kLinearLetters[axis.value];
   stock.position_mm = r.number("position_mm", kPositionBounds).value;
   stock.below = r.flag("below", stock.below).value;
   r.finish();
@@ -263,6 +274,7 @@ MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
   model.clock = read_clock(root.table("clock"), top, context);
   model.path = read_path_limits(root.table("path"), root.table("feed"), top, context);
   model.planner = read_planner(root.table("planner"), top, context);
+  model.interpolator = read_interpolator(root.table("interpolator"), top, context);
   model.feed_override = read_override(root.table("override"), top, context);
   model.spindle = read_spindle(root.table("spindle"), top, context);
   read_axes(root, model);

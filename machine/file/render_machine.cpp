@@ -157,6 +157,12 @@ void write_settings(TomlWriter& w, const MachineModel& m) {
   constexpr std::string_view rapids[] = {"scurve", "t-zero", "zv", "zvd", "auto"};
   w.word("rapid_law", rapids[static_cast<std::size_t>(m.planner.rapid_law)]);
   w.number("rapid_frequency_pct", m.planner.rapid_frequency_pct);
+  w.table("[interpolator]", "interpolator");
+  constexpr std::string_view steps[] = {
+      "crossing", "classic",       "half_step",      "diagonal",         "extra_points", "octant_midpoint",
+      "dda",      "dda_preloaded", "dda_sequential", "dda_simultaneous", "progression",  "chords",
+      "ptp"};
+  w.word("method", steps[static_cast<std::size_t>(m.interpolator)]);
   write_override(w, m.feed_override);
   write_spindle(w, m.spindle);
   constexpr std::string_view integrators[] = {"smooth", "reference", "oracle"};

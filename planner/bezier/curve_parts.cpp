@@ -11,7 +11,7 @@ namespace {
 constexpr int kMostHalvings = 6;
 constexpr double kAlike = 0.7;        // of the largest curvature
 constexpr double kSlowest = 1e-3;     // of the largest |B'|: a cusp
-constexpr int kPlaces = 64;           // where |B'| is looked at
+constexpr int kSpeedPlaces = 64;           // where |B'| is looked at
 constexpr double kSharpest_u = 1e-3;  // a radius below is a cusp too
 
 struct Cutter {
@@ -42,8 +42,8 @@ std::optional<std::vector<std::vector<double>>> parts_of_like_curvature(std::spa
                                                                         double harmless_per_u) {
   const PathCurve whole(control_u, axes);
   double slowest = whole.speed(0), fastest = slowest;
-  for (int i = 1; i <= kPlaces; ++i) {
-    const double speed = whole.speed(static_cast<double>(i) / kPlaces);
+  for (int i = 1; i <= kSpeedPlaces; ++i) {
+    const double speed = whole.speed(static_cast<double>(i) / kSpeedPlaces);
     slowest = std::min(slowest, speed);
     fastest = std::max(fastest, speed);
   }

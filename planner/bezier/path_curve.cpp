@@ -10,7 +10,7 @@ namespace kadr::planner {
 namespace {
 
 // parts of curves, and corners, are near enough to lines and arcs that one panel is often all it takes
-constexpr int kFewestPanels = 1;
+constexpr int kCurvePanels = 1;
 
 using Vector = std::array<double, kProgramAxes>;
 
@@ -39,7 +39,7 @@ PathCurve::PathCurve(std::span<const double> control_u, std::size_t axes)
       binomial = binomial * static_cast<double>(degree - j) / static_cast<double>(j + 1);
     }
   }
-  panels_.measure([this](double t) { return speed(t); }, kFewestPanels);
+  panels_.measure([this](double t) { return speed(t); }, kCurvePanels);
 }
 
 bool PathCurve::moves(std::size_t axis) const {

@@ -12,13 +12,13 @@ namespace {
 using machine::kInfinity;
 
 constexpr int kBisections = 60;
-constexpr int kReachRounds = 12;
+constexpr int kTrackRounds = 12;
 constexpr int kDecisionsPerTick = 100'000;
 constexpr std::size_t kHoldSegments = 64;  ///< a hold looks at so many segments, then is decided anew
 constexpr double kHorizons = 8.0;     ///< longest brakings that a decision looks ahead, so that a hold lasts
 constexpr double kSamePlace = 2e-15;  ///< of the path's length: rounding of a ramp's end
 constexpr double kSnap = 10.0;        ///< slacks by which a ramp that was braked late may miss its valley
-constexpr double kRounding = 1e-12;   ///< relative, of a speed
+constexpr double kSpeedRounding = 1e-12;   ///< relative, of a speed
 constexpr double kForever_s = 1e300;
 
 /// A percent that no programmed feed resists: what is left are the hard caps.
@@ -186,14 +186,14 @@ FeedTracker::Approach FeedTracker::approach(double w) const {
     const std::size_t first = covered;
     const std::size_t most = terrain_.run_end(segment_);
     bool fits = ramp_on(way, w, limits(first, covered));
-    for (int i = 0; fits && i < kReachRounds; ++i) {
+    for (int i = 0; fits && i < kTrackRounds; ++i) {
       way.end_u = reach_u(way, w);
       if (way.done_s == 0.0 && same_speed(way.from.speed_u_s, w)) way.end_u = way.from.s_u;
       // an end that rounding takes over a joint is on it
       const double inside_u = way.end_u - slack_u_;
       const std::size_t end = std::min(terrain_.segment_at(inside_u, covered), most);
       if (end == covered) return way;
-      covered = i + 2 == kReachRounds ? most : end;
+      covered = i + 2 == kTrackRounds ? most : end;
       fits = ramp_on(way, w, limits(first, covered));
     }
     if (fits) return way;
@@ -251,7 +251,7 @@ bool FeedTracker::passed_too_fast(double w) {
   bool found = false;
   for (const Valley& q : hard_) {
     if (found || pieces_.empty() || q.s_u >= end_.s_u - slack_u_) break;
-    found = speed_at(q.s_u) > q.cap_u_s * (1.0 + kRounding);
+    found = speed_at(q.s_u) > q.cap_u_s * (1.0 + kSpeedRounding);
   }
   pieces_.clear();
   end_ = end;

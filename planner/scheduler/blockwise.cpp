@@ -3,13 +3,6 @@
 #include <algorithm>
 
 namespace kadr::planner {
-namespace {
-
-// longer blocks are refused, and need no whole number of control ticks
-constexpr double kLongest_s = 1e9;
-
-}  // namespace
-
 BlockScheduler::BlockScheduler(const Path& path, const PathLimitTable& table,
                                const machine::MachineModel& machine)
     : path_(path), table_(table), machine_(machine), brakeable_u_s_(path.size() + 1) {

@@ -7,6 +7,9 @@
 
 namespace kadr::planner {
 
+/// Longer motions are refused, and need no whole number of control ticks.
+inline constexpr double kLongest_s = 1e9;
+
 /// The scheduler of paper 003: each block (segment of the path) has a feed diagram of its own, with
 /// acceleration zero at both of its ends and, where asked, a whole number of control ticks.
 ///

@@ -18,8 +18,6 @@
 namespace kadr::planner {
 namespace {
 
-constexpr double kLongest_s = 1e9;
-
 bool all_trapezoids(const PathLimitTable& table, const Run& run) {
   return std::all_of(table.jerk_u_s3.begin() + static_cast<std::ptrdiff_t>(run.first),
                      table.jerk_u_s3.begin() + static_cast<std::ptrdiff_t>(run.last + 1),

@@ -37,8 +37,8 @@ constexpr double kWorthwhile = 1.01;
 constexpr double kSame = 1.0 + 1e-9;
 constexpr int kLevelRounds = 6;
 constexpr std::size_t kFewPlaces = 4;  // so few are looked at one by one
-constexpr int kReachRounds = 12;
-constexpr double kReachMargin = 1.25;
+constexpr int kValleyRounds = 12;
+constexpr double kValleyMargin = 1.25;
 // limits that differ by less than this inside a region are taken as their minimum when two ramps meet below
 // the level
 constexpr double kUniformEnough = 1.25;
@@ -120,9 +120,9 @@ struct ValleyPlanner::Impl {
     const std::size_t most = std::max(first, b.last_inside() / 2);
     std::size_t covered = first;
     Ramp r = make_ramp(a.v, w, limits_between(first, first));
-    for (int i = 0; i < kReachRounds; ++i) {
+    for (int i = 0; i < kValleyRounds; ++i) {
       if (covered == most || a.s + r.length <= path.start_s_u[covered + 1]) return r;
-      const double reach = std::min(a.s + kReachMargin * r.length, b.s);
+      const double reach = std::min(a.s + kValleyMargin * r.length, b.s);
       covered = std::min(locate_after(reach, a.place, b.place) / 2, most);
       r = make_ramp(a.v, w, limits_between(first, covered));
     }
@@ -135,9 +135,9 @@ struct ValleyPlanner::Impl {
     const std::size_t least = std::min(last, a.first_inside() / 2);
     std::size_t covered = last;
     Ramp r = make_ramp(b.v, w, limits_between(last, last));
-    for (int i = 0; i < kReachRounds; ++i) {
+    for (int i = 0; i < kValleyRounds; ++i) {
       if (covered == least || b.s - r.length >= path.start_s_u[covered]) return r;
-      const double reach = std::max(b.s - kReachMargin * r.length, a.s);
+      const double reach = std::max(b.s - kValleyMargin * r.length, a.s);
       const std::size_t place = locate_before(reach, b.place, a.place);
       covered = std::max(place % 2 == 0 && place > 0 ? place / 2 - 1 : place / 2, least);
       r = make_ramp(b.v, w, limits_between(covered, last));

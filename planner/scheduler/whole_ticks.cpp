@@ -8,7 +8,7 @@ namespace kadr::planner {
 namespace {
 
 // relative error of a compensated sum of correctly rounded times
-constexpr double kRounding = 4e-15;
+constexpr double kScaleRounding = 4e-15;
 
 /// A plateau with its ramps: elements [up, holds..., down].
 struct Plateau {
@@ -119,7 +119,7 @@ WholeTicks stretched_to_ticks(double time, double tau_s) {
   const double ticks = whole_number(time, tau_s);
   const double wanted = ticks * tau_s;
   return {static_cast<std::int64_t>(ticks),
-          std::fabs(wanted - time) > kRounding * time ? wanted / time : 1.0};
+          std::fabs(wanted - time) > kScaleRounding * time ? wanted / time : 1.0};
 }
 
 WholeTicks fill_whole_ticks(std::vector<Element>& run, double tau_s) {
@@ -133,7 +133,7 @@ WholeTicks fill_whole_ticks(std::vector<Element>& run, double tau_s) {
   // the rest, if it is more than rounding: near a plateau's lowest speed time is a steep function of it
   const double now = total_time_s(run);
   const double wanted = ticks * tau_s;
-  return {static_cast<std::int64_t>(ticks), std::fabs(wanted - now) > kRounding * now ? wanted / now : 1.0};
+  return {static_cast<std::int64_t>(ticks), std::fabs(wanted - now) > kScaleRounding * now ? wanted / now : 1.0};
 }
 
 }  // namespace kadr::planner

@@ -12,10 +12,10 @@ namespace kadr::planner {
 namespace {
 
 constexpr int kRounds = 24;
-constexpr double kSettled = 1e-5;    ///< relative fall of the time at which the rounds end
-constexpr double kBelow = 0.9;       ///< of the start's speeds by acceleration and jerk alone
+constexpr double kSettledTime = 1e-5;    ///< relative fall of the time at which the rounds end
+constexpr double kStartShare = 0.9;       ///< of the start's speeds by acceleration and jerk alone
 constexpr double kJerkStep = 4.0;    ///< of the jerk limit from an interval to the next
-constexpr double kLeastPart = 0.1;   ///< of the jerk limit, below which a node is not lowered
+constexpr double kLeastShare = 0.1;   ///< of the jerk limit, below which a node is not lowered
 constexpr double kStartPart = 4.5;   ///< v^3 = 4.5 j s^2 with constant jerk from rest
 constexpr double kRestEnd = 2.25;    ///< of the jerk limit, at the law's ends: there v^3 = 2 (2.25 j) ds^2
 constexpr double kRounding = 1e-12;  ///< of speeds and times that follow from k
@@ -72,7 +72,7 @@ class JerkPlanner {
       if (!law) return round > 0 ? tl::expected<void, LawFailure>() : tl::unexpected(law.error());
       v = std::move(law->speed_u_s);
       const double k = look(v);
-      if (before - time_s_ < kSettled * time_s_ && k - 1.0 < kSettled) break;
+      if (before - time_s_ < kSettledTime * time_s_ && k - 1.0 < kSettledTime) break;
       before = time_s_;
     }
     return {};
@@ -90,7 +90,7 @@ class JerkPlanner {
     for (std::size_t i = 1; i + 1 < n_; ++i) {
       const double way = std::min(p_.s_u[i] - p_.s_u.front(), p_.s_u.back() - p_.s_u[i]);
       const double by_jerk = exact_pow(kStartPart * jerk * way * way, 1.0 / 3.0);
-      v[i] = kBelow * std::min(fastest[i], by_jerk);
+      v[i] = kStartShare * std::min(fastest[i], by_jerk);
     }
     return v;
   }
@@ -119,8 +119,8 @@ class JerkPlanner {
   void lower_jerk(std::size_t node, double factor) {
     if (!(factor > 1.0)) return;
     std::size_t first = node, last = node;
-    while (part_[first] < kLeastPart && first > 0) --first;
-    while (part_[last] < kLeastPart && last + 1 < n_) ++last;
+    while (part_[first] < kLeastShare && first > 0) --first;
+    while (part_[last] < kLeastShare && last + 1 < n_) ++last;
     for (const std::size_t i : {first, last}) {
       const double by = first == last ? std::sqrt(factor) : factor;
       jerk_.before[i] /= by;

@@ -12,13 +12,13 @@ using Json = nlohmann::json;
 
 namespace {
 
-const std::string kDocs = std::string(KADR_SOURCE_DIR) + "/docs/tube";
+const std::string kTubeDocs = std::string(KADR_SOURCE_DIR) + "/docs/tube";
 
 }  // namespace
 
 TEST_CASE("a sweep of levels has a row each, and each is what the tube finds with that number alone") {
   // times and passes of laying.toml by levels: docs/time_law.md, measured with the levels in the file
-  const Finished run = call({"tube", kDocs + "/laying.toml", "--sweep-levels", "99..101", "--json"}, kDocs);
+  const Finished run = call({"tube", kTubeDocs + "/laying.toml", "--sweep-levels", "99..101", "--json"}, kTubeDocs);
   REQUIRE(run.code == 0);
   const Json document = Json::parse(run.out);
   REQUIRE(document["sweep"].size() == 3);
@@ -33,7 +33,7 @@ TEST_CASE("a sweep of levels has a row each, and each is what the tube finds wit
 
 TEST_CASE("a sweep as table, CSV and page: the cap on passes is told") {
   const Scratch scratch;
-  const std::string problem = kDocs + "/laying.toml";
+  const std::string problem = kTubeDocs + "/laying.toml";
   const Finished run = call(
       {"tube", problem, "--sweep-levels", "74..75", "--csv", "s.csv", "--page", "s.html"}, scratch.path());
   CHECK(run.code == 0);
@@ -48,7 +48,7 @@ TEST_CASE("a sweep as table, CSV and page: the cap on passes is told") {
 TEST_CASE("a range of levels that is none is refused") {
   for (const char* range : {"50", "50..", "2..10", "60..50", "3..2000", "a..b", "50..60.5"}) {
     CAPTURE(std::string(range));
-    const Finished run = call({"tube", kDocs + "/laying.toml", "--sweep-levels", range}, kDocs);
+    const Finished run = call({"tube", kTubeDocs + "/laying.toml", "--sweep-levels", range}, kTubeDocs);
     CHECK(run.code == 2);
     CHECK(run.err.find("takes A..B, levels from 3 to 2000") != std::string::npos);
   }

@@ -63,7 +63,7 @@ double lost_s(const Ride& r, const std::string& reason) {
   return 0;
 }
 
-constexpr const char* kLine = "G21 G90 G94\nG1 X100 F6000\nM2\n";
+constexpr const char* kRunLine = "G21 G90 G94\nG1 X100 F6000\nM2\n";
 constexpr const char* kCorner = "G21 G90 G94\nG1 X50 F6000\nG1 Y50\nM2\n";
 constexpr const char* kThread = "G21 G90 G94\nS1500 M3\nG33 X30 K1\nM5\nM2\n";
 
@@ -73,7 +73,7 @@ TEST_CASE(
     "an emergency stop brakes at once, also while braking and in a thread, and the run ends where the axis "
     "stands") {
   Ride cruise;
-  run_with(cruise, kLine, {at_tick(400, OperatorAction::emergency_stop)});
+  run_with(cruise, kRunLine, {at_tick(400, OperatorAction::emergency_stop)});
   CHECK(cruise.summary.outcome == "emergency stop");
   CHECK(cruise.summary.control_ticks.value == 500);  // 100 ticks from 100 mm/s
   CHECK(cruise.summary.axis[0].end_u == doctest::Approx(40.0).epsilon(1e-9));
@@ -93,11 +93,11 @@ TEST_CASE(
 
 TEST_CASE("a hold that nobody ends ends the run, and says so") {
   Ride r;
-  run_with(r, kLine, {at_tick(400, OperatorAction::hold)});
+  run_with(r, kRunLine, {at_tick(400, OperatorAction::hold)});
   CHECK(r.summary.outcome == "held");
   CHECK(alarms(r) == std::vector<Code>{Code::held_to_the_end});
   Ride zero;
-  run_with(zero, kLine, {at_tick(400, OperatorAction::feed_override, 0.0)});
+  run_with(zero, kRunLine, {at_tick(400, OperatorAction::feed_override, 0.0)});
   CHECK(zero.summary.outcome == "held");
 }
 

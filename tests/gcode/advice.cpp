@@ -13,7 +13,7 @@ using namespace kadr::gcode::test;
 namespace {
 
 /// T1 50 mm, T2 80 mm, T3 as long as T1.
-InterpretOptions with_tools() {
+InterpretOptions tool_options() {
   InterpretOptions options;
   ToolTable table;
   for (const auto& [number, length_mm] : {std::pair{1, 50.0}, {2, 80.0}, {3, 50.0}}) {
@@ -26,7 +26,7 @@ InterpretOptions with_tools() {
   return options;
 }
 
-std::vector<Code> codes(const std::string& text) { return run(text, with_tools()).codes(); }
+std::vector<Code> codes(const std::string& text) { return run(text, tool_options()).codes(); }
 
 }  // namespace
 

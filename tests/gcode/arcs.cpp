@@ -10,7 +10,7 @@ using namespace kadr::gcode::test;
 
 namespace {
 
-const double kPi = std::acos(-1.0);
+const double kPiByAcos = std::acos(-1.0);
 
 Block arc_of(const std::string& text) {
   const Outcome outcome = run("F600\n" + text + "\n");
@@ -33,7 +33,7 @@ TEST_CASE("a quarter by its centre and by its radius is the same arc of length p
     const Block b = arc_of(text);
     check_center(b, 0, 10);
     CHECK(b.turns == 1);
-    CHECK(b.length_u == doctest::Approx(5 * kPi).epsilon(1e-14));
+    CHECK(b.length_u == doctest::Approx(5 * kPiByAcos).epsilon(1e-14));
     CHECK(b.feed_u_s == 10);
   }
 }
@@ -44,35 +44,35 @@ TEST_CASE("the sign of R chooses between the short and the long way round") {
   check_center(arc_of("G3 X1 R1"), 0.5, std::sqrt(0.75));
   check_center(arc_of("G2 X1 R-1"), 0.5, std::sqrt(0.75));
   check_center(arc_of("G3 X1 R-1"), 0.5, -std::sqrt(0.75));
-  CHECK(arc_of("G2 X1 R1").length_u == doctest::Approx(kPi / 3).epsilon(1e-12));
-  CHECK(arc_of("G2 X1 R-1").length_u == doctest::Approx(5 * kPi / 3).epsilon(1e-12));
+  CHECK(arc_of("G2 X1 R1").length_u == doctest::Approx(kPiByAcos / 3).epsilon(1e-12));
+  CHECK(arc_of("G2 X1 R-1").length_u == doctest::Approx(5 * kPiByAcos / 3).epsilon(1e-12));
 }
 
 TEST_CASE("a full circle ends where it starts, further turns add whole circles") {
-  CHECK(arc_of("G3 I5").length_u == doctest::Approx(10 * kPi).epsilon(1e-14));
-  CHECK(arc_of("G2 I5 P3").length_u == doctest::Approx(30 * kPi).epsilon(1e-14));
+  CHECK(arc_of("G3 I5").length_u == doctest::Approx(10 * kPiByAcos).epsilon(1e-14));
+  CHECK(arc_of("G2 I5 P3").length_u == doctest::Approx(30 * kPiByAcos).epsilon(1e-14));
   CHECK(arc_of("G2 I5 P3").turns == -3);
-  CHECK(arc_of("G3 X10 I5 P2").length_u == doctest::Approx(15 * kPi).epsilon(1e-14));
+  CHECK(arc_of("G3 X10 I5 P2").length_u == doctest::Approx(15 * kPiByAcos).epsilon(1e-14));
 }
 
 TEST_CASE("a helix measures along the screw: 3 mm radius, one turn, pitch 8 pi gives 10 pi") {
   // sqrt((2 pi 3)^2 + (8 pi)^2) = pi sqrt(36 + 64) = 10 pi
   const Block b = arc_of("G3 I3 Z[8*ACOS[-1]/180*3.14159265358979323846]");
-  CHECK(b.length_u == doctest::Approx(10 * kPi).epsilon(1e-13));
+  CHECK(b.length_u == doctest::Approx(10 * kPiByAcos).epsilon(1e-13));
   CHECK(b.feed_length == FeedLength::xyz);
 }
 
 TEST_CASE("each plane is right-handed: G3 turns from its first to its second axis") {
   // XY: from (10,0) about the origin to (0,10)
-  CHECK(arc_of("G17 G0 X10\nG3 X0 Y10 I-10").length_u == doctest::Approx(5 * kPi).epsilon(1e-13));
+  CHECK(arc_of("G17 G0 X10\nG3 X0 Y10 I-10").length_u == doctest::Approx(5 * kPiByAcos).epsilon(1e-13));
   // ZX: first axis Z, second X: a quarter counter-clockwise goes from +Z to +X
   const Block zx = arc_of("G18 G0 Z10\nG3 X10 Z0 I0 K-10");
-  CHECK(zx.length_u == doctest::Approx(5 * kPi).epsilon(1e-13));
+  CHECK(zx.length_u == doctest::Approx(5 * kPiByAcos).epsilon(1e-13));
   CHECK(zx.plane == Plane::zx);
   check_center(zx, 0, 0);
-  CHECK(arc_of("G18 G0 Z10\nG2 X10 Z0 I0 K-10").length_u == doctest::Approx(15 * kPi).epsilon(1e-13));
+  CHECK(arc_of("G18 G0 Z10\nG2 X10 Z0 I0 K-10").length_u == doctest::Approx(15 * kPiByAcos).epsilon(1e-13));
   // YZ
-  CHECK(arc_of("G19 G0 Y10\nG3 Y0 Z10 J-10").length_u == doctest::Approx(5 * kPi).epsilon(1e-13));
+  CHECK(arc_of("G19 G0 Y10\nG3 Y0 Z10 J-10").length_u == doctest::Approx(5 * kPiByAcos).epsilon(1e-13));
 }
 
 TEST_CASE("the trace names the plane and gives the centre in its axis order") {
@@ -113,7 +113,7 @@ TEST_CASE("a radius short by up to 0.00127 mm is a half circle") {
   const Outcome outcome = run("F1 G2 X2 R0.999\n");
   CHECK(outcome.codes() == std::vector<Code>{Code::arc_by_tolerance});
   check_center(outcome.moves()[0], 1, 0);
-  CHECK(outcome.moves()[0].length_u == doctest::Approx(kPi).epsilon(1e-12));
+  CHECK(outcome.moves()[0].length_u == doctest::Approx(kPiByAcos).epsilon(1e-12));
   CHECK(run("F1 G2 X2 R1\n").codes().empty());
   CHECK(only_code("F1 G2 X2 R0.998\n") == Code::arc_radius_too_small);
 }
@@ -122,7 +122,7 @@ TEST_CASE("R a little over the half distance bulges to the right side") {
   // h = 1, R = 1.0001: offset sqrt(R^2 - 1) = 0.0141425, centre below the chord for G2
   const Block b = arc_of("G2 X2 R1.0001");
   check_center(b, 1, -std::sqrt(1.0001 * 1.0001 - 1));
-  CHECK(b.length_u < kPi);
+  CHECK(b.length_u < kPiByAcos);
 }
 
 TEST_CASE("arcs that can't be are refused each with its own code") {
@@ -155,6 +155,6 @@ TEST_CASE("the centre lies at the same distance from both ends for random arcs o
     REQUIRE(start == doctest::Approx(std::fabs(radius)).epsilon(1e-9));
     REQUIRE(end == doctest::Approx(std::fabs(radius)).epsilon(1e-9));
     // R > 0: at most half a turn
-    REQUIRE((b.length_u <= kPi * std::fabs(radius) * (1 + 1e-9)) == (radius > 0));
+    REQUIRE((b.length_u <= kPiByAcos * std::fabs(radius) * (1 + 1e-9)) == (radius > 0));
   }
 }

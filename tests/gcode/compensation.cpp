@@ -166,7 +166,7 @@ std::vector<Piece> wavy_contour(Random& random, double radius_mm) {
   return contour;
 }
 
-std::string text_of(const std::vector<Piece>& contour) {
+std::string contour_text(const std::vector<Piece>& contour) {
   std::string text;
   for (const Piece& piece : contour) {
     text += fmt::format("{} X{:.15f} Y{:.15f}",
@@ -446,7 +446,7 @@ TEST_CASE("the tool's centre stays one radius beside a random contour, length an
     const bool left = random.chance(0.5);
     const Outcome outcome =
         run(start_at(contour[0].start) + fmt::format("{} D{:.15f}\n", left ? "G41.1" : "G42.1", 2 * radius) +
-            text_of(contour) + "G40\nG0 Y900\nM2\n");
+            contour_text(contour) + "G40\nG0 Y900\nM2\n");
     CAPTURE(seed() * 7919 + i);
     REQUIRE(outcome.rendered == "");
     const std::vector<Block> moves = outcome.moves();
@@ -478,7 +478,7 @@ TEST_CASE("left of a contour and right of the same contour run backwards are one
     const std::vector<Piece> contour = wavy_contour(random, radius);
     const auto compensated = [&](const std::vector<Piece>& way, const char* code) {
       const Outcome outcome = run(start_at(way[0].start) + fmt::format("{} D{:.15f}\n", code, 2 * radius) +
-                                  text_of(way) + "G40\nG0 Y900\nM2\n");
+                                  contour_text(way) + "G40\nG0 Y900\nM2\n");
       REQUIRE(outcome.rendered == "");
       std::vector<Piece> path = pieces(outcome.moves());
       // between the first corner and the last

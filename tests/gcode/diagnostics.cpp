@@ -18,9 +18,9 @@ using namespace kadr::gcode::test;
 namespace {
 
 const std::filesystem::path kBad = std::filesystem::path(KADR_SOURCE_DIR) / "tests/bad/gcode";
-const std::string kHead = "# written by test_gcode with KADR_REGENERATE=1\n";
+const std::string kGoldenHead = "# written by test_gcode with KADR_REGENERATE=1\n";
 
-std::string contents(const std::filesystem::path& path) {
+std::string golden_text(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::stringstream text;
   text << in.rdbuf();
@@ -61,7 +61,7 @@ std::optional<ToolTable> tools_beside(std::filesystem::path path) {
   if (!std::filesystem::exists(path)) return std::nullopt;
   SourceSet sources;
   Diagnostics diagnostics;
-  return read_tool_table(sources, sources.add(SourceText("tools", contents(path))), diagnostics);
+  return read_tool_table(sources, sources.add(SourceText("tools", golden_text(path))), diagnostics);
 }
 
 /// A program, or a tool table alone.
@@ -70,11 +70,11 @@ Outcome outcome_of(const std::filesystem::path& path) {
   if (path.extension() == ".ngc") {
     InterpretOptions options = machine_for(name);
     options.tools = tools_beside(path);
-    return run(contents(path), options, name);
+    return run(golden_text(path), options, name);
   }
   Outcome outcome;
   SourceSet sources;
-  const std::uint32_t file = sources.add(SourceText(name, contents(path)));
+  const std::uint32_t file = sources.add(SourceText(name, golden_text(path)));
   read_tool_table(sources, file, outcome.diagnostics);
   for (const Diagnostic& d : outcome.diagnostics.list()) outcome.rendered += render_human(d, sources);
   return outcome;
@@ -85,12 +85,12 @@ Outcome outcome_of(const std::filesystem::path& path) {
 TEST_CASE("each bad program is told in the words of its golden text") {
   REQUIRE(bad_programs().size() > 40);
   for (const auto& path : bad_programs()) {
-    const std::string rendered = kHead + outcome_of(path).rendered;
+    const std::string rendered = kGoldenHead + outcome_of(path).rendered;
     auto golden = path;
     golden.replace_extension(".txt");
     if (std::getenv("KADR_REGENERATE") != nullptr) std::ofstream(golden, std::ios::binary) << rendered;
     CAPTURE(path.string());
-    CHECK(rendered == contents(golden));
+    CHECK(rendered == golden_text(golden));
   }
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("a bad program is told under the code that begins its name, and every 
 }
 
 TEST_CASE("six mistakes in one program give exactly six diagnostics") {
-  const Outcome outcome = run(contents(kBad / "six_mistakes.ngc"), small_machine());
+  const Outcome outcome = run(golden_text(kBad / "six_mistakes.ngc"), small_machine());
   CHECK(outcome.codes() == std::vector<Code>{Code::word_not_run, Code::bad_number, Code::arc_end_off_circle,
                                              Code::axis_not_on_machine, Code::decimal_comma,
                                              Code::word_unused});

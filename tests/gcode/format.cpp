@@ -59,7 +59,7 @@ void check_form(const std::string& text) {
   REQUIRE(meaning(once) == meaning(text));
 }
 
-std::string contents(const fs::path& path) {
+std::string file_text(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::stringstream text;
   text << in.rdbuf();
@@ -216,7 +216,7 @@ TEST_CASE("the form of every program of the scenarios and of every bad program m
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(KADR_SOURCE_DIR) / folder)) {
       if (entry.path().extension() != ".ngc") continue;
       CAPTURE(entry.path().string());
-      check_form(contents(entry.path()));
+      check_form(file_text(entry.path()));
       ++programs;
     }
   }

@@ -34,7 +34,7 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-std::string joined(const std::vector<std::string>& words) {
+std::string one_text(const std::vector<std::string>& words) {
   std::string line;
   for (const std::string& word : words) line += word;
   return line;
@@ -111,7 +111,7 @@ std::string with_mistake(Random& random, const std::string& line) {
       words.push_back(" " + other());
       words.push_back(" " + other());
   }
-  std::string damaged = joined(words);
+  std::string damaged = one_text(words);
   // rs274 takes the second of two polar words of a kind; kadr tells it
   for (const char polar : {'@', '^'}) {
     if (std::count(damaged.begin(), damaged.end(), polar) > 1) return line;

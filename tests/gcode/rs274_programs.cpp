@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr int kTools = 99;
 constexpr std::uintmax_t kLargestProgram_bytes = 4 << 20;
 
-std::string contents(const fs::path& path) {
+std::string program_text(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::stringstream text;
   text << in.rdbuf();
@@ -44,7 +44,7 @@ ToolTable tools_of(const fs::path& path) {
   if (fs::exists(beside)) {
     SourceSet sources;
     Diagnostics diagnostics;
-    return read_tool_table(sources, sources.add(SourceText(beside.string(), contents(beside))), diagnostics);
+    return read_tool_table(sources, sources.add(SourceText(beside.string(), program_text(beside))), diagnostics);
   }
   for (int number = 1; number <= kTools; ++number) {
     Tool tool;
@@ -57,12 +57,12 @@ ToolTable tools_of(const fs::path& path) {
 }
 
 /// A program with the files of its folder, which it may call.
-TestProgram read_program(const fs::path& path) {
+TestProgram read_lines(const fs::path& path) {
   TestProgram program;
-  program.text = contents(path);
+  program.text = program_text(path);
   for (const auto& entry : fs::directory_iterator(path.parent_path())) {
     if (entry.is_regular_file() && entry.path().extension() == ".ngc" && entry.path() != path)
-      program.files[entry.path().filename().string()] = contents(entry.path());
+      program.files[entry.path().filename().string()] = program_text(entry.path());
   }
   program.tools = tools_of(path);
   program.diameter_unit_mm = 25.4;  // what rs274 takes where it compensates
@@ -82,7 +82,7 @@ TEST_CASE("the programs of a folder make the same canonical calls as in rs274") 
   }
   std::size_t compared = 0, refused = 0, endless = 0, unfinished = 0;
   for (const fs::path& path : programs_under(folder)) {
-    const TestProgram program = read_program(path);
+    const TestProgram program = read_lines(path);
     const Trace other = oracle_trace(rs274, program);
     if (other.timed_out) {
       ++endless;

@@ -15,7 +15,7 @@ using namespace kadr;
 
 namespace {
 
-std::uint64_t environment(const char* name, std::uint64_t otherwise) {
+std::uint64_t seed_of(const char* name, std::uint64_t otherwise) {
   const char* text = std::getenv(name);
   return text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
@@ -30,8 +30,8 @@ double error_ulp(double value, long double reference) {
 /// Calls f(u) for random u in [0, 1), KADR_COUNT times.
 template <class F>
 void sample(F&& f) {
-  std::mt19937_64 random(environment("KADR_SEED", 1));
-  const std::uint64_t count = environment("KADR_COUNT", 1'000'000);
+  std::mt19937_64 random(seed_of("KADR_SEED", 1));
+  const std::uint64_t count = seed_of("KADR_COUNT", 1'000'000);
   for (std::uint64_t i = 0; i < count; ++i) f(static_cast<double>(random() >> 11) * 0x1p-53);
 }
 
@@ -210,7 +210,7 @@ TEST_CASE("a number is read without a locale, and a decimal comma is never one")
 }
 
 TEST_CASE("the shortest text of any double reads back as the same double") {
-  std::mt19937_64 random(environment("KADR_SEED", 1));
+  std::mt19937_64 random(seed_of("KADR_SEED", 1));
   for (int i = 0; i < 100'000; ++i) {
     double x = 0;
     const std::uint64_t bits = random();

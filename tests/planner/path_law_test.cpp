@@ -11,7 +11,7 @@ using machine::PlanMethod;
 
 namespace {
 
-void check_plan(const planner::Path& path, const planner::FeedPlan& plan,
+void check_law_plan(const planner::Path& path, const planner::FeedPlan& plan,
                 const machine::MachineModel& machine) {
   for (const planner::Violation& v : planner::verify(path, plan, machine))
     FAIL_CHECK(fmt::format("{} at {} s, segment {}, axis {}: {} (limit {})", v.what, v.time_s, v.segment,
@@ -34,7 +34,7 @@ TEST_CASE("random programs on random machines under a time law break no limit") 
     CAPTURE(static_cast<int>(machine.planner.method));
     const auto plan = planner::plan(path, machine);
     CHECK_MESSAGE(plan.has_value(), plan.error().diagnostic.label);
-    if (plan) check_plan(path, *plan, machine);
+    if (plan) check_law_plan(path, *plan, machine);
   }
 }
 

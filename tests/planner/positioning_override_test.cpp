@@ -33,7 +33,7 @@ machine::MachineModel flexible(RapidShape shape) {
   return m;
 }
 
-struct Ride {
+struct RapidRide {
   std::vector<TickMotion> ticks;
   double end_u = 0;
   bool stopped = false;
@@ -61,7 +61,7 @@ struct Ride {
   }
 };
 
-Ride ride(const machine::MachineModel& machine, const std::function<void(ProgramWriter&)>& program,
+RapidRide rapid_ride(const machine::MachineModel& machine, const std::function<void(ProgramWriter&)>& program,
           const std::function<void(std::size_t, OperatorInput&)>& hand) {
   ProgramWriter writer(machine);
   program(writer);
@@ -69,7 +69,7 @@ Ride ride(const machine::MachineModel& machine, const std::function<void(Program
   const planner::FeedPlan plan = planned(path, machine);
   const auto source = planner::override_source(path, plan, machine, 1.0);
   OperatorInput input;
-  Ride r;
+  RapidRide r;
   double s = 0, v = 0;
   bool joined = true;
   while (!source->finished() && !source->stopped() && r.ticks.size() < 20'000) {
@@ -101,8 +101,8 @@ const auto percent_from = [](std::size_t from, double ratio) {
 TEST_CASE("a rapid under a percent is slower and as silent") {
   for (const RapidShape shape : {RapidShape::t_zero, RapidShape::zv, RapidShape::zvd}) {
     const machine::MachineModel m = flexible(shape);
-    const Ride full = ride(m, kRapid, percent_from(0, 1.0));
-    const Ride half = ride(m, kRapid, percent_from(0, 0.5));
+    const RapidRide full = rapid_ride(m, kRapid, percent_from(0, 1.0));
+    const RapidRide half = rapid_ride(m, kRapid, percent_from(0, 0.5));
     CHECK(full.swing_u(m) < 1e-3 * kJump_mm);
     CHECK(half.swing_u(m) < 1e-3 * kJump_mm);
     CHECK(half.top_u_s() <= 100 * (1 + 1e-9));
@@ -111,7 +111,7 @@ TEST_CASE("a rapid under a percent is slower and as silent") {
   }
   // planned as any other move it rings (at 30 %: 60 mm/s, 33.3 periods between the ramps)
   const machine::MachineModel other = flexible(RapidShape::scurve);
-  CHECK(ride(other, kRapid, percent_from(0, 0.3)).swing_u(other) > 0.05 * kJump_mm);
+  CHECK(rapid_ride(other, kRapid, percent_from(0, 0.3)).swing_u(other) > 0.05 * kJump_mm);
 }
 
 TEST_CASE("a percent that changes within a rapid counts from the next one") {
@@ -120,14 +120,14 @@ TEST_CASE("a percent that changes within a rapid counts from the next one") {
     w.rapid(xyz(100));
     w.rapid(xyz(0));
   };
-  const Ride r = ride(m, there_and_back, percent_from(200, 0.5));
+  const RapidRide r = rapid_ride(m, there_and_back, percent_from(200, 0.5));
   CHECK(r.noted(OverrideNote::deferred) > 0);
-  const std::size_t first = ride(m, kRapid, percent_from(0, 1.0)).ticks.size();
-  const std::size_t slow = ride(m, kRapid, percent_from(0, 0.5)).ticks.size();
+  const std::size_t first = rapid_ride(m, kRapid, percent_from(0, 1.0)).ticks.size();
+  const std::size_t slow = rapid_ride(m, kRapid, percent_from(0, 0.5)).ticks.size();
   CHECK(r.ticks.size() == first + slow);
   CHECK(r.swing_u(m) < 1e-3 * kJump_mm);
   // and back to 100 % within the slow one
-  const Ride back = ride(m, there_and_back, [](std::size_t tick, OperatorInput& input) {
+  const RapidRide back = rapid_ride(m, there_and_back, [](std::size_t tick, OperatorInput& input) {
     input.rapid_override = tick < 300 ? 0.5 : 1.0;
   });
   CHECK(back.ticks.size() == first + slow);
@@ -136,8 +136,8 @@ TEST_CASE("a percent that changes within a rapid counts from the next one") {
 
 TEST_CASE("the feed's percent does not change a rapid") {
   const machine::MachineModel m = flexible(RapidShape::zv);
-  const Ride full = ride(m, kRapid, percent_from(0, 1.0));
-  const Ride r = ride(m, kRapid, [](std::size_t, OperatorInput& input) { input.feed_override = 0.3; });
+  const RapidRide full = rapid_ride(m, kRapid, percent_from(0, 1.0));
+  const RapidRide r = rapid_ride(m, kRapid, [](std::size_t, OperatorInput& input) { input.feed_override = 0.3; });
   REQUIRE(r.ticks.size() == full.ticks.size());
   for (std::size_t i = 0; i < r.ticks.size(); ++i) CHECK(r.ticks[i].s_end_u == full.ticks[i].s_end_u);
   // a feed move at 30 %, and then the rapid as planned
@@ -145,26 +145,26 @@ TEST_CASE("the feed's percent does not change a rapid") {
     w.line(xyz(20), 100);
     w.rapid(xyz(120));
   };
-  const Ride both = ride(m, feed_first, [](std::size_t, OperatorInput& input) { input.feed_override = 0.3; });
+  const RapidRide both = rapid_ride(m, feed_first, [](std::size_t, OperatorInput& input) { input.feed_override = 0.3; });
   CHECK(both.ticks[both.ticks.size() - full.ticks.size()].s_begin_u == doctest::Approx(20).epsilon(1e-9));
 }
 
 TEST_CASE("a rapid waits where it stands while its percent is 0, and while the feed is held") {
   const machine::MachineModel m = flexible(RapidShape::zvd);
-  const std::size_t full = ride(m, kRapid, percent_from(0, 1.0)).ticks.size();
-  const Ride zero = ride(m, kRapid, [](std::size_t tick, OperatorInput& input) {
+  const std::size_t full = rapid_ride(m, kRapid, percent_from(0, 1.0)).ticks.size();
+  const RapidRide zero = rapid_ride(m, kRapid, [](std::size_t tick, OperatorInput& input) {
     input.rapid_override = tick < 50 ? 0.0 : 1.0;
   });
   CHECK(zero.ticks.size() == full + 50);
   CHECK(zero.swing_u(m) < 1e-3 * kJump_mm);
-  const Ride held = ride(m, kRapid, [](std::size_t tick, OperatorInput& input) { input.hold = tick < 70; });
+  const RapidRide held = rapid_ride(m, kRapid, [](std::size_t tick, OperatorInput& input) { input.hold = tick < 70; });
   CHECK(held.ticks.size() == full + 70);
 }
 
 TEST_CASE("a feed hold within a rapid brakes it at once and it goes on to its end") {
   for (const double ratio : {1.0, 0.5}) {
     const machine::MachineModel m = flexible(RapidShape::zv);
-    const Ride r = ride(m, kRapid, [&](std::size_t tick, OperatorInput& input) {
+    const RapidRide r = rapid_ride(m, kRapid, [&](std::size_t tick, OperatorInput& input) {
       input.rapid_override = ratio;
       input.hold = tick >= 250 && tick < 800;
     });
@@ -177,7 +177,7 @@ TEST_CASE("a feed hold within a rapid brakes it at once and it goes on to its en
 TEST_CASE("an emergency stop within a rapid stops it") {
   for (const double ratio : {1.0, 0.5}) {
     const machine::MachineModel m = flexible(RapidShape::zv);
-    const Ride r = ride(m, kRapid, [&](std::size_t tick, OperatorInput& input) {
+    const RapidRide r = rapid_ride(m, kRapid, [&](std::size_t tick, OperatorInput& input) {
       input.rapid_override = ratio;
       input.emergency_stop = tick >= 250;
     });

@@ -15,8 +15,8 @@ using namespace kadr::plant;
 
 namespace {
 
-constexpr double kPi_ = 3.14159265358979323846;
-constexpr double kW = 100 * kPi_ / 3;
+constexpr double kSpringPi_ = 3.14159265358979323846;
+constexpr double kSpringW = 100 * kSpringPi_ / 3;
 
 machine::MachineModel rig() {
   machine::AxisModel axis;
@@ -25,10 +25,10 @@ machine::MachineModel rig() {
   axis.plant = {.motor = machine::MotorModel::spring,
                 .base_mass = 4.5,
                 .link_mass = 1,
-                .link_stiffness = kW * kW,
-                .link_damping = 2 * 0.005 * kW,
-                .motor_stiffness = 5.5 * (100 * kPi_) * (100 * kPi_),
-                .motor_damping = 0.2 * 100 * kPi_ * 5.5};
+                .link_stiffness = kSpringW * kSpringW,
+                .link_damping = 2 * 0.005 * kSpringW,
+                .motor_stiffness = 5.5 * (100 * kSpringPi_) * (100 * kSpringPi_),
+                .motor_damping = 0.2 * 100 * kSpringPi_ * 5.5};
   machine::MachineModel model;
   model.axis = {axis};
   return model;
@@ -78,7 +78,7 @@ TEST_CASE(
     CHECK(s.link_u * 1e-3 == doctest::Approx(e.x1).epsilon(1e-9).scale(0));
     CHECK(s.link_u_s * 1e-3 == doctest::Approx(e.v1).epsilon(1e-9).scale(0));
     const double lag_m = static_cast<double>(std::min(e.steps, e.ticks)) * 1e-5 - e.x0;
-    const double force_N = 5.5 * (100 * kPi_) * (100 * kPi_) * lag_m - 0.2 * 100 * kPi_ * 5.5 * e.v0;
+    const double force_N = 5.5 * (100 * kSpringPi_) * (100 * kSpringPi_) * lag_m - 0.2 * 100 * kSpringPi_ * 5.5 * e.v0;
     CHECK(s.motor_force == doctest::Approx(force_N).epsilon(1e-8));
   }
 }
@@ -103,9 +103,9 @@ TEST_CASE(
   // F = (m0 + m1) A for 0.36 tf, 0 for 0.28 tf, -F for 0.36 tf; A = 3.5/(16 * 0.36 * 0.64), tf = 4 s; w = 100
   // pi/3. x0 = R - m1 x1/M with R'' = F/M; x1 as a base-driven link of frequency w sqrt(1 + 1/4.5), forced by
   // -F/m0.
-  const double m0 = 4.5, m1 = 1, k = kW * kW, force_N = 5.5 * 3.5 / (16 * 0.36 * 0.64);
+  const double m0 = 4.5, m1 = 1, k = kSpringW * kSpringW, force_N = 5.5 * 3.5 / (16 * 0.36 * 0.64);
   for (double zeta : {0.0, 0.005}) {
-    const double c = 2 * zeta * kW;
+    const double c = 2 * zeta * kSpringW;
     const Matrix<5> system{{{{0, 1, 0, 0, 0},
                              {0, 0, k / m0, c / m0, 1 / m0},
                              {0, 0, 0, 1, 0},
