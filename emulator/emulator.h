@@ -86,8 +86,8 @@ struct Job {
   std::vector<OperatorStep> operator_steps;  ///< by tick those that have one, in the file's order the others
   std::vector<LineLimit> line_limits;        ///< technology points of a scenario
   std::vector<PlaceLimit> place_limits;
-  std::vector<std::uint32_t> called_files;   ///< indices in sources, in the order of their first call
-  std::vector<ProgramEvent> events;          ///< ascending in after_segment
+  std::vector<std::uint32_t> called_files;  ///< indices in sources, in the order of their first call
+  std::vector<ProgramEvent> events;         ///< ascending in after_segment
   planner::Path path{0};
   planner::FeedPlan plan;    ///< laws of the runs, in path order, pauses not included
   std::uint32_t blocks = 0;  ///< motion blocks

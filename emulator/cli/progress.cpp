@@ -34,8 +34,8 @@ int percent(double done) { return static_cast<int>(std::clamp(done, 0.0, 1.0) * 
 
 std::string progress_bar(double done, std::uint32_t line, std::uint32_t lines, double sim_s, double wall_s) {
   const double rate = wall_s > 0 ? sim_s / wall_s : 0;
-  std::string text = fmt::format("run  {}  {:2} %  line {}/{}  {:.1f} s of machine  {:.{}f}x real time", cells(done),
-                                 percent(done), line, lines, sim_s, rate, rate < 10 ? 1 : 0);
+  std::string text = fmt::format("run  {}  {:2} %  line {}/{}  {:.1f} s of machine  {:.{}f}x real time",
+                                 cells(done), percent(done), line, lines, sim_s, rate, rate < 10 ? 1 : 0);
   if (done > 0.01) {
     const double left_s = std::min(wall_s * (1 - std::min(done, 1.0)) / done, 359'999.0);
     const int seconds = static_cast<int>(left_s + 0.5);

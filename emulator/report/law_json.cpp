@@ -52,20 +52,15 @@ Json tube_json(const TubeStory& tube) {
 Json program_json(const TimeLawProblem& problem) {
   if (!problem.program) return nullptr;
   const ProgramPath& p = *problem.program;
-  Json j = {{"file", p.program},
-            {"machine", p.machine},
-            {"pieces", p.run.last - p.run.first + 1},
-            {"first_line", p.first_line},
-            {"last_line", p.last_line},
-            {"fit", nullptr}};
+  Json j = {
+      {"file", p.program},          {"machine", p.machine},     {"pieces", p.run.last - p.run.first + 1},
+      {"first_line", p.first_line}, {"last_line", p.last_line}, {"fit", nullptr}};
   if (!p.fit) return j;
-  j["fit"] = {{"points", p.fit->path.rows()},
-              {"deviation_mm", p.fit->deviation_u},
-              {"deviation_s_mm", p.fit->deviation_s_u},
-              {"deviation_line", p.path.segments[p.fit->segment].span.line},
-              {"tolerance_mm", p.tolerance_mm},
-              {"least_slope", p.fit->least_slope},
-              {"most_slope", p.fit->most_slope}};
+  j["fit"] = {
+      {"points", p.fit->path.rows()},           {"deviation_mm", p.fit->deviation_u},
+      {"deviation_s_mm", p.fit->deviation_s_u}, {"deviation_line", p.path.segments[p.fit->segment].span.line},
+      {"tolerance_mm", p.tolerance_mm},         {"least_slope", p.fit->least_slope},
+      {"most_slope", p.fit->most_slope}};
   return j;
 }
 

@@ -33,19 +33,20 @@ std::string render_shares(const LawStudy& study, const TimeLawProblem& problem) 
   const MethodOutcome* fastest = nullptr;
   for (const MethodOutcome& o : study.outcomes)
     if (o.law && (!fastest || o.law->time_s < fastest->law->time_s)) fastest = &o;
-  std::string out;
-  std::string line = "held by  ";
-  for (const auto& [name, nodes] : law_shares(*fastest->law, problem)) {
-    const double percent =
-        100 * static_cast<double>(nodes) / static_cast<double>(problem.law.nodes() - 1);
-    const std::string share = fmt::format("{} {} %   ", name, fixed(percent, percent < 1 ? 1 : 0));
-    if (line.size() + share.size() > kLineLength) {
+  std::string out, line = "held by  ";
+  const auto add = [&](const std::string& text) {
+    if (line.size() + text.size() > kLineLength) {
       out += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
       line = "         ";
     }
-    line += share;
+    line += text;
+  };
+  for (const auto& [name, nodes] : law_shares(*fastest->law, problem)) {
+    const double percent = 100 * static_cast<double>(nodes) / static_cast<double>(problem.law.nodes() - 1);
+    add(fmt::format("{} {} %   ", name, fixed(percent, percent < 1 ? 1 : 0)));
   }
-  return out + line + fmt::format("(of nodes, {})\n", method_name(fastest->method));
+  add(fmt::format("(of nodes, {})", method_name(fastest->method)));
+  return out + line + '\n';
 }
 
 /// "axis 3 acceleration" -> 2; nothing if it is a limit of the path.
@@ -72,7 +73,7 @@ std::string held_by(const planner::NodeCap& cap, std::size_t node, const TimeLaw
 }
 
 std::vector<std::pair<std::string, std::size_t>> law_shares(const planner::LawSolution& law,
-                                                              const TimeLawProblem& problem) {
+                                                            const TimeLawProblem& problem) {
   using Kind = planner::ActiveLimit::Kind;
   const std::vector<planner::ActiveLimit> active = planner::active_limits(problem.law, law.speed_u_s);
   std::vector<std::pair<std::string, std::size_t>> shares;
@@ -125,11 +126,12 @@ std::string render_problem(const TimeLawProblem& p, std::string_view file) {
                      program.first_line, program.last_line);
   if (!program.fit) return out;
   const planner::SplineFit& fit = *program.fit;
-  return out + fmt::format("spline   through {} points, {} mm from the lines at most (line {}), allowed {:g} mm; "
-                           "s runs {} to {} of its length\n",
-                           grouped(static_cast<std::int64_t>(fit.path.rows())), significant(fit.deviation_u),
-                           program.path.segments[fit.segment].span.line, program.tolerance_mm,
-                           fixed(1 / fit.most_slope, 6), fixed(1 / fit.least_slope, 6));
+  return out + fmt::format(
+                   "spline   through {} points, {} mm from the lines at most (line {}), allowed {:g} mm; "
+                   "s runs {} to {} of its length\n",
+                   grouped(static_cast<std::int64_t>(fit.path.rows())), significant(fit.deviation_u),
+                   program.path.segments[fit.segment].span.line, program.tolerance_mm,
+                   fixed(1 / fit.most_slope, 6), fixed(1 / fit.least_slope, 6));
 }
 
 std::string render_tube_log(const TubeStory& tube, const planner::LawSolution* law, double length_mm,

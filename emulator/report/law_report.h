@@ -11,8 +11,8 @@
 /// What `kadr tube` tells of the laws of a problem.
 namespace kadr::emulator {
 
-/// "docs/tube/laying.toml: laying, 893 nodes over 2 846.900 mm, 7 axes, ..."; of a path by program a line more
-/// with its stretch, and one with what a spline through it is like.
+/// "docs/tube/laying.toml: laying, 893 nodes over 2 846.900 mm, 7 axes, ..."; of a path by program a line
+/// more with its stretch, and one with what a spline through it is like.
 std::string render_problem(const TimeLawProblem& problem, std::string_view file);
 /// The loop of the tube as paper 000 prints it (figure 2): a time per length with 7 decimals, total and fall
 /// with 5 digits, the half width used; why the loop ended.
@@ -35,7 +35,7 @@ void write_law_csv(const LawStudy& study, const TimeLawProblem& problem,
 std::string held_by(const planner::NodeCap& cap, std::size_t node, const TimeLawProblem& problem);
 /// How many nodes each limit holds a law at, most first: "A1 acceleration", "zone", "no limit".
 std::vector<std::pair<std::string, std::size_t>> law_shares(const planner::LawSolution& law,
-                                                              const TimeLawProblem& problem);
+                                                            const TimeLawProblem& problem);
 /// A limit in the words of its axis: "axis A acceleration", and its unit.
 struct LimitText {
   std::string what, unit;

@@ -155,8 +155,8 @@ std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::v
   return {};
 }
 
-LawStudy study_laws(const TimeLawProblem& problem, const std::vector<LawMethod>& methods,
-                    bool keep_profiles, const StudyProgress& progress) {
+LawStudy study_laws(const TimeLawProblem& problem, const std::vector<LawMethod>& methods, bool keep_profiles,
+                    const StudyProgress& progress) {
   LawStudy out;
   const double derivatives = static_cast<double>(problem.law.nodes() * problem.law.axes);
   out.inner_points = derivatives > kManyDerivatives ? 2 : 10;

@@ -79,7 +79,7 @@ class AxisReader {
     const auto chosen = keys.choice("unit", {"deg", "mm", "rad"}, otherwise);
     const std::string unit = kUnits[chosen.value];
     if (model && rotary == (unit == "mm"))
-      tell(Code::problem_path /*P*/, chosen.span,
+      tell(Code::problem_program, chosen.span,
            fmt::format("is {}, axis {} of machine {} is {}", unit, model->letter, machine_->name,
                        rotary ? "rotary" : "linear"));
     const double per_unit = unit == "rad" ? kPi / 180 : 1;

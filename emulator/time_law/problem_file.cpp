@@ -87,7 +87,8 @@ class ProblemReader {
     const bool has_length = keys.has("length_mm"), has_nodes = keys.has("nodes");
     if (node && !by_table_ && !by_program_ && !has_length && !has_nodes)
       tell(Code::problem_path, node->span, "has neither length_mm and nodes nor a table or program",
-           "write table = \"FILE.csv\", program = \"FILE.ngc\", or length_mm and nodes and the axes' formulas");
+           "write table = \"FILE.csv\", program = \"FILE.ngc\", or length_mm and nodes and the axes' "
+           "formulas");
     // what is not needed has a value that nobody reads, so that its key is known all the same
     const bool needed = !by_table_ && !by_program_ && (has_length || has_nodes);
     const auto otherwise = [&](double value) { return needed ? std::optional<double>() : value; };
@@ -108,10 +109,9 @@ class ProblemReader {
     // a program says how fast, with its feeds and its machine
     law.path_feed_u_s =
         keys.number("max_mm_s", kSpeed, of_machine(&machine::PathLimits::max_feed_mm_s)).value;
-    law.path_accel_u_s2 =
-        keys.number("max_acceleration_mm_s2", kPathAcceleration,
-                    of_machine(&machine::PathLimits::max_accel_mm_s2).value_or(kInfinity))
-            .value;
+    law.path_accel_u_s2 = keys.number("max_acceleration_mm_s2", kPathAcceleration,
+                                      of_machine(&machine::PathLimits::max_accel_mm_s2).value_or(kInfinity))
+                              .value;
     begin_ = keys.number("begin_mm_s", kEndSpeed, 0.0);
     end_ = keys.number("end_mm_s", kEndSpeed, 0.0);
     law.begin_u_s = begin_.value;
@@ -293,7 +293,7 @@ class ProblemReader {
     const std::string by = cap.reason >= 0 ? "axis " + out_.axes[static_cast<std::size_t>(cap.reason)].name
                            : cap.reason == planner::NodeCap::kZone  ? std::string("a zone")
                            : cap.reason == planner::NodeCap::kGiven ? std::string("the program")
-                                                                   : std::string("path.max_mm_s");
+                                                                    : std::string("path.max_mm_s");
     tell(Code::problem_no_motion, speed.span,
          fmt::format("is {:g} mm/s, {} allows {:.6g} mm/s there", speed.value, by, cap.speed_u_s));
   }
@@ -314,7 +314,7 @@ class ProblemReader {
   double begin_rest_ = 0, end_rest_ = 0;
   Reading<double> begin_, end_;
   Span path_span_;
-  std::vector<std::pair<Span, Span>> zone_spans_;  // [zones], where begin and end are written
+  std::vector<std::pair<Span, Span>> zone_spans_;         // [zones], where begin and end are written
   std::vector<std::optional<std::uint32_t>> zone_lines_;  // [zones], at_line
 };
 

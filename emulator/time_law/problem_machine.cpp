@@ -19,7 +19,7 @@ std::optional<machine::MachineFile> open_problem_machine(SourceSet& sources, std
     for (const auto other : machine::shipped_machine_names())
       known += fmt::format("{}{}", known.empty() ? "" : ", ", other);
     Diagnostic d =
-        machine::file_diagnostic(Code::problem_path /*P*/, name.span,
+        machine::file_diagnostic(Code::problem_program, name.span,
                                  fmt::format("there is no machine '{}' and no such file", name.value));
     d.help = "machines that ship with kadr: " + known;
     context.diagnostics.add(std::move(d));
@@ -39,8 +39,7 @@ machine::AxisModel* find_problem_axis(machine::MachineModel& machine,
   const int index = name.value.size() == 1 ? machine.find_axis(name.value.front()) : -1;
   if (index >= 0) return &machine.axis[static_cast<std::size_t>(index)];
   Diagnostic d = machine::file_diagnostic(
-      Code::problem_path /*P*/, name.span,
-      fmt::format("machine {} has no axis '{}'", machine.name, name.value));
+      Code::problem_program, name.span, fmt::format("machine {} has no axis '{}'", machine.name, name.value));
   std::string axes;
   for (const machine::AxisModel& axis : machine.axis) axes += fmt::format(" {}", axis.letter);
   d.notes.push_back("allowed:" + axes);

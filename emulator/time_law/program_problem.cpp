@@ -48,7 +48,7 @@ void ProgramProblem::read_path(TableReader& keys) {
   if (keys.has("from_line")) from_line_ = keys.number("from_line", kLine);
   if (keys.has("to_line")) to_line_ = keys.number("to_line", kLine);
   if (from_line_ && to_line_ && to_line_->value < from_line_->value)
-    tell(Code::problem_path /*P*/, to_line_->span, fmt::format("is line {:.0f}", to_line_->value),
+    tell(Code::problem_program, to_line_->span, fmt::format("is line {:.0f}", to_line_->value),
          fmt::format("{:.0f} and more, the path.from_line", from_line_->value));
   spline_ = keys.choice("fit", {"exact", "spline"}, 0).value == 1;
   if (spline_) {
@@ -92,7 +92,7 @@ bool ProgramProblem::lay_out(machine::MachineFile machine, TimeLawProblem& out) 
   const auto open = [&](const machine::Reading<std::string>& file) -> std::optional<SourceText> {
     const fs::path path = folder / file.value;
     if (fs::is_regular_file(path)) return SourceText::open(path.string());
-    tell(Code::problem_path /*P*/, file.span, fmt::format("there is no file {}", path.string()));
+    tell(Code::problem_program, file.span, fmt::format("there is no file {}", path.string()));
     return {};
   };
   auto program = open(program_);
@@ -146,7 +146,10 @@ bool ProgramProblem::choose_stretch(const planner::PathLimitTable& table, Progra
   };
   const auto first = std::find_if(segments.begin(), segments.end(), inside);
   if (first == segments.end()) {
-    tell(Code::problem_path /*P*/, from_line_ ? from_line_->span : to_line_ ? to_line_->span : program_.span,
+    tell(Code::problem_program,
+         from_line_ ? from_line_->span
+         : to_line_ ? to_line_->span
+                    : program_.span,
          from_line_ || to_line_ ? "the program has no motion on these lines" : "the program has no motion");
     return false;
   }
@@ -166,7 +169,7 @@ bool ProgramProblem::choose_stretch(const planner::PathLimitTable& table, Progra
   }
   if (count == 1) return true;
   if (count > motions.size()) motions.push_back("...");
-  tell(Code::problem_path /*P*/, segments[behind].span, "the machine stands still behind this move",
+  tell(Code::problem_program, segments[behind].span, "the machine stands still behind this move",
        fmt::format("one motion from rest to rest; here are {}: {}", count, fmt::join(motions, "; ")),
        "name one of them with path.from_line and path.to_line");
   return false;
@@ -181,8 +184,8 @@ bool ProgramProblem::few_enough(double nodes) {
 
 bool ProgramProblem::state_lines(const planner::PathLimitTable& table, TimeLawProblem& out) {
   const ProgramPath& program = *out.program;
-  const double length_u = program.path.start_s_u[program.run.last + 1] -
-                          program.path.start_s_u[program.run.first];
+  const double length_u =
+      program.path.start_s_u[program.run.last + 1] - program.path.start_s_u[program.run.first];
   const auto moves = static_cast<double>(program.run.last - program.run.first + 1);
   if (!few_enough(moves + length_u / model_.planner.node_mm)) return false;
   planner::Stretch stated = planner::state_stretch(program.path, table, program.run, model_);
@@ -206,20 +209,20 @@ bool ProgramProblem::state_spline(const std::optional<double>& nodes, TimeLawPro
   const planner::Path& path = program.path;
   for (std::size_t i = program.run.first; i <= program.run.last; ++i) {
     if (path.segments[i].kind == planner::SegmentKind::line) continue;
-    tell(Code::problem_path /*P*/, path.segments[i].span, "is no straight line",
+    tell(Code::problem_program, path.segments[i].span, "is no straight line",
          "lines alone, whose ends are the points of a spline",
          "keep fit = \"exact\", or name the lines with path.from_line and path.to_line");
     return false;
   }
   if (program.run.last - program.run.first < 2) {
-    tell(Code::problem_path /*P*/, program_.span,
+    tell(Code::problem_program, program_.span,
          fmt::format("{} points", program.run.last - program.run.first + 2), "4 and more for a spline");
     return false;
   }
   program.fit = planner::fit_spline(path, program.run, ends_);
   program.tolerance_mm = tolerance_.value;
   if (program.fit->deviation_u > tolerance_.value) {
-    tell(Code::problem_path /*F*/, path.segments[program.fit->segment].span,
+    tell(Code::problem_fit, path.segments[program.fit->segment].span,
          fmt::format("the spline is {:.6g} mm from this line, at s = {:.3f} mm", program.fit->deviation_u,
                      program.fit->deviation_s_u),
          fmt::format("{:g} mm, path.tolerance_mm", tolerance_.value),

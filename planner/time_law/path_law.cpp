@@ -216,9 +216,7 @@ Signature law_signature(const PathLimitTable& table, std::size_t segment, double
   return table.signature[2 * segment + 1];
 }
 
-Penalty run_penalty(double length_u) {
-  return {Penalty{}.weight_s5_u2 * (length_u / kPaperLength_u), true};
-}
+Penalty run_penalty(double length_u) { return {Penalty{}.weight_s5_u2 * (length_u / kPaperLength_u), true}; }
 
 RunProblem run_problem(const Path& path, const PathLimitTable& table, const Run& run,
                        const machine::MachineModel& machine, RunLimits limits) {

@@ -10,9 +10,9 @@ namespace {
 
 using machine::kInfinity;
 
-constexpr int kPlaces = 16;     ///< of a piece, at which it is looked at
-constexpr double kNear = 0.9;   ///< of the largest distance found so far: worth a closer look
-constexpr int kSections = 50;   ///< of a bracket, each to 0.618 of the last
+constexpr int kPlaces = 16;    ///< of a piece, at which it is looked at
+constexpr double kNear = 0.9;  ///< of the largest distance found so far: worth a closer look
+constexpr int kSections = 50;  ///< of a bracket, each to 0.618 of the last
 constexpr double kGolden = 0.6180339887498949;
 
 TablePath joints(const Path& path, const Run& run, SplineEnds ends) {

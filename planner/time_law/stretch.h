@@ -10,8 +10,9 @@ namespace kadr::planner {
 /// have the caps of their joints, so that it may begin and end with a speed.
 struct Stretch {
   LawProblem problem;
-  std::vector<std::size_t> segment;  // [nodes], that the interval ending at a node lies on; of node 0 the first
-  std::vector<Signature> held_by;    // [nodes], what cap_u_s is
+  std::vector<std::size_t>
+      segment;                     // [nodes], that the interval ending at a node lies on; of node 0 the first
+  std::vector<Signature> held_by;  // [nodes], what cap_u_s is
 };
 Stretch state_stretch(const Path& path, const PathLimitTable& table, const Run& run,
                       const machine::MachineModel& machine);

@@ -29,7 +29,7 @@ BEGIN {
   axis("U", "0 0.20 0.010 1.0 1.70 0 0 0 0 0 1")
   axis("V", "0.30 -0.20 0 0 0 0 0 0 0 0 1")
   axis("W", "-0.10 0.35 0.010 1.0 2.90 0 0 0 0 0 1")
-  axis("X", "200 3300 350 2.0 3.141592653589793 0 0 0 0 0 1")
+  axis("X", "200 3300 700 1.0 3.141592653589793 0 0 0 0 0 1")
   print "(written by: awk -f scenarios/47_robot7_rail/rail.awk)"
   print "G21 G90"
   print "G0" place(0)
@@ -38,8 +38,8 @@ BEGIN {
   ds = length_mm / (nodes - 1)
   for (i = 1; i < nodes; i++) {
     fast = 750
-    # technology point at 1500 mm
-    if (ds * (i - 1) <= 1500 && 1500 < ds * i) fast = 200
+    # technology point at 2800 mm
+    if (ds * (i - 1) <= 2800 && 2800 < ds * i) fast = 200
     print "G1" place(ds * i) sprintf(" F%.6f", 60 * fast / ds)
   }
   print "G94"

@@ -41,7 +41,7 @@ double time_s(const Json& j) { return j["methods"][0]["time_s"].get<double>(); }
 
 /// A circle of radius 20 by n lines.
 std::string circle(int n) {
-  std::string text = "G21 G90\nG0 X20 Y0\nG4 P0.1\nF2400\n";
+  std::string text = "G21 G90\nG0 X20 Y0\nG4 P0.1\nF6000\n";
   char line[64];
   for (int i = 1; i <= n; ++i) {
     std::snprintf(line, sizeof line, "G1 X%.6f Y%.6f\n", 20 * std::cos(2 * M_PI * i / n),
@@ -56,8 +56,8 @@ const std::string kBent = "G21 G90\nG1 X40 F6000\nG3 X60 Y20 I0 J20\nG1 X70 Y60 
 }  // namespace
 
 TEST_CASE("one line of a program has the time of the textbook") {
-  // 40 mm at F1200 = 20 mm/s, X of mill3 at 2500 mm/s2, whose path allows 2000: 40/20 + 20/2000 = 2.01 s, and a hair more
-  // since a ramp of 0.1 mm is 8 intervals
+  // 40 mm at F1200 = 20 mm/s, X of mill3 at 2500 mm/s2, whose path allows 2000: 40/20 + 20/2000 = 2.01 s, and
+  // a hair more since a ramp of 0.1 mm is 8 intervals
   const Scratch scratch;
   const Json j = solved(scratch, kHead + "[penalty]\nweight_s5_per_mm2 = 0\n", "G21\nG1 X40 F1200\nM2\n");
   CHECK(j["length_mm"] == 40.0);
@@ -77,7 +77,8 @@ TEST_CASE("a program has the time that it has in a run by the same method") {
                                std::string("planner.method=") + method, "--set", "planner.whole_ticks=false"},
                               scratch.path());
     REQUIRE(run.code == 0);
-    CHECK(time_s(j) == doctest::Approx(Json::parse(run.out)["time_s"].get<double>()).epsilon(1e-9));
+    CHECK(time_s(j) ==
+          doctest::Approx(Json::parse(run.out)[0]["check"]["time_s"].get<double>()).epsilon(1e-9));
   }
 }
 
@@ -85,8 +86,7 @@ TEST_CASE("limits of a problem go before the machine's: axes, the path, the dist
   const Scratch scratch;
   const std::string line = "G21\nG1 X40 F1200\nM2\n";
   // 10 mm/s at 100 mm/s2: 40/10 + 10/100 = 4.1 s
-  const std::string slow =
-      kHead + "max_mm_s = 10\n[[axis]]\nname = \"X\"\nmax_acceleration_mm_s2 = 100\n";
+  const std::string slow = kHead + "max_mm_s = 10\n[[axis]]\nname = \"X\"\nmax_acceleration_mm_s2 = 100\n";
   CHECK(time_s(solved(scratch, slow, line)) == doctest::Approx(4.1).epsilon(1e-3));
   const std::string axis = kHead + "[[axis]]\nname = \"X\"\nmax_mm_s = 8\n";  // 5 s and 8/2000 s
   CHECK(time_s(solved(scratch, axis, line)) == doctest::Approx(5.004).epsilon(1e-4));
@@ -96,10 +96,10 @@ TEST_CASE("limits of a problem go before the machine's: axes, the path, the dist
   const std::string two = "G21\nG1 X20 F1200\nG1 X40\nM2\n";
   const double by_line = time_s(solved(scratch, kHead + "[[zone]]\nat_line = 3\nmax_mm_s = 5\n", two));
   const double by_place = time_s(solved(scratch, kHead + "[[zone]]\nat_mm = 20\nmax_mm_s = 5\n", two));
-  const double by_comment =
-      time_s(solved(scratch, kHead, "G21\nG1 X20 F1200\n(TECH s_max=5)\nG1 X40\nM2\n"));
+  const double by_comment = time_s(solved(scratch, kHead, "G21\nG1 X20 F1200\n(TECH s_max=5)\nG1 X40\nM2\n"));
   CHECK(by_line == by_place);
-  CHECK(by_line == doctest::Approx(by_comment).epsilon(1e-9));
+  // told by the program, the slow place has closer nodes beside it
+  CHECK(by_line == doctest::Approx(by_comment).epsilon(1e-2));
   CHECK(by_line > time_s(solved(scratch, kHead, two)));
 }
 
@@ -122,24 +122,27 @@ TEST_CASE("from_line and to_line choose a stretch, which may begin and end with 
 
 TEST_CASE("--csv of a program has the line of each node and what holds it in the words of kadr plan") {
   const Scratch scratch;
-  REQUIRE(tube(scratch, kHead, kBent, {"--csv", "o.csv", "--page", "o.html", "--method", "certified"}).code == 0);
+  REQUIRE(tube(scratch, kHead, kBent, {"--csv", "o.csv", "--page", "o.html", "--method", "certified"}).code ==
+          0);
   std::istringstream in(scratch.read("o.csv"));
   std::string row, all;
   std::getline(in, row);
   CHECK(row == "s_mm,line,cap_mm_s,held_by,certified_mm_s,certified_t_s");
-  int lines[4] = {};
+  int lines[4] = {}, programmed = 0;
   while (std::getline(in, row)) {
     const auto comma = row.find(',');
     const int line = row[comma + 1] - '0';
     REQUIRE(line >= 2);
     REQUIRE(line <= 4);
     ++lines[line - 2];
+    const double cap = std::stod(row.substr(comma + 3));
+    programmed += line == 4 && std::fabs(cap - 60) < 1e-9 && contains(row, ",program,");
     all += row + "\n";
   }
   CHECK(lines[0] > 10);
   CHECK(lines[1] > 45);  // 2 degrees an interval
   CHECK(lines[2] > 10);
-  CHECK(contains(all, ",4,60,program,"));
+  CHECK(programmed > 10);
   CHECK(contains(all, ",junction "));
   CHECK(contains(scratch.read("o.html"), "<svg "));
 }
@@ -148,24 +151,26 @@ TEST_CASE("a circle of lines through a spline takes the time of the arc, and far
   const Scratch scratch;
   const std::string stretch = "from_line = 4\n";
   const Json exact = solved(scratch, kHead + stretch, circle(72));
-  const Json fitted = solved(
-      scratch, kHead + stretch + "fit = \"spline\"\ntolerance_mm = 0.02\n", circle(72));
-  const Json arc = solved(scratch, kHead, "G21\nF2400\nG3 X0 Y0 I-20\nM2\n");
-  CHECK(time_s(fitted) == doctest::Approx(time_s(arc)).epsilon(2e-3));
-  CHECK(time_s(exact) > 1.2 * time_s(arc));
+  const Json fitted =
+      solved(scratch, kHead + stretch + "fit = \"spline\"\ntolerance_mm = 0.02\n", circle(72));
+  const Json arc = solved(scratch, kHead, "G21\nF6000\nG3 X0 Y0 I-20\nM2\n");
+  // nodes at the points alone: both ramps of 2.5 mm are 2 intervals
+  CHECK(time_s(fitted) == doctest::Approx(time_s(arc)).epsilon(4e-2));
+  CHECK(time_s(exact) > 1.5 * time_s(arc));
   const Json fit = fitted["program"]["fit"];
   CHECK(fit["points"] == 73);
   // 20 (1 - cos 2.5 degrees)
   CHECK(fit["deviation_mm"].get<double>() == doctest::Approx(0.019036).epsilon(3e-3));
   CHECK(fitted["nodes"] == 73);
-  const Json even = solved(
-      scratch, kHead + stretch + "fit = \"spline\"\ntolerance_mm = 0.02\nnodes = 400\n", circle(72));
-  CHECK(even["nodes"] == 400);
+  const Json even =
+      solved(scratch, kHead + stretch + "fit = \"spline\"\ntolerance_mm = 0.02\nnodes = 2000\n", circle(72));
+  CHECK(even["nodes"] == 2000);
   CHECK(time_s(even) == doctest::Approx(time_s(arc)).epsilon(2e-3));
-  const Finished text = tube(scratch, kHead + stretch + "fit = \"spline\"\ntolerance_mm = 0.02\nends = \"clamped\"\n",
-                             circle(72), {"--method", "greedy"});
+  const Finished text =
+      tube(scratch, kHead + stretch + "fit = \"spline\"\ntolerance_mm = 0.1\nends = \"clamped\"\n",
+           circle(72), {"--method", "greedy"});
   CHECK(contains(text.out, "spline   through 73 points, "));
-  CHECK(contains(text.out, "allowed 0.02 mm"));
+  CHECK(contains(text.out, "allowed 0.1 mm"));
 }
 
 TEST_CASE("a spline that leaves the lines is refused with place, measured and allowed distance") {
@@ -175,8 +180,8 @@ TEST_CASE("a spline that leaves the lines is refused with place, measured and al
   CHECK(coarse.code == 2);
   CHECK(contains(coarse.err, "the spline is 0.019"));
   CHECK(contains(coarse.err, "allowed: 0.01 mm, path.tolerance_mm"));
-  const Finished corner = tube(
-      scratch, kHead + keys, "G21\nF600\nG1 X10\nG1 X20\nG1 X30\nG1 X30 Y10\nG1 Y20\nG1 Y30\nM2\n", {});
+  const Finished corner =
+      tube(scratch, kHead + keys, "G21\nF600\nG1 X10\nG1 X20\nG1 X30\nG1 X30 Y10\nG1 Y20\nG1 Y30\nM2\n", {});
   CHECK(corner.code == 2);
   CHECK(contains(corner.err, "part.ngc:5"));
   const Finished arc = tube(scratch, kHead + keys, kBent, {});

@@ -100,8 +100,9 @@ TEST_CASE("a technology point at a length of the path cuts the move there, and c
 
   SUBCASE("at a joint nothing is cut, at the end nothing is limited") {
     Job at_joint;
-    REQUIRE(prepared("[[technology]]\nat_path_mm = 50\nmax_mm_s = 20\n[[technology]]\nat_path_mm = 200\nmax_mm_s = 1\n",
-                     at_joint, diagnostics));
+    REQUIRE(prepared(
+        "[[technology]]\nat_path_mm = 50\nmax_mm_s = 20\n[[technology]]\nat_path_mm = 200\nmax_mm_s = 1\n",
+        at_joint, diagnostics));
     CHECK(at_joint.path.size() == free.path.size());
     CHECK(end_feed_mm_s(at_joint, 0) == doctest::Approx(20.0).epsilon(1e-6));
   }

@@ -47,7 +47,8 @@ TEST_CASE("a path that is cut anywhere is the same path: places, tangents, curva
         for (std::size_t c = 0; c < axes; ++c)
           CHECK(std::fabs(here[c] - there[c]) <= 1e-6 * (1.0 + std::fabs(there[c])));
       }
-      CHECK(s.stop_at_end == (whole.segments[from].stop_at_end && cut.start_s_u[i + 1] == whole.start_s_u[from + 1]));
+      CHECK(s.stop_at_end ==
+            (whole.segments[from].stop_at_end && cut.start_s_u[i + 1] == whole.start_s_u[from + 1]));
     }
     CHECK(feed_cut == doctest::Approx(feed_whole).epsilon(1e-9));
   }
