@@ -69,6 +69,13 @@ struct LineLimit {
   bool met = false;  ///< set by prepare()
 };
 
+/// A technology point at a length of the path.
+struct PlaceLimit {
+  double at_u = 0;
+  double max_u_s = 0;  ///< along what F measures
+  Span span;
+};
+
 /// A program read, planned and verified-ready; everything the cycle needs.
 struct Job {
   SourceSet sources;
@@ -78,8 +85,9 @@ struct Job {
   std::vector<InputStep> inputs;             ///< what M66 meets; ascending by tick
   std::vector<OperatorStep> operator_steps;  ///< by tick those that have one, in the file's order the others
   std::vector<LineLimit> line_limits;        ///< technology points of a scenario
-  std::vector<std::uint32_t> called_files;   ///< indices in sources, in the order of their first call
-  std::vector<ProgramEvent> events;          ///< ascending in after_segment
+  std::vector<PlaceLimit> place_limits;
+  std::vector<std::uint32_t> called_files;  ///< indices in sources, in the order of their first call
+  std::vector<ProgramEvent> events;         ///< ascending in after_segment
   planner::Path path{0};
   planner::FeedPlan plan;    ///< laws of the runs, in path order, pauses not included
   std::uint32_t blocks = 0;  ///< motion blocks
@@ -94,6 +102,10 @@ enum class SoftLimitRule : std::uint8_t { error, warning };
 /// Diagnostics go to `diagnostics`, all of the program at once.
 /// @return false if there were errors before planning; job.plan is not valid then
 bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = SoftLimitRule::error);
+
+/// The first part of it: path and events of the program, soft limits checked; nothing is planned.
+/// @return false if there were errors before the soft limits were looked at
+bool lay_out(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = SoftLimitRule::error);
 
 /// Time that a dwell, a wait or a tool change holds the machine, seconds; a whole number of control ticks
 /// where motions end on them too. 0 for everything else.

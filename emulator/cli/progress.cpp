@@ -21,17 +21,21 @@ bool terminal() {
   return ::isatty(STDERR_FILENO) && !std::getenv("CI") && term && std::string_view(term) != "dumb";
 }
 
+std::string cells(double done) {
+  const int filled = std::clamp(static_cast<int>(done * kBarCells), 0, kBarCells);
+  std::string bar;
+  for (int i = 0; i < kBarCells; ++i) bar += i < filled ? "█" : "░";
+  return bar;
+}
+
 int percent(double done) { return static_cast<int>(std::clamp(done, 0.0, 1.0) * 100); }
 
 }  // namespace
 
 std::string progress_bar(double done, std::uint32_t line, std::uint32_t lines, double sim_s, double wall_s) {
-  const int filled = std::clamp(static_cast<int>(done * kBarCells), 0, kBarCells);
-  std::string bar;
-  for (int i = 0; i < kBarCells; ++i) bar += i < filled ? "█" : "░";
   const double rate = wall_s > 0 ? sim_s / wall_s : 0;
-  std::string text = fmt::format("run  {}  {:2} %  line {}/{}  {:.1f} s of machine  {:.{}f}x real time", bar,
-                                 percent(done), line, lines, sim_s, rate, rate < 10 ? 1 : 0);
+  std::string text = fmt::format("run  {}  {:2} %  line {}/{}  {:.1f} s of machine  {:.{}f}x real time",
+                                 cells(done), percent(done), line, lines, sim_s, rate, rate < 10 ? 1 : 0);
   if (done > 0.01) {
     const double left_s = std::min(wall_s * (1 - std::min(done, 1.0)) / done, 359'999.0);
     const int seconds = static_cast<int>(left_s + 0.5);
@@ -46,36 +50,46 @@ std::string progress_line(double done, std::uint32_t line, std::uint32_t lines, 
   return fmt::format("kadr: run {} % line {}/{} sim {:.1f} s", percent(done), line, lines, sim_s);
 }
 
-Progress::Progress(const OutputOptions& options, std::uint32_t lines) : lines_(lines) {
-  kind_ =
-      options.quiet || options.format == DiagnosticFormat::sarif || options.progress == ProgressMode::never
-          ? Kind::none
-      : options.progress == ProgressMode::automatic && terminal() ? Kind::bar
-                                                                  : Kind::plain;
+std::string stage_bar(std::string_view stage, double done) {
+  const std::string text = fmt::format("tube  {}", stage);
+  return done < 0 ? text : fmt::format("{}  {}  {:2} %", text, cells(done), percent(done));
+}
+
+ProgressLine::ProgressLine(const OutputOptions& options, Elsewhere elsewhere) {
+  const bool automatic = options.progress == ProgressMode::automatic;
+  if (options.quiet || options.format == DiagnosticFormat::sarif || options.progress == ProgressMode::never)
+    kind_ = Kind::none;
+  else if (automatic && terminal())
+    kind_ = Kind::bar;
+  else
+    kind_ = automatic && elsewhere == Elsewhere::nothing ? Kind::none : Kind::plain;
   next_s_ = kind_ == Kind::bar ? kSilence_s : kPlainEvery_s;
 }
 
-double Progress::wall_s() const {
+double ProgressLine::wall_s() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
-void Progress::update(double done, std::uint32_t line, double sim_s) {
-  if (kind_ == Kind::none) return;
+void ProgressLine::show(const std::string& text) {
   const double now_s = wall_s();
-  if (now_s < next_s_) return;
   if (kind_ == Kind::bar) {
-    fmt::print(stderr, "\r{}\x1b[K", progress_bar(done, line, lines_, sim_s, now_s));
+    fmt::print(stderr, "\r{}\x1b[K", text);
     drawn_ = true;
     next_s_ = now_s + kRedraw_s;
   } else {
-    fmt::print(stderr, "{}\n", progress_line(done, line, lines_, sim_s));
+    fmt::print(stderr, "{}\n", text);
     next_s_ = now_s + kPlainEvery_s;
   }
 }
 
-void Progress::erase() {
+void ProgressLine::erase() {
   if (drawn_) fmt::print(stderr, "\r\x1b[K");
   drawn_ = false;
+}
+
+void Progress::update(double done, std::uint32_t line, double sim_s) {
+  line_.update([&] { return progress_bar(done, line, lines_, sim_s, wall_s()); },
+               [&] { return progress_line(done, line, lines_, sim_s); });
 }
 
 }  // namespace kadr::cli

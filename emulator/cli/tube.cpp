@@ -7,6 +7,7 @@
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
 #include "emulator/cli/output_file.h"
+#include "emulator/cli/progress.h"
 #include "emulator/report/law_report.h"
 #include "emulator/report/sweep_report.h"
 #include "emulator/report/tube_page.h"
@@ -68,15 +69,21 @@ void note_times(const Arguments& arguments, const LawStudy& study, Console& cons
   console.note(text);
 }
 
+/// Shows how far a problem is, if it is time to.
+void tell(ProgressLine& progress, const std::string& stage, double done) {
+  const auto text = [&] { return stage_bar(stage, done); };
+  progress.update(text, text);
+}
+
 int sweep_tube(const Arguments& arguments, const TimeLawProblem& problem, const std::string& name,
                Console& console) {
-  const bool tells = ::isatty(STDERR_FILENO) && !console.options().quiet;
-  const emulator::LevelSweep sweep =
-      emulator::sweep_levels(problem, arguments.first_level, arguments.last_level, [&](std::int32_t levels) {
-        if (tells && (levels - arguments.first_level) % 10 == 0)
-          console.note(
-              fmt::format("{} levels of {} to {}", levels, arguments.first_level, arguments.last_level));
-      });
+  ProgressLine progress(arguments.output, ProgressLine::Elsewhere::nothing);
+  const std::int32_t first = arguments.first_level, last = arguments.last_level;
+  const emulator::LevelSweep sweep = emulator::sweep_levels(problem, first, last, [&](std::int32_t levels) {
+    tell(progress, fmt::format("{} levels of {} to {}", levels, first, last),
+         static_cast<double>(levels - first) / (last - first + 1));
+  });
+  progress.erase();
   if (!arguments.csv_path.empty()) {
     OutputFile csv(arguments.csv_path);
     csv.write(emulator::sweep_csv(sweep));
@@ -120,6 +127,8 @@ int solve_tube(const Arguments& arguments, Console& console) {
   };
   const auto problem = emulator::read_time_law_problem(sources, job.program);
   if (!problem) return refuse(problem.error());
+  if (!problem->warnings.list().empty())
+    console.diagnostics(problem->warnings, sources, name, Console::Where::errors);
   const bool sweep = arguments.first_level > 0;
   TimeLawProblem sized = *problem;  // as large as it will get
   if (sweep) sized.tube.levels = arguments.last_level;
@@ -132,7 +141,12 @@ int solve_tube(const Arguments& arguments, Console& console) {
     return refuse(diagnostics);
   }
   if (sweep) return sweep_tube(arguments, *problem, name, console);
-  const LawStudy study = emulator::study_laws(*problem, methods, keep_profiles);
+  ProgressLine progress(arguments.output, ProgressLine::Elsewhere::nothing);
+  const LawStudy study = emulator::study_laws(
+      *problem, methods, keep_profiles, [&](LawMethod method, std::string_view stage, double done) {
+        tell(progress, fmt::format("{}: {}", emulator::method_name(method), stage), done);
+      });
+  progress.erase();
   write_files(arguments, study, *problem, name);
   const int code = study.good() ? kYes : kNo;
   if (console.options().json) {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "emulator/cycle/operator_panel.h"
+#include "emulator/cycle/place_limits.h"
 #include "emulator/cycle/program_reader.h"
 #include "emulator/cycle/soft_limits.h"
 #include "emulator/emulator.h"
@@ -89,8 +90,7 @@ double hold_time_s(const Block& block, const machine::MachineModel& machine) {
   return std::ceil(wish_s / tau_s - 1e-9) * tau_s;
 }
 
-bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
-  const machine::MachineModel& machine = job.machine.model;
+bool lay_out(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
   gcode::InterpretOptions options = interpret_options(job);
   ProgramReader reader(job, diagnostics, options.home);
   options.read_input = [&](const gcode::InputWait& wait) { return reader.read_input(wait); };
@@ -106,12 +106,20 @@ bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
   for (std::size_t file = known_files; file < job.sources.size(); ++file)
     job.called_files.push_back(static_cast<std::uint32_t>(file));
   if (diagnostics.has_errors()) return false;
-  check_soft_limits(job.path, machine, soft_limits, diagnostics);
+  const std::size_t errors = diagnostics.errors();
+  limit_places(job, diagnostics);
+  if (diagnostics.errors() != errors) return false;
+  check_soft_limits(job.path, job.machine.model, soft_limits, diagnostics);
+  return true;
+}
+
+bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
+  if (!lay_out(job, diagnostics, soft_limits)) return false;
   const std::size_t errors = diagnostics.errors();
   place_on_path(job, diagnostics);
   if (diagnostics.errors() != errors) return false;
 
-  auto plan = planner::plan(job.path, machine);
+  auto plan = planner::plan(job.path, job.machine.model);
   if (!plan) {
     diagnostics.add(plan.error().diagnostic);
     return false;

@@ -22,6 +22,9 @@ Json outcome_json(const MethodOutcome& o, const LawStudy& study, const TimeLawPr
   j["peak_jerk_mm_s3"] = o.metrics.peak_jerk_u_s3;
   j["node_excess"] = o.check.node_excess;
   j["between_excess"] = o.check.dense_excess;
+  j["held_by"] = Json::array();
+  for (const auto& [name, nodes] : law_shares(*o.law, problem))
+    j["held_by"].push_back({{"limit", name}, {"nodes", nodes}});
   j["broken"] = Json::array();
   for (const planner::LawViolation& b : o.check.broken) {
     const LimitText text = limit_text(b, problem);
@@ -46,6 +49,21 @@ Json tube_json(const TubeStory& tube) {
           {"lost", tube.lost ? failure_json(*tube.lost) : Json(nullptr)}};
 }
 
+Json program_json(const TimeLawProblem& problem) {
+  if (!problem.program) return nullptr;
+  const ProgramPath& p = *problem.program;
+  Json j = {
+      {"file", p.program},          {"machine", p.machine},     {"pieces", p.run.last - p.run.first + 1},
+      {"first_line", p.first_line}, {"last_line", p.last_line}, {"fit", nullptr}};
+  if (!p.fit) return j;
+  j["fit"] = {
+      {"points", p.fit->path.rows()},           {"deviation_mm", p.fit->deviation_u},
+      {"deviation_s_mm", p.fit->deviation_s_u}, {"deviation_line", p.path.segments[p.fit->segment].span.line},
+      {"tolerance_mm", p.tolerance_mm},         {"least_slope", p.fit->least_slope},
+      {"most_slope", p.fit->most_slope}};
+  return j;
+}
+
 }  // namespace
 
 Json json_of(const LawStudy& study, const TimeLawProblem& problem) {
@@ -56,6 +74,7 @@ Json json_of(const LawStudy& study, const TimeLawProblem& problem) {
   Json j;
   j["name"] = problem.name;
   j["axes"] = std::move(axes);
+  j["program"] = program_json(problem);
   j["nodes"] = problem.law.nodes();
   j["length_mm"] = problem.law.length_u();
   j["accel_test"] = problem.law.accel_test == planner::AccelTest::end_node ? "end_node" : "both_nodes";

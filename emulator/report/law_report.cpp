@@ -11,6 +11,8 @@
 namespace kadr::emulator {
 namespace {
 
+constexpr std::size_t kLineLength = 100;
+
 /// Figures of any size in a column: whole from 100 on.
 std::string figure(double value) {
   if (value >= 1e9) return fmt::format("{:.3e}", value);
@@ -24,6 +26,27 @@ const MethodOutcome* worst_between(const LawStudy& study) {
   for (const MethodOutcome& o : study.outcomes)
     if (o.law && (!worst || o.check.dense_excess > worst->check.dense_excess)) worst = &o;
   return worst;
+}
+
+/// "held by  A1 acceleration 25 %   A6 acceleration 22 % ...": of the fastest law.
+std::string render_shares(const LawStudy& study, const TimeLawProblem& problem) {
+  const MethodOutcome* fastest = nullptr;
+  for (const MethodOutcome& o : study.outcomes)
+    if (o.law && (!fastest || o.law->time_s < fastest->law->time_s)) fastest = &o;
+  std::string out, line = "held by  ";
+  const auto add = [&](const std::string& text) {
+    if (line.size() + text.size() > kLineLength) {
+      out += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+      line = "         ";
+    }
+    line += text;
+  };
+  for (const auto& [name, nodes] : law_shares(*fastest->law, problem)) {
+    const double percent = 100 * static_cast<double>(nodes) / static_cast<double>(problem.law.nodes() - 1);
+    add(fmt::format("{} {} %   ", name, fixed(percent, percent < 1 ? 1 : 0)));
+  }
+  add(fmt::format("(of nodes, {})", method_name(fastest->method)));
+  return out + line + '\n';
 }
 
 /// "axis 3 acceleration" -> 2; nothing if it is a limit of the path.
@@ -41,10 +64,40 @@ std::string signed_percent(double ratio) {
   return ratio > 0 && text.find_first_of("123456789") != text.npos ? "+" + text : text;
 }
 
-std::string held_by(const planner::NodeCap& cap, const TimeLawProblem& problem) {
+std::string held_by(const planner::NodeCap& cap, std::size_t node, const TimeLawProblem& problem) {
   if (cap.reason == planner::NodeCap::kZone) return "zone";
+  if (cap.reason == planner::NodeCap::kGiven && problem.program)
+    return problem.program->reasons[problem.program->held_by[node]];
   if (cap.reason < 0) return "path";
   return problem.axes[static_cast<std::size_t>(cap.reason)].name;
+}
+
+std::vector<std::pair<std::string, std::size_t>> law_shares(const planner::LawSolution& law,
+                                                            const TimeLawProblem& problem) {
+  using Kind = planner::ActiveLimit::Kind;
+  const std::vector<planner::ActiveLimit> active = planner::active_limits(problem.law, law.speed_u_s);
+  std::vector<std::pair<std::string, std::size_t>> shares;
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const planner::ActiveLimit& a = active[i];
+    std::string name = "no limit";
+    if (a.kind == Kind::speed) {
+      name = held_by({0, a.of}, i + 1, problem);
+      if (a.of >= 0 || a.of == planner::NodeCap::kPathFeed) name += " speed";
+    } else if (a.kind == Kind::path_acceleration) {
+      name = "path acceleration";
+    } else if (a.kind == Kind::axis_acceleration) {
+      name = problem.axes[static_cast<std::size_t>(a.of)].name + " acceleration";
+    }
+    const auto known =
+        std::find_if(shares.begin(), shares.end(), [&](const auto& share) { return share.first == name; });
+    if (known == shares.end())
+      shares.emplace_back(std::move(name), 1);
+    else
+      ++known->second;
+  }
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  return shares;
 }
 
 LimitText limit_text(const planner::LawViolation& violation, const TimeLawProblem& problem) {
@@ -61,10 +114,24 @@ LimitText limit_text(const planner::LawViolation& violation, const TimeLawProble
 }
 
 std::string render_problem(const TimeLawProblem& p, std::string_view file) {
-  return fmt::format("{}: {}, {} nodes over {} mm, {} {}, accelerations held at {}\n", file, p.name,
-                     grouped(static_cast<std::int64_t>(p.law.nodes())), fixed(p.law.length_u(), 3),
-                     p.law.axes, p.law.axes == 1 ? "axis" : "axes",
-                     p.law.accel_test == planner::AccelTest::end_node ? "end nodes" : "both nodes");
+  std::string out =
+      fmt::format("{}: {}, {} nodes over {} mm, {} {}, accelerations held at {}\n", file, p.name,
+                  grouped(static_cast<std::int64_t>(p.law.nodes())), fixed(p.law.length_u(), 3), p.law.axes,
+                  p.law.axes == 1 ? "axis" : "axes",
+                  p.law.accel_test == planner::AccelTest::end_node ? "end nodes" : "both nodes");
+  if (!p.program) return out;
+  const ProgramPath& program = *p.program;
+  out += fmt::format("program  {} on {}, {} pieces of lines {} to {}\n", program.program, program.machine,
+                     grouped(static_cast<std::int64_t>(program.run.last - program.run.first + 1)),
+                     program.first_line, program.last_line);
+  if (!program.fit) return out;
+  const planner::SplineFit& fit = *program.fit;
+  return out + fmt::format(
+                   "spline   through {} points, {} mm from the lines at most (line {}), allowed {:g} mm; "
+                   "s runs {} to {} of its length\n",
+                   grouped(static_cast<std::int64_t>(fit.path.rows())), significant(fit.deviation_u),
+                   program.path.segments[fit.segment].span.line, program.tolerance_mm,
+                   fixed(1 / fit.most_slope, 6), fixed(1 / fit.least_slope, 6));
 }
 
 std::string render_tube_log(const TubeStory& tube, const planner::LawSolution* law, double length_mm,
@@ -156,12 +223,12 @@ std::string render_law_checks(const LawStudy& study, const TimeLawProblem& probl
     out += "between  nodes, where nothing is promised, every limit is kept as well\n";
   if (problem.law.accel_test == planner::AccelTest::end_node && worst->check.dense_excess > 1e-3)
     out += "         path.accel_test = \"both_nodes\" holds both ends of every interval\n";
-  return out;
+  return out + render_shares(study, problem);
 }
 
 void write_law_csv(const LawStudy& study, const TimeLawProblem& problem,
                    const std::function<void(std::string_view)>& sink) {
-  std::string out = "s_mm,cap_mm_s,held_by";
+  std::string out = problem.program ? "s_mm,line,cap_mm_s,held_by" : "s_mm,cap_mm_s,held_by";
   std::vector<const planner::LawSolution*> laws;
   for (const MethodOutcome& o : study.outcomes) {
     if (!o.law) continue;
@@ -175,7 +242,9 @@ void write_law_csv(const LawStudy& study, const TimeLawProblem& problem,
   const std::vector<planner::NodeCap> caps = planner::node_caps(problem.law);
   std::vector<double> time_s(laws.size(), 0.0);
   for (std::size_t i = 0; i < problem.law.nodes(); ++i) {
-    out += fmt::format("{},{},{}", problem.law.s_u[i], caps[i].speed_u_s, held_by(caps[i], problem));
+    out += fmt::format("{}", problem.law.s_u[i]);
+    if (problem.program) out += fmt::format(",{}", problem.program->line[i]);
+    out += fmt::format(",{},{}", caps[i].speed_u_s, held_by(caps[i], i, problem));
     for (std::size_t k = 0; k < laws.size(); ++k) {
       const std::vector<double>& v = laws[k]->speed_u_s;
       if (i > 0) time_s[k] += 2.0 * problem.law.ds_u(i) / (v[i - 1] + v[i]);

@@ -2,6 +2,8 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "emulator/report/json.h"
 #include "emulator/time_law/law_study.h"
@@ -9,7 +11,8 @@
 /// What `kadr tube` tells of the laws of a problem.
 namespace kadr::emulator {
 
-/// "docs/tube/laying.toml: laying, 893 nodes over 2 846.900 mm, 7 axes, ..."
+/// "docs/tube/laying.toml: laying, 893 nodes over 2 846.900 mm, 7 axes, ..."; of a path by program a line
+/// more with its stretch, and one with what a spline through it is like.
 std::string render_problem(const TimeLawProblem& problem, std::string_view file);
 /// The loop of the tube as paper 000 prints it (figure 2): a time per length with 7 decimals, total and fall
 /// with 5 digits, the half width used; why the loop ended.
@@ -24,11 +27,15 @@ std::string render_law_checks(const LawStudy& study, const TimeLawProblem& probl
 Json json_of(const LawStudy& study, const TimeLawProblem& problem);
 
 /// "s_mm,cap_mm_s,held_by,tube_mm_s,tube_t_s,...": a row a node, a pair of columns a law that was found; in
-/// pieces. held_by is "path", "zone" or the name of an axis.
+/// pieces. Of a path by program "s_mm,line,cap_mm_s,...".
 void write_law_csv(const LawStudy& study, const TimeLawProblem& problem,
                    const std::function<void(std::string_view)>& sink);
-/// What holds the speed of a node: "path", "zone" or the name of an axis.
-std::string held_by(const planner::NodeCap& cap, const TimeLawProblem& problem);
+/// What holds the speed of a node: "path", "zone" or the name of an axis; of a path by program also what
+/// `kadr plan` tells: "program", "junction X", "rapid" ...
+std::string held_by(const planner::NodeCap& cap, std::size_t node, const TimeLawProblem& problem);
+/// How many nodes each limit holds a law at, most first: "A1 acceleration", "zone", "no limit".
+std::vector<std::pair<std::string, std::size_t>> law_shares(const planner::LawSolution& law,
+                                                            const TimeLawProblem& problem);
 /// A limit in the words of its axis: "axis A acceleration", and its unit.
 struct LimitText {
   std::string what, unit;

@@ -17,12 +17,16 @@ constexpr double kSameTick = 1e-6;
 void place_inputs(const Scenario& scenario, std::uint32_t file, Job& job, Diagnostics& diagnostics) {
   const double tau_s = job.machine.model.clock.tau_s();
   for (const ScenarioTechnology& point : scenario.technology) {
+    Span span = point.span;
+    span.file = file;
+    if (point.path_u) {
+      job.place_limits.push_back({*point.path_u, point.rule.max_u_s, span});
+      continue;
+    }
     if (!point.line) {
       job.machine.model.technology.push_back(point.rule);
       continue;
     }
-    Span span = point.span;
-    span.file = file;
     job.line_limits.push_back({*point.line, point.rule.max_u_s, span});
   }
   double load = 0;  // of the spindle, before a step with for_s

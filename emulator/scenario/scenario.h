@@ -76,10 +76,12 @@ struct ScenarioStep {
   Span span;         ///< of the time or place
 };
 
-/// A technology point: where an output changes, or where the first motion of a line begins.
+/// A technology point: where an output changes, where the first motion of a line begins, or at a length of
+/// the path.
 struct ScenarioTechnology {
-  machine::TechnologyRule rule;  ///< of a line only its limit
+  machine::TechnologyRule rule;  ///< of a line or length only its limit
   std::optional<std::uint32_t> line;
+  std::optional<double> path_u;
   Span span;
 };
 

@@ -71,6 +71,11 @@ class ScenarioReader {
       point.line = static_cast<std::uint32_t>(line.value);
       point.span = line.span;
       point.rule.max_u_s = machine::read_technology_limit(keys);
+    } else if (keys.has("at_path_mm")) {
+      const auto at = keys.number("at_path_mm", {0, 1e9});
+      point.path_u = at.value;
+      point.span = at.span;
+      point.rule.max_u_s = machine::read_technology_limit(keys);
     } else {
       point.rule = machine::read_technology_rule(keys);
     }

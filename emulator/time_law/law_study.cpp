@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 
 #include "emulator/report/text.h"
 #include "machine/file/tree.h"
@@ -58,35 +59,39 @@ double transitions(const TimeLawProblem& p, LawMethod method) {
   return static_cast<double>(p.law.nodes()) * levels * levels;
 }
 
-LawResult solve_tube(const TimeLawProblem& problem, bool keep_profiles, TubeStory& story) {
-  planner::TubeDp tube(problem.tube);
-  tube.keep_profiles(keep_profiles);
-  LawResult law = tube.solve(problem.law);
-  story = {tube.passes(), tube.profiles(), tube.lost(), tube.capped()};
-  return law;
-}
-
-LawResult solve(const TimeLawProblem& problem, LawMethod method, bool keep_profiles, TubeStory& story) {
+std::unique_ptr<planner::LawSolver> solver_of(const TimeLawProblem& problem, LawMethod method) {
   switch (method) {
     case LawMethod::classical:
-      return planner::ClassicalDp(problem.classical_levels).solve(problem.law);
+      return std::make_unique<planner::ClassicalDp>(problem.classical_levels);
     case LawMethod::tube:
-      return solve_tube(problem, keep_profiles, story);
+      return std::make_unique<planner::TubeDp>(problem.tube);
     case LawMethod::greedy:
-      return planner::GreedyOptimum().solve(problem.law);
+      return std::make_unique<planner::GreedyOptimum>();
     case LawMethod::optimum:
-      return planner::InteriorPointOptimum().solve(problem.law);
+      return std::make_unique<planner::InteriorPointOptimum>();
     case LawMethod::certified:
-      return planner::CertifiedLaw().solve(problem.law);
+      return std::make_unique<planner::CertifiedLaw>();
     case LawMethod::jerk_limited:
       break;
   }
-  return planner::JerkLimitedLaw(*problem.jerk_mm_s3).solve(problem.law);
+  return std::make_unique<planner::JerkLimitedLaw>(*problem.jerk_mm_s3);
+}
+
+LawResult solve(const TimeLawProblem& problem, LawMethod method, bool keep_profiles, TubeStory& story,
+                const StudyProgress& progress) {
+  const auto solver = solver_of(problem, method);
+  if (progress)
+    solver->on_progress([&](std::string_view stage, double done) { progress(method, stage, done); });
+  auto* tube = dynamic_cast<planner::TubeDp*>(solver.get());
+  if (tube) tube->keep_profiles(keep_profiles);
+  LawResult law = solver->solve(problem.law);
+  if (tube) story = {tube->passes(), tube->profiles(), tube->lost(), tube->capped()};
+  return law;
 }
 
 void measure(const TimeLawProblem& problem, std::uint32_t inner_points, MethodOutcome& out) {
   if (!out.law) return;
-  out.metrics = planner::law_metrics(problem.law, *out.law, problem.law.path_feed_u_s);
+  out.metrics = planner::law_metrics(problem.law, *out.law, problem.scale_mm_s());
   planner::LawCheckOptions options;
   options.inner_points = inner_points;
   out.check = planner::verify_law(problem.law, *out.law, problem.path(), options);
@@ -150,14 +155,14 @@ std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::v
   return {};
 }
 
-LawStudy study_laws(const TimeLawProblem& problem, const std::vector<LawMethod>& methods,
-                    bool keep_profiles) {
+LawStudy study_laws(const TimeLawProblem& problem, const std::vector<LawMethod>& methods, bool keep_profiles,
+                    const StudyProgress& progress) {
   LawStudy out;
   const double derivatives = static_cast<double>(problem.law.nodes() * problem.law.axes);
   out.inner_points = derivatives > kManyDerivatives ? 2 : 10;
   for (const LawMethod method : methods) {
     const auto begin = std::chrono::steady_clock::now();
-    MethodOutcome outcome{method, solve(problem, method, keep_profiles, out.tube), {}, {}, 0};
+    MethodOutcome outcome{method, solve(problem, method, keep_profiles, out.tube, progress), {}, {}, 0};
     outcome.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (outcome.law) out.lower_bound_s = std::max(out.lower_bound_s, outcome.law->lower_bound_s);
     measure(problem, out.inner_points, outcome);

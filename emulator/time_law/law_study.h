@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -52,7 +53,10 @@ std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::v
                                      bool keep_profiles);
 
 /// Solves a problem by each method, and measures every law by law_metrics() and verify_law().
+/// Told how far a study is: method, what it does, how much of that is done (planner::LawProgress).
+using StudyProgress = std::function<void(LawMethod method, std::string_view stage, double done)>;
 /// @param keep_profiles  of every pass of the tube
-LawStudy study_laws(const TimeLawProblem& problem, const std::vector<LawMethod>& methods, bool keep_profiles);
+LawStudy study_laws(const TimeLawProblem& problem, const std::vector<LawMethod>& methods, bool keep_profiles,
+                    const StudyProgress& progress = nullptr);
 
 }  // namespace kadr::emulator

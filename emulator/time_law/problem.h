@@ -20,25 +20,47 @@ struct PathAxis {
   std::string unit;  ///< "deg", "mm" or "rad"
 };
 
+/// A path that is a stretch of a control program on a machine.
+struct ProgramPath {
+  std::string program;  ///< its file, as the problem names it
+  std::string machine;
+  std::uint32_t first_line = 0, last_line = 0;  ///< of the first and the last move
+  planner::Path path{0};                        ///< of the whole program
+  planner::Run run;                             ///< the stretch
+  std::optional<planner::SplineFit> fit;        ///< in place of the lines
+  double tolerance_mm = 0;                      ///< of the fit
+  std::vector<std::uint32_t> line;              // [nodes], of the program
+  std::vector<std::string> reasons;             ///< what caps can be held by: "program", "junction X" ...
+  std::vector<std::uint16_t> held_by;           // [nodes], index of a reason
+};
+
 /// A problem file as read.
 struct TimeLawProblem {
   std::string name;
   std::vector<PathAxis> axes;
   std::vector<planner::FormulaAxis> formulas;  // [axes], of a path by formula
   std::optional<planner::TablePath> table;     ///< of a path by table
+  std::optional<ProgramPath> program;          ///< of a path by program
   planner::LawProblem law;                     ///< units are mm along the path, those of `axes` else
   planner::TubeOptions tube;
   std::int32_t classical_levels = 1100;
   std::optional<double> jerk_mm_s3;
-  Span size_span;  ///< what the number of nodes comes from
+  Span size_span;        ///< what the number of nodes comes from
+  Diagnostics warnings;  ///< of the program
 
   /// X' and X'' between nodes; this problem outlives it.
   planner::PathDerivatives path() const {
+    if (program)
+      return program->fit ? program->fit->path.derivatives()
+                          : planner::derivatives(program->path, program->run);
     return table ? table->derivatives() : planner::derivatives(formulas, law.s_u.back());
   }
+  /// The limit along the path, or the highest cap of a node where there is none: what speeds are scaled by.
+  double scale_mm_s() const;
 };
 
-/// Reads sources[file] as a problem; a table lies beside it and is added to the sources.
+/// Reads sources[file] as a problem; a table, or a program and its machine, lie beside it and are added to
+/// the sources.
 /// @return the problem, which check_problem() finds nothing wrong with, or all mistakes found
 /// @throws std::system_error for a table that is there and can't be read
 tl::expected<TimeLawProblem, Diagnostics> read_time_law_problem(SourceSet& sources, std::uint32_t file);

@@ -4,7 +4,10 @@
 #include <filesystem>
 
 #include "emulator/time_law/path_table.h"
-#include "emulator/time_law/problem.h"
+#include "emulator/time_law/problem_axis.h"
+#include "emulator/time_law/problem_bounds.h"
+#include "emulator/time_law/problem_machine.h"
+#include "emulator/time_law/program_problem.h"
 #include "machine/file/table_reader.h"
 
 namespace kadr::emulator {
@@ -17,27 +20,16 @@ using machine::Node;
 using machine::Reading;
 using machine::TableReader;
 
-// The outer ends are far beyond any path: they keep squares, products and angles of the values within reach.
-constexpr Bounds kSpeed{1e-6, 1e9};
 constexpr Bounds kEndSpeed{0, 1e9};
-constexpr Bounds kAcceleration{1e-6, 1e12};
 constexpr Bounds kPathAcceleration{1e-6, 1e12, true};
 constexpr Bounds kJerk{1e-6, 1e15};
-constexpr Bounds kPlace{-1e9, 1e9};
-constexpr Bounds kLength{1e-3, 1e9};
 constexpr Bounds kNodes{3, kMostNodes, false, true};
-constexpr Bounds kValue{-1e8, 1e8};
-constexpr Bounds kTurns{0, 1e5};
-constexpr Bounds kPhase{-1e3, 1e3};
-constexpr std::size_t kMostTerms = 64;    ///< waves, or steps, of an axis
 constexpr double kMostDerivatives = 2e7;  ///< nodes times axes
-constexpr std::size_t kMostNameLength = 32;
-constexpr const char* kUnits[] = {"deg", "mm", "rad"};
 
 class ProblemReader {
  public:
   ProblemReader(SourceSet& sources, std::uint32_t file, machine::ReadContext& context)
-      : sources_(sources), file_(file), context_(context) {}
+      : sources_(sources), file_(file), context_(context), program_(sources, file, context) {}
 
   void read(const Node& root) {
     TableReader table(&root, "", Span{file_, 1, 1, 1}, context_);
@@ -58,7 +50,7 @@ class ProblemReader {
       keys.finish();
     }
     table.finish();
-    if (out_.axes.empty() && context_.complete)
+    if (out_.axes.empty() && !by_program_ && context_.complete)
       tell(Code::problem_path, Span{file_, 1, 1, 1}, "there is no [[axis]]", "begin each axis with [[axis]]");
     if (!context_.diagnostics.has_errors()) place();
   }
@@ -75,26 +67,51 @@ class ProblemReader {
   /// Length and nodes, or a table; limits along the path.
   void read_path(const Node* node, const Span& missing) {
     TableReader keys(node, "path", missing, context_);
-    by_table_ = keys.has("table");
+    by_program_ = keys.has("program");
+    by_table_ = !by_program_ && keys.has("table");
     table_ = keys.text("table", "");
+    if (by_program_ && keys.has("table"))
+      tell(Code::problem_path, table_.span, "the program gives the path already",
+           "keep one of table and program");
+    if (by_program_)
+      program_.read_path(keys);
+    else if (keys.has("machine"))
+      machine_ = open_problem_machine(sources_, file_, keys.text("machine"), context_);
+    const auto of_machine = [&](double machine::PathLimits::*limit) {
+      return by_program_ ? std::optional<double>(kInfinity)
+             : machine_ && machine_->model.path.*limit < kInfinity
+                 ? std::optional<double>(machine_->model.path.*limit)
+                 : std::nullopt;
+    };
+    if (by_table_) ends_ = read_spline_ends(keys);
     const bool has_length = keys.has("length_mm"), has_nodes = keys.has("nodes");
-    if (node && !by_table_ && !has_length && !has_nodes)
-      tell(Code::problem_path, node->span, "has neither length_mm and nodes nor a table",
-           "write table = \"FILE.csv\", or length_mm and nodes and the axes' formulas");
+    if (node && !by_table_ && !by_program_ && !has_length && !has_nodes)
+      tell(Code::problem_path, node->span, "has neither length_mm and nodes nor a table or program",
+           "write table = \"FILE.csv\", program = \"FILE.ngc\", or length_mm and nodes and the axes' "
+           "formulas");
     // what is not needed has a value that nobody reads, so that its key is known all the same
-    const bool needed = !by_table_ && (has_length || has_nodes);
+    const bool needed = !by_table_ && !by_program_ && (has_length || has_nodes);
     const auto otherwise = [&](double value) { return needed ? std::optional<double>() : value; };
     const auto length = keys.number("length_mm", kLength, otherwise(1));
     const auto nodes = keys.number("nodes", kNodes, otherwise(3));
-    if (by_table_ && has_length)
-      tell(Code::problem_path, length.span, "the table gives the length already",
-           "keep one of table and length_mm");
+    if ((by_table_ || by_program_) && has_length) {
+      const char* other = by_table_ ? "table" : "program";
+      tell(Code::problem_path, length.span, fmt::format("the {} gives the length already", other),
+           fmt::format("keep one of {} and length_mm", other));
+    }
+    if (by_program_ && !program_.by_spline() && has_nodes)
+      tell(Code::problem_path, nodes.span, "a program's joints are nodes, and others lie between them",
+           "write node_mm, the longest way between nodes, or fit = \"spline\"");
     length_mm_ = length.value;
     if (needed || has_nodes) nodes_ = nodes;
-    out_.size_span = nodes_ ? nodes_->span : table_.span;
+    out_.size_span = nodes_ ? nodes_->span : by_program_ ? program_.program_span() : table_.span;
     planner::LawProblem& law = out_.law;
-    law.path_feed_u_s = keys.number("max_mm_s", kSpeed).value;
-    law.path_accel_u_s2 = keys.number("max_acceleration_mm_s2", kPathAcceleration, kInfinity).value;
+    // a program says how fast, with its feeds and its machine
+    law.path_feed_u_s =
+        keys.number("max_mm_s", kSpeed, of_machine(&machine::PathLimits::max_feed_mm_s)).value;
+    law.path_accel_u_s2 = keys.number("max_acceleration_mm_s2", kPathAcceleration,
+                                      of_machine(&machine::PathLimits::max_accel_mm_s2).value_or(kInfinity))
+                              .value;
     begin_ = keys.number("begin_mm_s", kEndSpeed, 0.0);
     end_ = keys.number("end_mm_s", kEndSpeed, 0.0);
     law.begin_u_s = begin_.value;
@@ -106,82 +123,8 @@ class ProblemReader {
   }
 
   void read_axis(const Node& node) {
-    const machine::Entry* given = node.find("name");
-    const bool named = given && given->value.kind == Node::Kind::text;
-    TableReader keys(&node, named ? "axis." + given->value.text : "axis", node.span, context_);
-    const std::string name = read_name(keys);
-    const std::string unit = kUnits[keys.choice("unit", {"deg", "mm", "rad"}).value];
-    out_.law.max_feed_u_s.push_back(keys.number(fmt::format("max_{}_s", unit), kSpeed).value);
-    out_.law.max_accel_u_s2.push_back(
-        keys.number(fmt::format("max_acceleration_{}_s2", unit), kAcceleration).value);
-    if (by_table_)
-      refuse_formula(keys, unit);
-    else
-      read_formula(keys, unit);
-    keys.finish();
-    out_.axes.push_back({name, unit});
-    if (out_.axes.size() == kMostPathAxes + 1)
-      tell(Code::problem_path, node.span,
-           fmt::format("is axis {}, at most {} are allowed", out_.axes.size(), kMostPathAxes));
-  }
-
-  std::string read_name(TableReader& keys) {
-    const auto name = keys.text("name");
-    if (!name.valid) return {};
-    const bool plain =
-        !name.value.empty() && name.value.size() <= kMostNameLength && name.value != "s" &&
-        std::all_of(name.value.begin(), name.value.end(), [](char c) {
-          return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-        });
-    if (!plain)
-      tell(Code::problem_path, name.span,
-           fmt::format("a name has 1 to {} letters, digits and _, and is not s", kMostNameLength));
-    if (std::any_of(out_.axes.begin(), out_.axes.end(),
-                    [&](const PathAxis& axis) { return axis.name == name.value; }))
-      tell(Code::problem_path, name.span, "another axis has this name");
-    return name.value;
-  }
-
-  void refuse_formula(TableReader& keys, const std::string& unit) {
-    for (const std::string& key : {"offset_" + unit, "slope_" + unit}) {
-      if (!keys.has(key)) continue;
-      tell(Code::problem_path, keys.number(key, kValue).span, "the table gives the axis's values already",
-           "keep one of the table and the formula");
-    }
-    for (const char* key : {"waves", "steps"}) {
-      if (!keys.has(key)) continue;
-      const std::vector<Node>& terms = keys.tables(key);
-      tell(Code::problem_path, terms.empty() ? keys.header() : terms.front().span,
-           "the table gives the axis's values already", "keep one of the table and the formula");
-    }
-  }
-
-  void read_formula(TableReader& keys, const std::string& unit) {
-    planner::FormulaAxis axis;
-    axis.offset = keys.number("offset_" + unit, kValue, 0.0).value;
-    axis.slope = keys.number("slope_" + unit, kValue, 0.0).value;
-    const auto each = [&](const char* key, auto&& read) {
-      const std::vector<Node>& terms = keys.tables(key);
-      if (terms.size() > kMostTerms)
-        tell(Code::problem_path, terms[kMostTerms].span,
-             fmt::format("{} {}, at most {} are allowed", terms.size(), key, kMostTerms));
-      for (const Node& term : terms) {
-        TableReader of_term(&term, keys.path_of(key), term.span, context_);
-        read(of_term);
-        of_term.finish();
-      }
-    };
-    each("waves", [&](TableReader& wave) {
-      const double amplitude = wave.number("amplitude_" + unit, kValue).value;
-      const double turns = wave.number("turns", kTurns).value;
-      axis.waves.push_back({amplitude, turns, wave.number("phase_rad", kPhase, 0.0).value});
-    });
-    each("steps", [&](TableReader& step) {
-      const double height = step.number("height_" + unit, kValue).value;
-      const double at = step.number("at_mm", kPlace).value;
-      axis.steps.push_back({height, at, step.number("width_mm", kLength).value});
-    });
-    out_.formulas.push_back(std::move(axis));
+    if (by_program_) return program_.read_axis(node);
+    read_problem_axis(node, by_table_, machine_ ? &machine_->model : nullptr, out_, context_);
   }
 
   void read_zone(const Node& node) {
@@ -189,7 +132,12 @@ class ProblemReader {
     planner::SpeedZone zone;
     zone.speed_u_s = keys.number("max_mm_s", kSpeed).value;
     Span begin, end;
-    if (keys.one_of("at_mm", "from_mm") == "at_mm") {
+    std::optional<std::uint32_t> line;
+    if (by_program_ && keys.has("at_line")) {
+      const auto at = keys.number("at_line", {1, 4e9, false, true});
+      line = static_cast<std::uint32_t>(at.value);
+      begin = end = at.span;
+    } else if (keys.one_of("at_mm", "from_mm") == "at_mm") {
       const auto at = keys.number("at_mm", kPlace);
       zone.begin_u = zone.end_u = at.value;
       begin = end = at.span;
@@ -210,15 +158,19 @@ class ProblemReader {
     }
     keys.finish();
     zone_spans_.emplace_back(begin, end);
+    zone_lines_.push_back(line);
     out_.law.zones.push_back(zone);
   }
 
   void read_penalty(const Node* node) {
     if (!node) return;
     TableReader keys(node, "penalty", node->span, context_);
-    planner::Penalty& penalty = out_.law.penalty;
-    penalty.weight_s5_u2 = keys.number("weight_s5_per_mm2", {0, 1e6}, penalty.weight_s5_u2).value;
-    penalty.per_length = keys.flag("per_length", penalty.per_length).value;
+    // what is not given is as the path has it: by a program, as in a run of it
+    const planner::Penalty otherwise;
+    const double weight = keys.number("weight_s5_per_mm2", {0, 1e6}, otherwise.weight_s5_u2).value;
+    const bool per_length = keys.flag("per_length", otherwise.per_length).value;
+    if (!by_program_ || keys.has("weight_s5_per_mm2")) weight_s5_u2_ = weight;
+    if (!by_program_ || keys.has("per_length")) per_length_ = per_length;
     keys.finish();
   }
 
@@ -249,7 +201,9 @@ class ProblemReader {
 
   /// Puts the path at its nodes, and looks whether a law can be thought of.
   void place() {
-    if (by_table_ ? !place_table() : !place_formulas()) return;
+    if (by_program_ ? !place_program() : by_table_ ? !place_table() : !place_formulas()) return;
+    out_.law.penalty.weight_s5_u2 = weight_s5_u2_.value_or(out_.law.penalty.weight_s5_u2);
+    out_.law.penalty.per_length = per_length_.value_or(out_.law.penalty.per_length);
     check_zones();
     check_law();
   }
@@ -261,6 +215,23 @@ class ProblemReader {
          fmt::format("{:.0f} nodes of {} axes, nodes times axes may be at most {:.0f}", nodes,
                      out_.axes.size(), kMostDerivatives));
     return false;
+  }
+
+  bool place_program() {
+    std::optional<double> nodes;
+    if (nodes_) nodes = nodes_->value;
+    if (!program_.place(nodes, out_)) return false;
+    for (std::size_t i = 0; i < zone_lines_.size(); ++i) {
+      if (!zone_lines_[i]) continue;
+      const auto at = ProgramProblem::line_s_mm(*out_.program, *zone_lines_[i], program_.program_file());
+      if (!at)
+        tell(Code::problem_zone, zone_spans_[i].first,
+             fmt::format("no motion of the path begins on line {}", *zone_lines_[i]),
+             fmt::format("the path has moves of lines {} to {}", out_.program->first_line,
+                         out_.program->last_line));
+      out_.law.zones[i].begin_u = out_.law.zones[i].end_u = at.value_or(0.0);
+    }
+    return !context_.diagnostics.has_errors() && small_enough(static_cast<double>(out_.law.nodes()));
   }
 
   bool place_formulas() {
@@ -281,7 +252,7 @@ class ProblemReader {
     const std::uint32_t file = sources_.add(SourceText::open(path.string()));
     auto rows = read_path_table(sources_, file, names, context_.diagnostics);
     if (!rows || !small_enough(nodes_ ? nodes_->value : static_cast<double>(rows->s_u.size()))) return false;
-    out_.table.emplace(std::move(rows->s_u), std::move(rows->values), out_.axes.size());
+    out_.table.emplace(std::move(rows->s_u), std::move(rows->values), out_.axes.size(), ends_);
     if (nodes_)
       out_.table->sample(static_cast<std::size_t>(nodes_->value), out_.law);
     else
@@ -291,6 +262,7 @@ class ProblemReader {
 
   void check_zones() {
     const double first = out_.law.s_u.front(), last = out_.law.s_u.back();
+    // behind those of the file a program may have some of its own
     for (std::size_t i = 0; i < zone_spans_.size(); ++i) {
       const planner::SpeedZone& zone = out_.law.zones[i];
       const bool before = zone.begin_u < first;
@@ -319,8 +291,9 @@ class ProblemReader {
   void check_end(const Reading<double>& speed, const planner::NodeCap& cap) {
     if (speed.value <= cap.speed_u_s) return;
     const std::string by = cap.reason >= 0 ? "axis " + out_.axes[static_cast<std::size_t>(cap.reason)].name
-                           : cap.reason == planner::NodeCap::kZone ? std::string("a zone")
-                                                                   : std::string("path.max_mm_s");
+                           : cap.reason == planner::NodeCap::kZone  ? std::string("a zone")
+                           : cap.reason == planner::NodeCap::kGiven ? std::string("the program")
+                                                                    : std::string("path.max_mm_s");
     tell(Code::problem_no_motion, speed.span,
          fmt::format("is {:g} mm/s, {} allows {:.6g} mm/s there", speed.value, by, cap.speed_u_s));
   }
@@ -328,18 +301,31 @@ class ProblemReader {
   SourceSet& sources_;
   std::uint32_t file_;
   machine::ReadContext& context_;
+  ProgramProblem program_;
+  std::optional<machine::MachineFile> machine_;  ///< of a path by formula or table
   TimeLawProblem out_;
-  bool by_table_ = false;
+  bool by_table_ = false, by_program_ = false;
+  planner::SplineEnds ends_ = planner::SplineEnds::not_a_knot;
+  std::optional<double> weight_s5_u2_;
+  std::optional<bool> per_length_;
   Reading<std::string> table_;
   std::optional<Reading<double>> nodes_;
   double length_mm_ = 0;
   double begin_rest_ = 0, end_rest_ = 0;
   Reading<double> begin_, end_;
   Span path_span_;
-  std::vector<std::pair<Span, Span>> zone_spans_;  // [zones], where begin and end are written
+  std::vector<std::pair<Span, Span>> zone_spans_;         // [zones], where begin and end are written
+  std::vector<std::optional<std::uint32_t>> zone_lines_;  // [zones], at_line
 };
 
 }  // namespace
+
+double TimeLawProblem::scale_mm_s() const {
+  if (law.path_feed_u_s < kInfinity) return law.path_feed_u_s;
+  double highest = 0;
+  for (const planner::NodeCap& cap : planner::node_caps(law)) highest = std::max(highest, cap.speed_u_s);
+  return highest;
+}
 
 tl::expected<TimeLawProblem, Diagnostics> read_time_law_problem(SourceSet& sources, std::uint32_t file) {
   Diagnostics diagnostics;

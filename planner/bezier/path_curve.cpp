@@ -69,6 +69,21 @@ void PathCurve::position(double t, std::span<double> position_u) const {
   for (std::size_t k = 0; k < axes_; ++k) position_u[k] = position(k, t);
 }
 
+PathCurve PathCurve::part(double from, double to) const {
+  // x(from + (to - from) u) by powers of u
+  PathCurve part = *this;
+  for (std::size_t k = 0; k < axes_; ++k) {
+    double* c = part.c_.data() + k * kPowers;
+    // Horner's scheme again and again leaves the Taylor coefficients at `from`
+    for (std::size_t j = 0; j + 1 < kPowers; ++j)
+      for (std::size_t i = kPowers - 1; i-- > j;) c[i] += from * c[i + 1];
+    double scale = 1;
+    for (std::size_t j = 0; j < kPowers; ++j, scale *= to - from) c[j] *= scale;
+  }
+  part.panels_.measure([&part](double t) { return part.speed(t); }, kFewestPanels);
+  return part;
+}
+
 std::vector<double> PathCurve::turning_points(std::size_t axis) const {
   const double* c = c_.data() + axis * kPowers;
   const double bend = std::fabs(2 * c[2]) + std::fabs(3 * c[3]) + std::fabs(4 * c[4]) + std::fabs(5 * c[5]);

@@ -42,6 +42,8 @@ class PathCurve {
     const double* c = c_.data() + axis * kPowers;
     return c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * (5 * c[5]))));
   }
+  /// The part from t = `from` to t = `to`.
+  PathCurve part(double from, double to) const;
   /// Where an axis turns round: the zeros of dx/dt inside (0, 1), ascending.
   std::vector<double> turning_points(std::size_t axis) const;
   /// @pre speed(t) > 0

@@ -198,6 +198,7 @@ BandOptimum InteriorPoint::run(const BandOptions& options) {
   double least_gap = machine::kInfinity;
   std::uint32_t still = 0;  // steps without progress
   for (;; ++out.steps) {
+    if (options.each_step) options.each_step(out.steps);
     if (const double bound = bound_s(cost); bound > out.bound_s) {
       out.bound_s = bound;
       out.x = x_;

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "planner/time_law/problem.h"
@@ -52,6 +53,7 @@ struct BandOptions {
   double relative_gap = 1e-8;
   double broken = 1e-10;  ///< by how much a row may be, of its bound
   std::uint32_t most_steps = 200;
+  std::function<void(std::uint32_t)> each_step;  ///< called with the number of steps done
 };
 
 /// Primal-dual interior point with predictor and corrector (Mehrotra); x need not keep the rows on the way.

@@ -24,9 +24,12 @@ LawResult CertifiedLaw::solve(const LawProblem& problem) {
   options.most_passes = kPolishPasses;
   double fastest = 0;
   for (const double v : greedy->speed_u_s) fastest = std::max(fastest, v);
-  LawResult polished = TubeDp(options).refine(problem, *greedy, kPolishHalfWidth * fastest);
+  TubeDp tube(options);
+  tube.on_progress(progress_);
+  LawResult polished = tube.refine(problem, *greedy, kPolishHalfWidth * fastest);
   if (!polished) return polished;
   InteriorPointOptimum optimum;
+  optimum.on_progress(progress_);
   const LawResult best = optimum.solve_from(problem, *greedy);
   certificate_ = optimum.certificate();
   // without an optimum there is a lower bound all the same, though one that leaves a gap

@@ -5,6 +5,11 @@
 #include "machine/base/require.h"
 
 namespace kadr::planner {
+namespace {
+
+constexpr std::size_t kTold = 16;  ///< nodes from one call of progress to the next
+
+}  // namespace
 
 DynamicProgramme::DynamicProgramme(const LawProblem& problem, DpStepFunction function)
     : problem_(problem), rows_(accel_rows(problem)), step_(function) {}
@@ -39,6 +44,7 @@ LawResult DynamicProgramme::run(const std::vector<LevelRange>& levels) {
   here_.set(levels[0], stride_);
   here_.first = here_.last = 0;
   for (std::size_t i = 1; i < n; ++i) {
+    if (progress_ && i % kTold == 0) progress_(static_cast<double>(i) / static_cast<double>(n));
     std::swap(before_, here_);
     here_.set(levels[i], stride_);
     if (!step(i))

@@ -19,6 +19,9 @@ class DynamicProgramme {
   ///         first node of which no level can be reached
   LawResult run(const std::vector<LevelRange>& levels);
 
+  /// `each` is called with the part of the nodes that is done, 0..1, now and then.
+  void on_progress(std::function<void(double)> each) { progress_ = std::move(each); }
+
   const std::vector<std::int32_t>& level() const { return level_; }  ///< [nodes], of the last solution
   std::uint64_t transitions() const { return transitions_; }         ///< looked at in all runs
 
@@ -36,6 +39,7 @@ class DynamicProgramme {
   const LawProblem& problem_;
   AccelRows rows_;
   DpStepFunction step_;
+  std::function<void(double)> progress_;
   std::size_t stride_ = 0;    ///< levels of a node in the tables
   std::vector<double> cost_;  // [nodes][stride]
   std::vector<std::uint16_t> first_, last_;

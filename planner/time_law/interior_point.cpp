@@ -36,6 +36,8 @@ LawResult InteriorPointOptimum::solve_from(const LawProblem& problem, const LawS
   for (std::size_t i = 1; i + 1 < n; ++i) x[i] = std::max(x[i], 1e-9 * program.cap[i]);
   BandOptions options;
   options.relative_gap = relative_gap_;
+  if (progress_)
+    options.each_step = [this](std::uint32_t step) { progress_(fmt::format("step {}", step), -1.0); };
   const BandOptimum optimum = planner::solve(program, std::move(x), options);
   std::vector<double> speed(n);
   for (std::size_t i = 0; i < n; ++i) speed[i] = std::sqrt(std::max(optimum.x[i], 0.0) * program.unit_u2_s2);

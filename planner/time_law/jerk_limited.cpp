@@ -148,6 +148,7 @@ LawResult JerkLimitedLaw::solve(const LawProblem& problem) {
   std::uint32_t steps = 0;
   double before = machine::kInfinity;
   for (tangents_ = 1;; ++tangents_) {
+    if (progress_) progress_(fmt::format("tangent {}", tangents_), -1.0);
     LawResult law = jerk_tangent_law(problem, jerk, speed);
     if (!law) return law;
     steps += law->iterations;

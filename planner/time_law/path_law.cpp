@@ -52,9 +52,7 @@ class ProblemMaker {
       p.max_accel_u_s2.push_back(axis.max_accel_u_s2);
     }
     const double length = path_.start_s_u[run_.last + 1] - path_.start_s_u[run_.first];
-    // as much a millimetre as in the paper, whose path was one stretch of 2846.9 mm
-    p.penalty.per_length = true;
-    p.penalty.weight_s5_u2 *= length / kPaperLength_u;
+    p.penalty = run_penalty(length);
     longest_u_ = std::min(machine_.planner.node_mm, length / kLeastIntervals);
     measure_joints();
     node(run_.first, 0.0);
@@ -219,6 +217,8 @@ Signature law_signature(const PathLimitTable& table, std::size_t segment, double
   if (speed < cap * (1.0 - kAtCap)) return {LimitedBy::length, -1};
   return table.signature[2 * segment + 1];
 }
+
+Penalty run_penalty(double length_u) { return {Penalty{}.weight_s5_u2 * (length_u / kPaperLength_u), true}; }
 
 RunProblem run_problem(const Path& path, const PathLimitTable& table, const Run& run,
                        const machine::MachineModel& machine, RunLimits limits) {

@@ -1,5 +1,7 @@
 #pragma once
+#include <functional>
 #include <string_view>
+#include <utility>
 
 #include <tl/expected.hpp>
 
@@ -19,6 +21,10 @@ struct LawSolution {
 
 using LawResult = tl::expected<LawSolution, LawFailure>;
 
+/// Told how far a method is: what it does ("pass 3"), and how much of that is done, 0..1; below 0: not known.
+/// Called often.
+using LawProgress = std::function<void(std::string_view stage, double done)>;
+
 /// A method to solve a LawProblem. Every solution, from whichever method, is looked at by verify_law().
 class LawSolver {
  public:
@@ -26,6 +32,10 @@ class LawSolver {
   virtual std::string_view name() const = 0;
   /// @pre check_problem() has found nothing
   virtual LawResult solve(const LawProblem& problem) = 0;
+  void on_progress(LawProgress progress) { progress_ = std::move(progress); }
+
+ protected:
+  LawProgress progress_;
 };
 
 /// Adds up time and cost of a profile.

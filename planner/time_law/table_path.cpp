@@ -10,11 +10,13 @@ namespace {
 
 /// X'' of one axis at all rows, from
 ///   h_i m_(i-1) + 2 (h_i + h_(i+1)) m_i + h_(i+1) m_(i+1) = 6 (d_(i+1) - d_i),   d_i = (X_i - X_(i-1))/h_i
-/// at inner rows; the ends are continued linearly, m_0 = m_1 + (m_1 - m_2) h_1/h_2. Every row of the matrix
-/// is dominated by its diagonal, so elimination needs no pivots.
+/// at inner rows. The ends: continued linearly, m_0 = m_1 + (m_1 - m_2) h_1/h_2; or 0; or, with X'_0 = d_1,
+///   2 h_1 m_0 + h_1 m_1 = 6 (d_1 - X'_0) = 0.
+/// Every row of the matrix is dominated by its diagonal, so elimination needs no pivots.
 class SecondDerivatives {
  public:
-  explicit SecondDerivatives(const std::vector<double>& s) : n_(s.size()), h_(n_), upper_(n_), pivot_(n_) {
+  SecondDerivatives(const std::vector<double>& s, SplineEnds ends)
+      : n_(s.size()), ends_(ends), h_(n_), upper_(n_), pivot_(n_) {
     for (std::size_t i = 1; i < n_; ++i) h_[i] = s[i] - s[i - 1];
     for (std::size_t i = 1; i + 1 < n_; ++i) {
       pivot_[i] = diagonal(i) - (i > 1 ? lower(i) * upper_[i - 1] : 0.0);
@@ -30,14 +32,24 @@ class SecondDerivatives {
       m(i) = (right - (i > 1 ? lower(i) * m(i - 1) : 0.0)) / pivot_[i];
     }
     for (std::size_t i = n_ - 2; i > 1; --i) m(i - 1) -= upper_[i - 1] * m(i);
-    m(0) = m(1) + (m(1) - m(2)) * (h_[1] / h_[2]);
-    m(n_ - 1) = m(n_ - 2) + (m(n_ - 2) - m(n_ - 3)) * (h_[n_ - 1] / h_[n_ - 2]);
+    m(0) = end(m(1), m(2), h_[1] / h_[2]);
+    m(n_ - 1) = end(m(n_ - 2), m(n_ - 3), h_[n_ - 1] / h_[n_ - 2]);
   }
 
  private:
+  /// m of an end from those of the next two rows; `ratio` is of the outer interval to the inner one.
+  double end(double next, double second, double ratio) const {
+    if (ends_ == SplineEnds::natural) return 0.0;
+    return ends_ == SplineEnds::clamped ? -0.5 * next : next + (next - second) * ratio;
+  }
   /// Of an end row, with m of the end replaced: the neighbour's interval is h, the inner one is k.
-  static double end_diagonal(double h, double k) { return (h + k) * (h + 2.0 * k) / k; }
-  static double end_inner(double h, double k) { return (k - h) * (k + h) / k; }
+  double end_diagonal(double h, double k) const {
+    if (ends_ == SplineEnds::natural) return 2.0 * (h + k);
+    return ends_ == SplineEnds::clamped ? 1.5 * h + 2.0 * k : (h + k) * (h + 2.0 * k) / k;
+  }
+  double end_inner(double h, double k) const {
+    return ends_ == SplineEnds::not_a_knot ? (k - h) * (k + h) / k : k;
+  }
 
   double diagonal(std::size_t i) const {
     if (i == 1) return end_diagonal(h_[1], h_[2]);
@@ -48,15 +60,16 @@ class SecondDerivatives {
   double above(std::size_t i) const { return i == 1 ? end_inner(h_[1], h_[2]) : h_[i + 1]; }
 
   std::size_t n_;
+  SplineEnds ends_;
   std::vector<double> h_, upper_, pivot_;
 };
 
 }  // namespace
 
-TablePath::TablePath(std::vector<double> s_u, std::vector<double> values, std::size_t axes)
+TablePath::TablePath(std::vector<double> s_u, std::vector<double> values, std::size_t axes, SplineEnds ends)
     : s_u_(std::move(s_u)), value_(std::move(values)), second_(value_.size()), axes_(axes) {
   require(rows() >= 4 && axes_ > 0 && value_.size() == rows() * axes_, "a table has 4 full rows");
-  const SecondDerivatives equations(s_u_);
+  const SecondDerivatives equations(s_u_, ends);
   for (std::size_t c = 0; c < axes_; ++c) equations.solve(value_, c, axes_, second_.data());
 }
 

@@ -1,5 +1,7 @@
 #include "planner/time_law/tube.h"
 
+#include <fmt/format.h>
+
 namespace kadr::planner {
 namespace {
 
@@ -16,6 +18,7 @@ std::vector<LevelRange> full_levels(const LawProblem& p, const std::vector<NodeC
 
 LawResult ClassicalDp::solve(const LawProblem& problem) {
   DynamicProgramme programme(problem);
+  if (progress_) programme.on_progress([this](double done) { progress_("levels", done); });
   LawResult out = programme.run(full_levels(problem, node_caps(problem), levels_));
   if (out) out->iterations = 1;
   return out;
@@ -44,6 +47,7 @@ const TubePass& TubeControl::pass(double time_s, double cost_s, bool touched) {
 
 LawResult TubeDp::solve(const LawProblem& problem) {
   DynamicProgramme programme(problem);
+  tell_pass(programme, 1);
   LawResult first = programme.run(full_levels(problem, node_caps(problem), options_.levels));
   passes_.clear();
   profiles_.clear();
@@ -58,6 +62,12 @@ LawResult TubeDp::refine(const LawProblem& problem, const LawSolution& known, do
   DynamicProgramme programme(problem);
   profiles_.clear();
   return loop(programme, problem, known, TubeControl(options_, known, half_width_u_s));
+}
+
+void TubeDp::tell_pass(DynamicProgramme& programme, std::size_t number) const {
+  if (!progress_) return;
+  programme.on_progress(
+      [this, stage = fmt::format("pass {}", number)](double done) { progress_(stage, done); });
 }
 
 LawResult TubeDp::loop(DynamicProgramme& programme, const LawProblem& p, LawSolution law,
@@ -77,6 +87,7 @@ LawResult TubeDp::loop(DynamicProgramme& programme, const LawProblem& p, LawSolu
       levels[i] = options_.grid == TubeGrid::uniform ? LevelRange::uniform(options_.levels, low, high)
                                                      : LevelRange::keeping(options_.levels, low, high, v);
     }
+    tell_pass(programme, control.passes().size() + 1);
     LawResult next = programme.run(levels);
     if (!next) {  // the law found before is not among the levels of a uniform tube, and none may be within
                   // reach

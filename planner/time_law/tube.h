@@ -76,6 +76,7 @@ class TubeDp final : public LawSolver {
   std::uint64_t transitions() const { return transitions_; }
 
  private:
+  void tell_pass(DynamicProgramme& programme, std::size_t number) const;
   LawResult loop(DynamicProgramme& programme, const LawProblem& problem, LawSolution law,
                  TubeControl control);
 

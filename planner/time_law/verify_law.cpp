@@ -8,6 +8,8 @@
 namespace kadr::planner {
 namespace {
 
+constexpr double kInside = 1e-7;  ///< of an interval: a hair beside its ends, where X' may jump
+
 class Checker {
  public:
   Checker(const LawProblem& p, const LawSolution& x, const LawCheckOptions& o)
@@ -125,7 +127,8 @@ class Checker {
     for (std::size_t i = 1; i < p_.nodes(); ++i) {
       const double a = accel(i);
       for (std::uint32_t q = 0; q <= options_.inner_points; ++q) {
-        const double part = static_cast<double>(q) / options_.inner_points;
+        const double part =
+            std::clamp(static_cast<double>(q) / options_.inner_points, kInside, 1.0 - kInside);
         const double s = p_.s_u[i - 1] + part * (p_.s_u[i] - p_.s_u[i - 1]);
         const double x = v_[i - 1] * v_[i - 1] * (1.0 - part) + v_[i] * v_[i] * part;
         path(s, slope.data(), curvature.data());

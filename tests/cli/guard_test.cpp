@@ -40,4 +40,6 @@ TEST_CASE("progress: 58.5 % of the path, 12.4 s of machine time in 0.3 s") {
         "run  ██████░░░░░░  50 %  line 1/2  36000.0 s of machine  5.0x real time  ETA 2:00:00");
   CHECK(progress_bar(0, 1, 2, 0, 0) == "run  ░░░░░░░░░░░░   0 %  line 1/2  0.0 s of machine  0.0x real time");
   CHECK(progress_line(0.585, 701, 1190, 12.4) == "kadr: run 58 % line 701/1190 sim 12.4 s");
+  CHECK(stage_bar("certified: pass 3", 0.5) == "tube  certified: pass 3  ██████░░░░░░  50 %");
+  CHECK(stage_bar("optimum: step 12", -1) == "tube  optimum: step 12");
 }

@@ -96,6 +96,32 @@ TEST_CASE(
   CHECK(!contains(run_kadr(launch).out, "\x1b"));
 }
 
+TEST_CASE("a long problem of kadr tube tells on a terminal how far it is, and nothing anywhere else") {
+  const Scratch scratch;
+  // 8000 levels at 400 nodes: 2e10 pairs of levels a pass, seconds on any computer
+  scratch.write(
+      "long.toml",
+      "format = 1\n[path]\nlength_mm = 800\nnodes = 400\nmax_mm_s = 600\n[[axis]]\nname = \"X\"\nunit = "
+      "\"mm\"\nmax_mm_s = 400\nmax_acceleration_mm_s2 = 1200\nslope_mm = 420\n[classical]\nlevels = 8000\n");
+  Launch launch;
+  launch.arguments = {"tube", "long.toml", "--method", "classical"};
+  launch.folder = scratch.path();
+  const Finished piped = run_kadr(launch);
+  CHECK(piped.code == 0);
+  CHECK(piped.err.empty());
+  launch.environment = {"TERM=xterm"};
+  launch.terminal = true;
+  const Finished bar = run_kadr(launch);
+  CHECK(bar.code == 0);
+  CHECK(contains(bar.out, "tube  classical: levels  "));
+  CHECK(contains(bar.out, "\r\x1b[K"));
+  // erased before the answer, which is the same bytes
+  const auto answer = bar.out.rfind("\x1b[K");
+  CHECK(contains(without_returns(bar.out.substr(answer)), piped.out));
+  launch.arguments.push_back("-q");
+  CHECK(!contains(run_kadr(launch).out, "\x1b"));
+}
+
 TEST_CASE(
     "colour: auto for messages on a terminal, always and never by flag, NO_COLOR and CLICOLOR_FORCE kept") {
   const Scratch scratch;

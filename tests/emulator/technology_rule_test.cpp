@@ -72,3 +72,49 @@ TEST_CASE("K3205: a technology point on a line that begins no motion is told wit
   CHECK(diagnostics.list()[0].label == "no motion begins on line 1");
   CHECK(diagnostics.list()[0].span.line == 6);
 }
+
+TEST_CASE("a technology point at a length of the path cuts the move there, and changes no pulse") {
+  Job job, free;
+  Diagnostics diagnostics;
+  REQUIRE(prepared("[[technology]]\nat_path_mm = 75\nmax_mm_s = 20\n", job, diagnostics));
+  REQUIRE(prepared("", free, diagnostics));
+  // within the second of four moves of 50 mm
+  REQUIRE(job.path.size() == free.path.size() + 1);
+  CHECK(job.blocks == free.blocks);
+  CHECK(job.path.start_s_u[2] == 75.0);
+  CHECK(end_feed_mm_s(job, 0) > 99.0);
+  CHECK(end_feed_mm_s(job, 1) == doctest::Approx(20.0).epsilon(1e-6));
+  CHECK(end_feed_mm_s(job, 2) > 99.0);
+  CHECK(planner::verify(job.path, job.plan, job.machine.model).empty());
+  // what happens between moves stays at its joint
+  for (std::size_t i = 0; i < free.events.size(); ++i) {
+    const std::size_t at = free.events[i].after_segment;
+    CHECK(job.path.start_s_u[job.events[i].after_segment] == free.path.start_s_u[at]);
+  }
+  RunOptions options;
+  options.plant = false;
+  const auto slow = run(job, nullptr, options), fast = run(free, nullptr, options);
+  REQUIRE(slow);
+  REQUIRE(fast);
+  for (std::size_t c = 0; c < slow->axis.size(); ++c) CHECK(slow->axis[c].pulses == fast->axis[c].pulses);
+
+  SUBCASE("at a joint nothing is cut, at the end nothing is limited") {
+    Job at_joint;
+    REQUIRE(prepared(
+        "[[technology]]\nat_path_mm = 50\nmax_mm_s = 20\n[[technology]]\nat_path_mm = 200\nmax_mm_s = 1\n",
+        at_joint, diagnostics));
+    CHECK(at_joint.path.size() == free.path.size());
+    CHECK(end_feed_mm_s(at_joint, 0) == doctest::Approx(20.0).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("K3205: a technology point behind the path's end is told with measured and allowed length") {
+  Job job;
+  Diagnostics diagnostics;
+  CHECK_FALSE(prepared("[[technology]]\nat_path_mm = 200.5\nmax_mm_s = 15\n", job, diagnostics));
+  REQUIRE(diagnostics.has_errors());
+  CHECK(diagnostics.list()[0].code == Code::scenario_technology);
+  CHECK(diagnostics.list()[0].label == "is at 200.5 mm of the path");
+  CHECK(diagnostics.list()[0].notes[0] == "allowed: 0 to 200 mm, its length");
+  CHECK(diagnostics.list()[0].span.line == 6);
+}

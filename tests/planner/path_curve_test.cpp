@@ -156,6 +156,35 @@ TEST_CASE("parts of a curve are its parts, and a cusp has none") {
   CHECK_FALSE(planner::parts_of_like_curvature(std::vector<double>{0, 0, 0, 0, 5, 5, 10, 0}, 2, 0.01));
 }
 
+TEST_CASE("a curve that is cut is the same curve, and so is a path of curves") {
+  Random random(environment("KADR_SEED", 3));
+  for (int run = 0; run < 20; ++run) {
+    const std::vector<double> control = random_control(random, 6, 3);
+    const PathCurve whole(control, 3);
+    const double t = random.between(0.1, 0.9);
+    const PathCurve first = whole.part(0, t), second = whole.part(t, 1);
+    CHECK(first.length_u() + second.length_u() == doctest::Approx(whole.length_u()).epsilon(1e-12));
+    for (std::size_t k = 0; k < 3; ++k) {
+      CHECK(first.position(k, 0.5) == doctest::Approx(whole.position(k, 0.5 * t)).epsilon(1e-12));
+      CHECK(second.position(k, 0.5) == doctest::Approx(whole.position(k, 0.5 + 0.5 * t)).epsilon(1e-12));
+    }
+    planner::Path path(3);
+    path.curves.push_back(whole);
+    planner::PathSegment segment;
+    segment.kind = planner::SegmentKind::curve;
+    segment.shape = 0;
+    segment.length_u = segment.feed_length_u = whole.length_u();
+    segment.feed_u_s = 30;
+    path.segments.push_back(segment);
+    path.start_s_u = {0.0, segment.length_u};
+    path.nodes_u.assign(control.begin(), control.begin() + 3);
+    path.nodes_u.insert(path.nodes_u.end(), control.end() - 3, control.end());
+    CHECK(planner::cut_path(path, 0.3 * segment.length_u) == 1);
+    CHECK(planner::cut_path(path, 0.7 * segment.length_u) == 2);
+    planned(path, plain_machine());
+  }
+}
+
 TEST_CASE("a spline of one span is followed exactly, at any tolerance, without a corner") {
   const auto machine = plain_machine();
   gcode::Block block;

@@ -1,0 +1,46 @@
+#include "emulator/cycle/place_limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace kadr::emulator {
+
+void limit_places(Job& job, Diagnostics& diagnostics) {
+  const auto refuse = [&](const PlaceLimit& point, std::string label, std::string allowed, std::string help) {
+    Diagnostic d{};
+    d.code = Code::scenario_technology;
+    d.span = point.span;
+    d.message = std::string(code_entry(d.code).title);
+    d.label = std::move(label);
+    if (!allowed.empty()) d.notes.push_back("allowed: " + allowed);
+    d.help = std::move(help);
+    diagnostics.add(std::move(d));
+  };
+  const bool waits = std::any_of(job.events.begin(), job.events.end(), [](const ProgramEvent& event) {
+    return event.block.kind == gcode::BlockKind::wait_input;
+  });
+  for (const PlaceLimit& point : job.place_limits) {
+    if (job.path.size() == 0 || point.at_u > job.path.length_u()) {
+      refuse(point, fmt::format("is at {:.6g} mm of the path", point.at_u),
+             fmt::format("0 to {:.6g} mm, its length", job.path.length_u()), "");
+      continue;
+    }
+    if (waits) {
+      refuse(point, "the program waits for an input (M66)", "", "name the line of a move: at_line");
+      continue;
+    }
+    const std::size_t before = job.path.size(), segment = planner::cut_path(job.path, point.at_u);
+    if (segment == job.path.size()) continue;  // its end, at rest
+    planner::PathSegment& begins = job.path.segments[segment];
+    begins.begin_limit_u_s =
+        std::min(begins.begin_limit_u_s, point.max_u_s * (begins.length_u / begins.feed_length_u));
+    if (job.path.size() == before) continue;
+    for (ProgramEvent& event : job.events)
+      if (event.after_segment >= segment) ++event.after_segment;
+  }
+}
+
+}  // namespace kadr::emulator

@@ -1,0 +1,19 @@
+#pragma once
+#include "machine/file/table_reader.h"
+#include "planner/time_law/time_law.h"
+
+/// What the keys of a problem file accept, where more than one reader asks for them. The outer ends are far
+/// beyond any path: they keep squares, products and angles of the values within reach.
+namespace kadr::emulator {
+
+inline constexpr machine::Bounds kSpeed{1e-6, 1e9};
+inline constexpr machine::Bounds kAcceleration{1e-6, 1e12};
+inline constexpr machine::Bounds kPlace{-1e9, 1e9};
+inline constexpr machine::Bounds kLength{1e-3, 1e9};
+
+/// Key `ends` of [path]: what a spline does there.
+inline planner::SplineEnds read_spline_ends(machine::TableReader& keys) {
+  return static_cast<planner::SplineEnds>(keys.choice("ends", {"not-a-knot", "natural", "clamped"}, 0).value);
+}
+
+}  // namespace kadr::emulator
