@@ -45,7 +45,7 @@ export class Browser {
   async page(url, { width = 1440, height = 1000, script = true, scheme = 'light' } = {}) {
     const { targetId } = await this.send('Target.createTarget', { url: 'about:blank' });
     const { sessionId } = await this.send('Target.attachToTarget', { targetId, flatten: true });
-    const page = new Page(this, sessionId);
+    const page = new Page(this, sessionId, targetId);
     this.pages.set(sessionId, page);
     for (const domain of ['Page', 'Runtime', 'Network', 'Log']) await page.send(`${domain}.enable`);
     await page.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor: 1, mobile: false });
@@ -65,8 +65,9 @@ export class Browser {
 }
 
 class Page {
-  constructor(browser, session) {
+  constructor(browser, session, target) {
     this.browser = browser;
+    this.target = target;
     this.session = session;
     this.complaints = [];  // console errors and uncaught exceptions
     this.requests = [];
@@ -104,6 +105,7 @@ class Page {
     const { data } = await this.send('Page.captureScreenshot', { format: 'png', captureBeyondViewport: whole });
     writeFileSync(path, Buffer.from(data, 'base64'));
   }
+  async close() { await this.browser.send('Target.closeTarget', { targetId: this.target }); }
   async pdf(path) {
     const { data } = await this.send('Page.printToPDF', { preferCSSPageSize: true, printBackground: true });
     const bytes = Buffer.from(data, 'base64');

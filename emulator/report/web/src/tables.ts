@@ -1,6 +1,6 @@
 // Tables of events, blocks and values; rows that stand for an instant take the cursor there.
 import type { Charts } from './charts';
-import { type Run, pieceAt } from './data';
+import type { Run } from './data';
 import type { Listing } from './listing';
 import type { State } from './state';
 import { byStep, fixed, made, say } from './text';
@@ -91,18 +91,17 @@ export class BlockTable {
 }
 
 /** The charts in numbers, for those who do not see them: extremes of the window, value at the cursor. */
-export function valueTable(run: Run, state: State, charts: Charts): () => void {
+export function valueTable(state: State, charts: Charts): () => void {
   const table = document.getElementById('window-values')!, details = table.closest('details')!;
   const draw = (): void => {
     if (!details.open) return;
     const body = made('tbody');
     for (const e of charts.extremes()) {
-      const track = run.tracks.get(e.name)!, value = Number.isNaN(state.cursor_s) ? NaN : track.high[pieceAt(run, state.cursor_s)];
-      body.append(row([e.name, byStep(e.low, e.step), byStep(e.high, e.step), Number.isNaN(value) ? '' : byStep(value, e.step), e.unit], NaN, 0));
+      body.append(row([e.name, byStep(e.low, e.step), byStep(e.high, e.step), Number.isNaN(e.now) ? '' : byStep(e.now, e.step), e.unit], NaN, 0));
     }
     table.replaceChildren(head('signal', 'lowest', 'highest', 'at the cursor', ''), body);
   };
   state.add({ window: draw, cursor: draw });
-  details.addEventListener('toggle', draw);
+  details.ontoggle = draw;
   return draw;
 }

@@ -2,7 +2,7 @@
 // sign, whatever the browser's locale.
 
 const RU: Record<string, string> = {
-  'Whole run': 'Весь прогон', 'Dark / light': 'Тёмная / светлая', 'Print': 'Печать', 'Tool path': 'Траектория инструмента', 'Colour': 'Цвет',
+  'Whole run': 'Весь прогон', 'Over the path': 'По пути', 'Dark / light': 'Тёмная / светлая', 'Print': 'Печать', 'Tool path': 'Траектория инструмента', 'Colour': 'Цвет',
   'Iso': 'Изометрия', 'Top': 'Сверху', 'Front': 'Спереди', 'Program': 'Программа', 'Values in this window': 'Значения в этом окне',
   'Events': 'События', 'Blocks': 'Кадры', 'Settings in force': 'Действующие настройки', 'Licences of included libraries': 'Лицензии библиотек',
   'Warning': 'Предупреждение', 'Run': 'Прогон', 'outcome': 'исход', 'time': 'время', 'in motion': 'в движении', 'standing': 'стоянка', 'path': 'путь',
