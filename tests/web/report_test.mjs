@@ -26,7 +26,6 @@ before(async () => {
   await begin();
 });
 after(end);
-});
 
 test('the page loads from a file without a complaint or a request, and no text of a program becomes markup or script', async () => {
   const view = await opened('hostile.html', { height: 1900 });
