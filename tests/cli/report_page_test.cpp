@@ -43,7 +43,7 @@ TEST_CASE("kadr report writes one page whose numbers are the log's, and a second
   const Json info = Json::parse(call({"info", "p.lcmlog", "--json"}, page().scratch.path()).out)[0];
   CHECK(contains(html, "<td>" + info["steps_hash"].get<std::string>() + "</td>"));
   // the limits of mill3 stand beside what was reached: X 2500 mm/s2
-  CHECK(contains(html, " of 2 500.0 mm/s2"));
+  CHECK(contains(html, " / 2 500.0 mm/s2"));
   CHECK(call({"report", "p.lcmlog", "-o", "-"}, page().scratch.path()).out == html);
   CHECK(html.size() < 2'000'000);
 }

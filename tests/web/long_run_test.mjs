@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { loadavg } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { begin, csv, end, folder, opened, run, shot, write } from './pages.mjs';
+import { begin, browser, csv, end, folder, opened, run, shot, unpacked, write } from './pages.mjs';
 
 const TIMES = 5;
 const middle = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
@@ -34,12 +34,14 @@ const timed = (view, action) => view.value(`(async () => {
 })()`);
 
 test('a page of 600 000 control ticks: size, and how long it takes to open and to zoom', async (t) => {
-  const opens = [], inside = {};
+  const opens = [], cpu = [], inside = {};
   let view;
   for (let k = 0; k < TIMES; k++) {
-    const begun = performance.now();
+    await browser.page('about:blank').then((empty) => empty.close());
+    const begun = performance.now(), used = browser.cpu_ms();
     view = await opened('long.html');
     opens.push(performance.now() - begun);
+    cpu.push(browser.cpu_ms() - used);
     for (const [name, ms] of Object.entries(await view.value('kadr.ms'))) (inside[name] ??= []).push(ms);
     if (k + 1 < TIMES) await view.close();
   }
@@ -50,7 +52,7 @@ test('a page of 600 000 control ticks: size, and how long it takes to open and t
   const ms = (values) => `${middle(values).toFixed(0)} ms (${Math.min(...values).toFixed(0)} to ${Math.max(...values).toFixed(0)})`;
   t.diagnostic(`load of this machine ${loadavg()[0].toFixed(1)}; medians of ${TIMES}, lowest and highest behind`);
   t.diagnostic(`${ticks} control ticks, ${await view.value('kadr.run.meta.tracks.length')} signals, ${(size('long.html') / 1e6).toFixed(2)} MB`);
-  t.diagnostic(`open to drawn ${ms(opens)}; of it script begins at ${ms(inside.begun)}, unpacking takes ${ms(inside.decoded)}, views stand at ${ms(inside.ready)}`);
+  t.diagnostic(`open to drawn ${ms(opens)}; processor time ${ms(cpu)}; script begins at ${ms(inside.begun)}, unpacking takes ${ms(inside.decoded)}, views stand at ${ms(inside.ready)}`);
   const floor = [];
   for (let k = 0; k < TIMES; k++) floor.push(await timed(view, ''));
   t.diagnostic(`two empty frames ${ms(floor)}`);
@@ -73,13 +75,15 @@ test('a page of 600 000 control ticks: size, and how long it takes to open and t
 test('positions of every control tick are the log\'s, over 10 minutes', async () => {
   const view = await opened('long.html');
   const steps = csv('long.lcmlog', 'axis.X.steps,axis.Y.steps').map((row) => row.slice(1));
-  const got = await view.value('[[...kadr.run.nodes[0]], [...kadr.run.nodes[1]]]');
+  await unpacked(view);
+  const got = await view.value('kadr.run.positions.value.pieces.slice(0, 2).map((n) => [...n])');
   assert.equal(got[0].length, steps.length);
   for (const axis of [0, 1]) assert.ok(steps.every((row, i) => row[axis] === got[axis][i]), `axis ${axis}`);
 });
 
 test('a spike of one control tick in 600 000 is seen in the chart at every zoom', async () => {
   const view = await opened('long.html');
+  await unpacked(view);
   await view.value('document.getElementById("charts").scrollIntoView()');
   // one sample of the path error, a hundred times as large as the rest
   const [spike_s, peak] = await view.value(`(() => {
@@ -113,6 +117,7 @@ test('a spike of one control tick in 600 000 is seen in the chart at every zoom'
 
 test('beyond its size a page shows extremes of several control ticks, and each one round what matters', async (t) => {
   const view = await opened('overview.html');
+  await unpacked(view);
   const { every, windows, pieces } = await view.value('kadr.run.meta');
   t.diagnostic(`overview of ${(size('overview.html') / 1e6).toFixed(2)} MB: extremes of each ${every} control ticks, ${windows.length} stretches at full rate`);
   assert.ok(size('overview.html') <= 1e6);
@@ -122,16 +127,16 @@ test('beyond its size a page shows extremes of several control ticks, and each o
   const got = await view.value(`(${JSON.stringify(names)}).map((n) => { const t = kadr.run.tracks.get(n); return { step: t.step, low: [...t.low], high: [...t.high], fine: [...t.fine] }; })`);
   names.forEach((name, k) => {
     const { step, low, high, fine } = got[k];
-    let worst = 0, worst_i = 0;
+    const largest = rows.reduce((most, row) => Math.max(most, Math.abs(row[k + 1])), 0);
+    let near = 0;
     rows.forEach((row, i) => {
       const piece = Math.floor(i / every);
       assert.ok(low[piece] - step <= row[k + 1] && row[k + 1] <= high[piece] + step, `${name}: control tick ${i} is within its piece`);
-      if (Math.abs(row[k + 1]) > worst) [worst, worst_i] = [Math.abs(row[k + 1]), i];
+      if (Math.abs(row[k + 1]) >= largest - 1e-6 * largest && windows.some((w) => w.first <= i && i < w.first + w.ticks)) near++;
     });
     for (const w of windows)
       for (let i = 0; i < w.ticks; i++) assert.ok(Math.abs(fine[w.at + i] - rows[w.first + i][k + 1]) <= 0.51 * step, `${name}: stretch at ${w.first}, ${i}`);
-    const around = windows.find((w) => w.first <= worst_i && worst_i < w.first + w.ticks);
-    assert.ok(around, `${name}: its largest value, control tick ${worst_i}, is at full rate`);
+    assert.ok(near > 0, `${name}: its largest value, ${largest}, is at full rate`);
   });
   assert.equal(pieces, Math.ceil(rows.length / every));
   // the chart of a stretch draws the samples themselves

@@ -35,8 +35,11 @@ export async function opened(name, options) {
   const view = await browser.page(page(name), options);
   await view.until('document.body.classList.contains("ready")');
   await view.frames();
+  await view.until('kadr.charts.drawn');
   return view;
 }
+/** Everything is unpacked, also what nobody has looked at. */
+export const unpacked = (view) => view.value('Promise.all([...(kadr.runs ?? [kadr.run]).map((run) => run.positions.load()), kadr.charts.loaded()]).then(() => true)');
 export async function shot(view, name, whole) {
   if (shots) await view.shot(join(shots, name), whole);
 }

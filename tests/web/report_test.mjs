@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { begin, browser, csv, end, folder, opened, page, run, shot, shots, write } from './pages.mjs';
+import { begin, browser, csv, end, folder, opened, page, run, shot, shots, unpacked, write } from './pages.mjs';
 
 // markup and script in every place that a program's text reaches; X400 leaves mill3's travel of 300 mm
 const HOSTILE = `(</script><script>window.hacked = 1</script>)
@@ -28,7 +28,7 @@ before(async () => {
 after(end);
 
 test('the page loads from a file without a complaint or a request, and no text of a program becomes markup or script', async () => {
-  const view = await opened('hostile.html', { height: 1900 });
+  const view = await opened('hostile.html', { height: 3300 });
   assert.deepEqual(view.complaints, []);
   assert.deepEqual(view.requests, [page('hostile.html')]);
   assert.equal(await view.value('window.hacked === undefined'), true);
@@ -54,8 +54,9 @@ test('numbers in the page equal those of the log', async () => {
   assert.equal(await cell('run', 'path error, peak'), `${summary.path_error_um.toFixed(3)} um`);
   for (const [reason, time_s] of Object.entries(summary.limited_by_s)) assert.equal(await cell('reasons', reason), `${time_s.toFixed(3)} s`);
 
+  await unpacked(view);
   const rows = csv('hostile.lcmlog', 'axis.X.steps,feed.commanded*,axis.X.vibration*,path.error*');
-  const got = await view.value(`({ nodes: [...kadr.run.nodes[0]], tracks: ['feed.commanded_mm_s', 'axis.X.vibration_um', 'path.error_um'].map((n) => { const t = kadr.run.tracks.get(n); return { step: t.step, values: [...t.high] }; }) })`);
+  const got = await view.value(`({ nodes: [...kadr.run.positions.value.pieces[0]], tracks: ['feed.commanded_mm_s', 'axis.X.vibration_um', 'path.error_um'].map((n) => { const t = kadr.run.tracks.get(n); return { step: t.step, values: [...t.high] }; }) })`);
   assert.deepEqual(got.nodes, rows.map((r) => r[1]));
   got.tracks.forEach((track, k) => {
     const worst = Math.max(...rows.map((r, i) => Math.abs(r[k + 2] - track.values[i]) / track.step));
@@ -79,7 +80,7 @@ test('an alarm leads to its line, its instant and its point of the path', async 
 });
 
 test('cursor and window are one for charts, program and path; the mouse, the keyboard and a line move them', async () => {
-  const view = await opened('hostile.html', { height: 1900 });
+  const view = await opened('hostile.html', { height: 3300 });
   const box = await view.value('(({ left, top, width, height }) => ({ left, top, width, height }))(document.querySelectorAll(".u-over")[2].getBoundingClientRect())');
   const y = box.top + box.height / 2;
   await view.mouse('mouseMoved', box.left + box.width / 4, y);
@@ -120,10 +121,10 @@ test('cursor and window are one for charts, program and path; the mouse, the key
 });
 
 test('dark, Russian, 2-D, printed and without script', async () => {
-  let view = await opened('hostile.html', { scheme: 'dark', height: 1900 });
+  let view = await opened('hostile.html', { scheme: 'dark', height: 3300 });
   assert.equal(await view.value('document.documentElement.classList.contains("dark")'), true);
   await shot(view, 'dark.png', true);
-  view = await opened('hostile.html#ru,no-webgl', { height: 1900 });
+  view = await opened('hostile.html#ru,no-webgl', { height: 3300 });
   assert.equal(await view.value('document.querySelector("#text h2").textContent'), 'Программа');
   assert.equal(await view.value('kadr.path.kind'), '2d');
   assert.deepEqual(view.complaints, []);

@@ -9,6 +9,7 @@ import { type Columns, DASHES, WIDTH_PX, bars, line } from './trace';
 
 /** An instant that charts show by an upright line. */
 export interface Mark { x: number; alarm: boolean }
+const CALM_MS = 400;
 type Picture = { points: Points } | { columns: Columns };
 
 function tick(value: number, step: number): string {
@@ -21,6 +22,7 @@ export class Charts {
   private pictures: Picture[][] = [];
   private stale = new Set<number>();
   private seen = new Set<number>();
+  private later = 0;
   private readonly watch = new IntersectionObserver((all) => this.see(all), { rootMargin: '60px' });
 
   /** @param label  what the charts run over, with its unit */
@@ -41,6 +43,8 @@ export class Charts {
   /** Others take the place. */
   leave(): void {
     this.watch.disconnect();
+    this.stale.clear();
+    clearTimeout(this.later);
     for (const plot of this.plots) plot.destroy();
   }
 
@@ -52,11 +56,12 @@ export class Charts {
     this.values = [];
     this.pictures = this.groups.map((g) => g.curves.map(() => ({ columns: { low: new Float32Array(), high: new Float32Array() } })));
     this.host.replaceChildren();
-    this.groups.forEach((g, k) => this.add(g, k, k === this.groups.length - 1));
+    const width = this.width();  // asked once: after each change of the page the answer costs a layout
+    this.groups.forEach((g, k) => this.add(g, k, k === this.groups.length - 1, width));
     this.draw();
   }
 
-  private add(group: Group, k: number, last: boolean): void {
+  private add(group: Group, k: number, last: boolean, width: number): void {
     const box = made('div', '', 'chart'), title = made('h3', `${say(group.title)}, ${group.unit}`);
     const values: HTMLElement[] = [];
     const colours = group.curves.map((_, i) => css(`--c${i % 6}`));
@@ -76,7 +81,7 @@ export class Charts {
     const axis = { stroke: css('--ink'), grid: { stroke: css('--grid'), width: 1 }, ticks: { stroke: css('--rule'), width: 1 } };
     const values_ = (_: uPlot, splits: number[], _a: number, _s: number, step: number): string[] => splits.map((v) => tick(v, step));
     this.plots.push(new uPlot({
-      width: this.width(), height: last ? 150 : 122,
+      width, height: last ? 150 : 122,
       cursor: { y: false, drag: { x: true, y: false, setScale: false }, points: { show: false } },
       legend: { show: false },
       scales: { x: { time: false, range: () => [this.state.from_s, this.state.to_s] }, y: { range: (_, lo, hi) => this.scale(lo, hi, Math.max(...group.curves.map((c) => c.track.step))) } },
@@ -107,6 +112,7 @@ export class Charts {
   /** Room round the values, from 0 if they come near it; what is finer than the data's own steps is not magnified. */
   private scale(lo: number, hi: number, step: number): [number, number] {
     if (!Number.isFinite(lo) || !Number.isFinite(hi)) return [0, 1];
+    if (lo === hi && lo !== 0) return lo > 0 ? [0, 1.15 * hi] : [1.15 * lo, 0];
     const least = Math.max(40 * step, 1e-3 * Math.abs(hi)) || 1, middle = (lo + hi) / 2;
     if (hi - lo < least) [lo, hi] = [middle - least / 2, middle + least / 2];
     const room = 0.06 * (hi - lo);
@@ -115,10 +121,10 @@ export class Charts {
 
   private width(): number { return Math.max(300, this.host.clientWidth); }
   private resize(): void {
-    if (this.plots.length && this.plots[0].width !== this.width()) {
-      for (const plot of this.plots) plot.setSize({ width: this.width(), height: plot.height });
-      this.draw();
-    }
+    const width = this.width();
+    if (!this.plots.length || this.plots[0].width === width) return;
+    for (const plot of this.plots) plot.setSize({ width, height: plot.height });
+    this.draw();
   }
 
   /** @param all  those out of sight too: for paper */
@@ -126,9 +132,31 @@ export class Charts {
     this.groups.forEach((_, k) => {
       if (all || this.seen.has(k)) this.drawOne(k); else this.stale.add(k);
     });
+    clearTimeout(this.later);
+    this.later = setTimeout(() => void this.rest(), CALM_MS);
   }
 
+  /** Charts out of sight, one at a time, once nothing has moved for a while. */
+  private async rest(): Promise<void> {
+    const [k] = this.stale;
+    if (k === undefined) return;
+    await Promise.all(this.groups[k].curves.map((c) => c.track.load()));
+    this.drawOne(k);
+    this.later = setTimeout(() => void this.rest(), 0);
+  }
+
+  /** Nothing in sight waits for its data. */
+  get drawn(): boolean { return ![...this.seen].some((k) => this.stale.has(k)); }
+  /** Everything is unpacked. */
+  async loaded(): Promise<void> { await Promise.all(this.groups.flatMap((g) => g.curves.map((c) => c.track.load()))); }
+
   private drawOne(k: number): void {
+    const missing = this.groups[k].curves.filter((c) => !c.track.loaded);
+    if (missing.length) {
+      this.stale.add(k);
+      void Promise.all(missing.map((c) => c.track.load())).then(() => { if (this.stale.has(k)) this.drawOne(k); });
+      return;
+    }
     this.stale.delete(k);
     const { from_s: from, to_s: to } = this.state, plot = this.plots[k], n = Math.max(100, Math.round(plot.bbox.width));
     const extremes = this.groups[k].curves.map((curve, i) => {

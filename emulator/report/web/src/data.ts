@@ -16,43 +16,52 @@ export interface Blocks {
   limited_by: number[]; words: string[]; text: string[]; left_out: number;
 }
 
-/** One signal: lowest and highest value of every piece, the same array while a piece is one control tick. Unpacked when first asked for. */
+/** Part of the page that is unpacked when somebody first needs it. */
+export class Later<T> {
+  value: T | undefined;
+  private promise?: Promise<T>;
+  constructor(private readonly make: () => Promise<T>) {}
+  load(): Promise<T> { return (this.promise ??= this.make().then((value) => (this.value = value))); }
+}
+
+const NONE = new Float32Array();
+
+/** One signal: lowest and highest value of every piece, the same array while a piece is one control tick; no values before it is loaded. */
 export class Track {
   readonly name: string;
   readonly unit: string;
   readonly step: number;
-  private values?: { low: Float32Array; high: Float32Array };
-  private fine_?: Float32Array;
+  private readonly data: Later<{ low: Float32Array; high: Float32Array; fine: Float32Array }>;
   private pyramid_?: Pyramid;
   lowest = NaN;
   highest = NaN;
 
-  constructor(private readonly meta: TrackMeta, private readonly pieces: number, private readonly bytes: Uint8Array, private readonly fineBytes: Uint8Array) {
+  constructor(meta: TrackMeta, pieces: number, id: string, fineId: string) {
     this.name = meta.name;
     this.unit = meta.unit;
     this.step = meta.step;
+    this.data = new Later(async () => {
+      const all = reals(await unpacked(id), meta.low, meta.step), fine = fineId ? reals(await unpacked(fineId), meta.low, meta.step) : NONE;
+      return all.length > pieces ? { low: all.subarray(0, pieces), high: all.subarray(pieces), fine } : { low: all, high: all, fine };
+    });
   }
-  private get both(): { low: Float32Array; high: Float32Array } {
-    if (!this.values) {
-      const all = reals(this.bytes, this.meta.low, this.meta.step);
-      this.values = all.length > this.pieces ? { low: all.subarray(0, this.pieces), high: all.subarray(this.pieces) } : { low: all, high: all };
-    }
-    return this.values;
-  }
-  get low(): Float32Array { return this.both.low; }
-  get high(): Float32Array { return this.both.high; }
+  load(): Promise<unknown> { return this.data.load(); }
+  get loaded(): boolean { return this.data.value !== undefined; }
+  get low(): Float32Array { return this.data.value?.low ?? NONE; }
+  get high(): Float32Array { return this.data.value?.high ?? NONE; }
   /** Of the windows, one behind the other. */
-  get fine(): Float32Array { return (this.fine_ ??= reals(this.fineBytes, this.meta.low, this.meta.step)); }
+  get fine(): Float32Array { return this.data.value?.fine ?? NONE; }
   get pyramid(): Pyramid { return (this.pyramid_ ??= new Pyramid(this.low, this.high)); }
 
   /** Sets lowest and highest to the extremes of control ticks [first, end); lowest > highest: no values. Where the page has pieces of
    * several, those of whole pieces. */
   ask(run: Run, first: number, end: number): void {
     const { every } = run.meta, w = run.windowAt(first);
+    this.lowest = Infinity;
+    this.highest = -Infinity;
+    if (!this.loaded) return;
     if (w && end <= w.first + w.ticks) {
       const { fine } = this;
-      this.lowest = Infinity;
-      this.highest = -Infinity;
       for (let i = w.at + first - w.first, stop = i + end - first; i < stop; i++) {
         if (fine[i] < this.lowest) this.lowest = fine[i];
         if (fine[i] > this.highest) this.highest = fine[i];
@@ -66,6 +75,9 @@ export class Track {
   }
 }
 
+/** Lattice nodes of each axis: after each piece, and after each control tick of the windows. */
+export interface Nodes { pieces: Int32Array[]; fine: Int32Array[] }
+
 /** Corners of the commanded path: exact positions after some of the control ticks; between them it is straight within micrometres. */
 export interface Corners { ticks: Int32Array; nodes: Int32Array[] }
 
@@ -77,7 +89,7 @@ export class Run {
   readonly end_s: number;
   private path?: Float64Array;
 
-  constructor(readonly meta: Meta, readonly tracks: Map<string, Track>, readonly nodes: Int32Array[], readonly fineNodes: Int32Array[], readonly corners: Corners,
+  constructor(readonly meta: Meta, readonly tracks: Map<string, Track>, readonly positions: Later<Nodes>, readonly corners: Corners,
     private readonly path_milli: Int32Array, readonly blocks: Blocks, readonly program: string[], readonly settings: string) {
     this.pieces = meta.pieces;
     this.ticks = meta.pieces * meta.every;
@@ -104,10 +116,11 @@ export class Run {
     while (low < high) { const middle = (low + high) >> 1; if (windows[middle].first <= tick) low = middle + 1; else high = middle; }
     return windows[low - 1];
   }
-  /** Lattice node after a control tick; the piece's last one where it is not in a window. */
+  /** Lattice node after a control tick; the piece's last one where it is not in a window. Once positions are loaded. */
   node(axis: number, tick: number): number {
-    const w = this.windowAt(tick);
-    return w ? this.fineNodes[axis][w.at + tick - w.first] : this.nodes[axis][Math.floor(tick / this.meta.every)];
+    const w = this.windowAt(tick), at = this.positions.value;
+    if (!at) return 0;
+    return w ? at.fine[axis][w.at + tick - w.first] : at.pieces[axis][Math.floor(tick / this.meta.every)];
   }
 }
 
@@ -178,16 +191,15 @@ function counts(bytes: Uint8Array): Int32Array {
 /** @param prefix  of the ids of the run's elements: pages of several runs have several */
 export async function readRun(prefix = ''): Promise<Run> {
   const meta = JSON.parse(element(`${prefix}meta`).textContent ?? '') as Meta;
-  const all = (name: string, n: number): Promise<Uint8Array[]> => Promise.all(Array.from({ length: n }, (_, k) => unpacked(`${prefix}${name}${k}`)));
   const fine = meta.windows.length > 0, axes = meta.axes.length;
-  const [bytes, fineBytes, nodes, fineNodes, corners, rest] = await Promise.all([
-    all('track', meta.tracks.length), all('fine', fine ? meta.tracks.length : 0), all('nodes', axes), all('fine-nodes', fine ? axes : 0),
-    all('corner', axes + 1), Promise.all(['blocks', 'program', 'settings'].map((name) => unpacked(`${prefix}data-${name}`)))]);
-  const path = meta.has_path ? counts(await unpacked(`${prefix}path`)) : new Int32Array();
-  const tracks = new Map(meta.tracks.map((m, k) => [m.name, new Track(m, meta.pieces, bytes[k], fineBytes[k] ?? new Uint8Array())]));
-  const [ticks, ...at] = corners.map(counts), [blocks, program, settings] = rest.map((b) => new TextDecoder().decode(b));
-  return new Run(meta, tracks, nodes.map(counts), fineNodes.map(counts), { ticks, nodes: at }, path,
-    JSON.parse(blocks) as Blocks, program.split(/\r?\n/), settings);
+  const all = async (name: string, n: number): Promise<Int32Array[]> =>
+    (await Promise.all(Array.from({ length: n }, (_, k) => unpacked(`${prefix}${name}${k}`)))).map(counts);
+  const text = async (name: string): Promise<string> => new TextDecoder().decode(await unpacked(`${prefix}data-${name}`));
+  const tracks = new Map(meta.tracks.map((m, k) => [m.name, new Track(m, meta.pieces, `${prefix}track${k}`, fine ? `${prefix}fine${k}` : '')]));
+  const positions = new Later(async () => ({ pieces: await all('nodes', axes), fine: await all('fine-nodes', fine ? axes : 0) }));
+  const [[ticks, ...at], path, blocks, program, settings] = await Promise.all([
+    all('corner', axes + 1), meta.has_path ? unpacked(`${prefix}path`).then(counts) : new Int32Array(), text('blocks'), text('program'), text('settings')]);
+  return new Run(meta, tracks, positions, { ticks, nodes: at }, path, JSON.parse(blocks) as Blocks, program.split(/\r?\n/), settings);
 }
 
 /** Tracks whose names begin and end like that: "axis." and ".speed". */

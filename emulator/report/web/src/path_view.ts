@@ -10,10 +10,10 @@ import { fixed, made, say } from './text';
 const MOST_DETAIL = 60_000, MOST_2D = 20_000, RAMP = 16;
 
 const VERTEX = `
-attribute vec3 position; attribute float value; uniform mat4 view; uniform vec2 squeeze; uniform vec2 range; uniform vec3 ramp[${RAMP}]; varying vec3 colour;
+attribute vec3 position; attribute float value; uniform mat4 view; uniform vec2 squeeze; uniform vec2 shift; uniform vec2 range; uniform vec3 ramp[${RAMP}]; varying vec3 colour;
 void main() {
   gl_Position = view * vec4(position, 1.0);
-  gl_Position.xy *= squeeze;
+  gl_Position.xy = gl_Position.xy * squeeze + shift;
   float share = clamp((value - range.x) / max(range.y - range.x, 1e-30), 0.0, 1.0) * ${RAMP - 1}.0;
   colour = ramp[0];
   for (int k = 1; k < ${RAMP}; ++k) colour = mix(colour, ramp[k], clamp(share - float(k - 1), 0.0, 1.0));
@@ -23,7 +23,7 @@ precision mediump float; uniform vec4 flat_colour; varying vec3 colour;
 void main() { gl_FragColor = flat_colour.a > 0.0 ? flat_colour : vec4(colour, 1.0); }`;
 
 /** The largest value over control ticks [first, end). */
-interface Colouring { name: string; unit: string; value(first: number, end: number): number }
+interface Colouring { name: string; unit: string; tracks: Track[]; value(first: number, end: number): number }
 
 /** Part of the path: positions, and behind each the value of the stretch that leads to it. */
 interface Strip { positions: Float32Array; values: Float32Array; ticks: Int32Array }
@@ -45,6 +45,7 @@ export class PathView {
   private program?: ProgramInfo;
   private buffers?: { corners: BufferInfo; detail: BufferInfo };
   private frame = 0;
+  readonly ready: Promise<void>;
 
   constructor(private readonly run: Run, private readonly state: State, private readonly canvas: HTMLCanvasElement, private readonly dot: HTMLElement,
     private readonly select: HTMLSelectElement) {
@@ -54,9 +55,10 @@ export class PathView {
     this.box();
     this.colour();
     this.start();
-    this.recolour();
+    this.ready = this.recolour();
+    void this.ready.then(() => run.positions.load()).then(() => { this.paint(); });
     state.add({ window: () => this.paint(), cursor: () => this.mark() });
-    select.onchange = () => this.recolour();
+    select.onchange = () => void this.recolour();
     this.gestures();
     new ResizeObserver(() => this.ask()).observe(canvas);
     matchMedia('print').addEventListener('change', () => this.draw());
@@ -87,10 +89,10 @@ export class PathView {
     const largest = (t: Track, first: number, end: number): number => { t.ask(run, first, end); return t.lowest <= t.highest ? Math.max(-t.lowest, t.highest) : NaN; };
     const feed = one(run, 'feed.commanded'), error = one(run, 'path.error');
     const vibration = alike(run, 'axis.', '.vibration').filter((t) => t.unit === 'um');
-    if (feed) this.colourings.push({ name: 'feed', unit: feed.unit, value: (a, b) => largest(feed, a, b) });
-    if (error) this.colourings.push({ name: 'path error', unit: error.unit, value: (a, b) => largest(error, a, b) });
-    if (vibration.length) this.colourings.push({ name: 'vibration', unit: 'um', value: (a, b) => Math.sqrt(vibration.reduce((sum, t) => sum + largest(t, a, b) ** 2, 0)) });
-    this.colourings.push({ name: 'time', unit: 's', value: (_, b) => run.first_s + b * run.meta.control_tick_s });
+    if (feed) this.colourings.push({ name: 'feed', unit: feed.unit, tracks: [feed], value: (a, b) => largest(feed, a, b) });
+    if (error) this.colourings.push({ name: 'path error', unit: error.unit, tracks: [error], value: (a, b) => largest(error, a, b) });
+    if (vibration.length) this.colourings.push({ name: 'vibration', unit: 'um', tracks: vibration, value: (a, b) => Math.sqrt(vibration.reduce((sum, t) => sum + largest(t, a, b) ** 2, 0)) });
+    this.colourings.push({ name: 'time', unit: 's', tracks: [], value: (_, b) => run.first_s + b * run.meta.control_tick_s });
     this.words();
   }
 
@@ -119,8 +121,10 @@ export class PathView {
   }
 
   /** Another signal, or other colours. */
-  private recolour(): void {
+  private async recolour(): Promise<void> {
     const c = this.colourings[Number(this.select.value)], { values, ticks } = this.corners;
+    await Promise.all(c.tracks.map((t) => t.load()));
+    if (c !== this.colourings[Number(this.select.value)]) return;
     for (let i = 0; i < ticks.length; i++) values[i] = c.value(i > 0 ? ticks[i - 1] + 1 : 0, ticks[i] + 1);
     if (this.buffers) this.upload(this.buffers.corners, this.corners, false);
     this.paint();
@@ -128,6 +132,7 @@ export class PathView {
 
   /** Every control tick of the window; null: too many, or the page does not hold them. */
   private single(): Strip | null {
+    if (!this.run.positions.value) return null;
     const { run, state } = this, first = Math.max(0, tickAt(run, state.from_s) - 1), n = tickAt(run, state.to_s) + 1 - first;
     const w = run.windowAt(first);
     if (n > MOST_DETAIL || (run.meta.every > 1 && !(w && first + n <= w.first + w.ticks))) return null;
@@ -204,8 +209,12 @@ export class PathView {
     setUniforms(program!, { view: this.matrix(), squeeze: this.squeeze(), range: this.range, ramp: Array.from({ length: RAMP }, (_, k) => ramp(k / (RAMP - 1))).flat() });
     const strip = (buffer: BufferInfo, first: number, end: number, flat_colour: number[]): void => {
       setBuffersAndAttributes(gl, program!, buffer);
-      setUniforms(program!, { flat_colour });
-      gl.drawArrays(gl.LINE_STRIP, first, end - first);
+      // lines of WebGL are one pixel wide: drawn thrice, a little aside, they are two
+      const aside = flat_colour[3] > 0 ? [[0, 0]] : [[0, 0], [1, 0], [0, 1]];
+      for (const [x, y] of aside) {
+        setUniforms(program!, { flat_colour, shift: [2 * x / this.canvas.width, 2 * y / this.canvas.height] });
+        gl.drawArrays(gl.LINE_STRIP, first, end - first);
+      }
     };
     if (this.detail || from > 0 || to < this.vertices) strip(buffers!.corners, 0, this.vertices, [...rgb(css('--rule')), 1]);
     if (this.detail) strip(buffers!.detail, 0, this.detail.ticks.length, [0, 0, 0, 0]);
@@ -224,16 +233,23 @@ export class PathView {
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.fillStyle = css('--ground');
     pen.fillRect(0, 0, this.canvas.clientWidth, this.canvas.clientHeight);
-    const line = ({ positions, values }: Strip, first: number, end: number, colour?: string): void => {
+    pen.lineWidth = 2;
+    const line = ({ positions, values }: Strip, first: number, end: number, faint = ''): void => {
       const step = Math.max(1, Math.ceil((end - first) / MOST_2D));
+      // neighbours of one colour are one stroke
+      let colour = '';
       for (let i = first; i + 1 < end; i += step) {
-        const j = Math.min(end - 1, i + step);
-        pen.strokeStyle = colour ?? `rgb(${ramp((values[j] - low) / (high - low || 1)).map((v) => Math.round(255 * v)).join(',')})`;
-        pen.beginPath();
-        pen.moveTo(...this.project(m, squeeze, positions, i));
+        const j = Math.min(end - 1, i + step), share = (values[j] - low) / (high - low || 1);
+        const own = faint || `rgb(${ramp(Math.round(63 * (share || 0)) / 63).map((v) => Math.round(255 * v)).join(',')})`;
+        if (own !== colour) {
+          if (colour) pen.stroke();
+          pen.strokeStyle = colour = own;
+          pen.beginPath();
+          pen.moveTo(...this.project(m, squeeze, positions, i));
+        }
         pen.lineTo(...this.project(m, squeeze, positions, j));
-        pen.stroke();
       }
+      if (colour) pen.stroke();
     };
     line(this.corners, 0, this.vertices, css('--rule'));
     if (this.detail) line(this.detail, 0, this.detail.ticks.length); else line(this.corners, from, to);
@@ -241,7 +257,7 @@ export class PathView {
 
   /** The cursor's point, an element of its own: the picture stays as it is. */
   private mark(): void {
-    const t = this.state.cursor_s, there = !Number.isNaN(t);
+    const t = this.state.cursor_s, there = !Number.isNaN(t) && this.run.positions.value !== undefined;
     this.dot.hidden = !there;
     if (!there) return;
     const tick = tickAt(this.run, t), at = this.place(1, (axis) => this.run.node(axis, tick));

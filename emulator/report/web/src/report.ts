@@ -47,5 +47,6 @@ export async function report(): Promise<object> {
     eventTable(run);
     values();
   });
+  await path.ready;
   return { run, state, charts, path, listing, ms: { begun, decoded: decoded - begun, ready: performance.now() } };
 }

@@ -93,8 +93,10 @@ export class BlockTable {
 /** The charts in numbers, for those who do not see them: extremes of the window, value at the cursor. */
 export function valueTable(state: State, charts: Charts): () => void {
   const table = document.getElementById('window-values')!, details = table.closest('details')!;
+  let complete = false;
   const draw = (): void => {
     if (!details.open) return;
+    if (!complete) void charts.loaded().then(() => { complete = true; draw(); });
     const body = made('tbody');
     for (const e of charts.extremes()) {
       body.append(row([e.name, byStep(e.low, e.step), byStep(e.high, e.step), Number.isNaN(e.now) ? '' : byStep(e.now, e.step), e.unit], NaN, 0));

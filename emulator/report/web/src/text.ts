@@ -18,7 +18,8 @@ const RU: Record<string, string> = {
   'Path error': 'Ошибка контура', 'Axis speed': 'Скорость осей', 'Axis acceleration': 'Ускорение осей', 'Axis jerk': 'Рывок осей', 'Following error': 'Ошибка слежения',
   'Vibration': 'Колебания', 'Step rate': 'Частота шагов', 'feed': 'подача', 'path error': 'ошибка контура', 'vibration': 'колебания', 'text': 'текст', 'kind': 'вид',
   'planned time': 'время по плану', 'F': 'F', 'limited by': 'ограничено', 'signal': 'сигнал', 'lowest': 'наименьшее', 'highest': 'наибольшее', 'at the cursor': 'у курсора',
-  'commanded': 'заданная', 'programmed': 'по программе', 'used': 'действует', 'requested': 'запрошено', 'hold': 'останов подачи', 'limiter': 'ограничитель', 'override': 'коррекция',
+  'complete': 'завершён', 'interrupted': 'прерван', 'dwell': 'выдержка', 'path feed': 'подача пути', 'axis speed': 'скорость оси', 'centripetal': 'центростремительное',
+  'junction': 'стык', 'commanded': 'заданная', 'programmed': 'по программе', 'used': 'действует', 'requested': 'запрошено', 'hold': 'останов подачи', 'limiter': 'ограничитель', 'override': 'коррекция',
 };
 
 let russian = false;
@@ -32,7 +33,12 @@ export function setRussian(on: boolean): void {
     at.textContent = say(at.dataset.en);
   }
 }
-export const say = (english: string): string => (russian ? RU[english] ?? english : english);
+/** Also of "junction X": a word and an axis. */
+export function say(english: string): string {
+  const axis = russian && !(english in RU) ? / [A-Z]$/.exec(english)?.[0] ?? '' : '';
+  const word = axis ? english.slice(0, -axis.length) : english;
+  return russian && word in RU ? RU[word] + axis : english;
+}
 
 /** An element with text, never markup. */
 export function made<K extends keyof HTMLElementTagNameMap>(tag: K, text = '', className = ''): HTMLElementTagNameMap[K] {
