@@ -9,11 +9,14 @@ import { type Columns, DASHES, WIDTH_PX, bars, line } from './trace';
 
 /** An instant that charts show by an upright line. */
 export interface Mark { x: number; alarm: boolean }
-const CALM_MS = 400;
+const CALM_MS = 400, LEFT_PX = 80;
 type Picture = { points: Points } | { columns: Columns };
 
+/** As many decimals as the step between ticks has. */
 function tick(value: number, step: number): string {
-  return fixed(value, Math.max(0, Math.min(9, Math.ceil(-Math.log10(step) - 1e-9))));
+  let decimals = 0;
+  while (decimals < 9 && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6) decimals++;
+  return fixed(value, decimals);
 }
 
 export class Charts {
@@ -85,7 +88,7 @@ export class Charts {
       cursor: { y: false, drag: { x: true, y: false, setScale: false }, points: { show: false } },
       legend: { show: false },
       scales: { x: { time: false, range: () => [this.state.from_s, this.state.to_s] }, y: { range: (_, lo, hi) => this.scale(lo, hi, Math.max(...group.curves.map((c) => c.track.step))) } },
-      axes: [{ ...axis, size: last ? 46 : 28, label: last ? this.label() : undefined, labelSize: 16, values: values_ }, { ...axis, size: 62, space: 18, values: values_ }],
+      axes: [{ ...axis, size: last ? 46 : 28, label: last ? this.label() : undefined, labelSize: 16, values: values_ }, { ...axis, size: LEFT_PX, space: 18, values: values_ }],
       series: [{}, ...colours.map((colour, i) => ({
         stroke: colour, width: WIDTH_PX, dash: DASHES[i % 6], points: { show: false },
         paths: (u: uPlot) => this.trace(u, this.pictures[k][i], colour, DASHES[i % 6]),
