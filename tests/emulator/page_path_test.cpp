@@ -18,7 +18,8 @@ using Path = std::vector<std::vector<std::int32_t>>;  // [control ticks][axes]
 
 constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
-CornerFinder found(const Path& path, const std::vector<double>& step_mm, double tolerance_mm, std::size_t most = kAll) {
+CornerFinder found(const Path& path, const std::vector<double>& step_mm, double tolerance_mm,
+                   std::size_t most = kAll) {
   CornerFinder finder(step_mm, tolerance_mm, most);
   for (std::size_t i = 0; i < path.size(); ++i) finder.add(static_cast<std::int32_t>(i), path[i]);
   return finder;
@@ -29,7 +30,8 @@ CornerFinder found(const Path& path, const std::vector<double>& step_mm, double 
 double farthest_mm(const Path& path, const PathCorners& corners, const std::vector<double>& step_mm) {
   double worst = 0;
   for (std::size_t c = 1; c < corners.size(); ++c)
-    for (auto i = static_cast<std::size_t>(corners.ticks[c - 1]); i <= static_cast<std::size_t>(corners.ticks[c]); ++i) {
+    for (auto i = static_cast<std::size_t>(corners.ticks[c - 1]);
+         i <= static_cast<std::size_t>(corners.ticks[c]); ++i) {
       double nearest = std::numeric_limits<double>::infinity();
       for (int k = 0; k <= 4000; ++k) {
         double sum = 0;
@@ -112,7 +114,9 @@ TEST_CASE("too many corners double the tolerance, and the line stays within twic
   CHECK(few.ticks.back() == 3999);
 }
 
-TEST_CASE("full rate goes round alarms and warnings, then round each signal's largest value, then round other events") {
+TEST_CASE(
+    "full rate goes round alarms and warnings, then round each signal's largest value, then round other "
+    "events") {
   // 100 s at 1 ms in pieces of 4 control ticks; a spike of -9 in piece 10 000 (40 s) of a signal
   PageData data;
   data.header.base_hz = 10'000'000;

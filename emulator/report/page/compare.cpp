@@ -212,7 +212,8 @@ std::string render_compare_page(std::vector<ComparedRun> runs, std::size_t max_b
     letters.push_back(letter(k));
     data += fitted_run(runs[k].data, room / runs.size(), letter(k) + "-", true, {});
   }
-  return filled_template(title, table, charts, json_script("runs", json_line({{"runs", std::move(letters)}})) + data);
+  return filled_template(title, table, charts,
+                         json_script("runs", json_line({{"runs", std::move(letters)}})) + data);
 }
 
 }  // namespace kadr::emulator

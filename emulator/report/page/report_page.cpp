@@ -11,7 +11,8 @@ namespace kadr::emulator {
 namespace {
 
 constexpr std::size_t kFewestPieces = 4096;
-constexpr std::size_t kBytesACorner = 100;  ///< of the page's size, for one corner of the path
+constexpr std::size_t kBytesACorner =
+    25;  ///< of the page's size for each corner of the path, which takes about 6
 
 /// Puts a text in the place of a mark of the template, which stands there once.
 void fill(std::string& page, std::string_view mark, std::string_view text) {

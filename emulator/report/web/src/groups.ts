@@ -30,7 +30,7 @@ export function groupsOf(run: Run, scale: Scale): Group[] {
   return out;
 }
 
-/** Several runs: a chart a signal, the runs in it. */
+/** Several runs: a chart a signal, the runs in it; axes that stand still in all of them have none. */
 export function comparedGroups(runs: Run[], scales: Scale[], letters: string[]): Group[] {
   const out: Group[] = [];
   const add = (title: string, begin: string): void => {
@@ -41,7 +41,7 @@ export function comparedGroups(runs: Run[], scales: Scale[], letters: string[]):
       curves.push(new Curve(track, run, scales[k]));
       names.push(letters[k]);
     });
-    if (curves.length) out.push({ title, unit: curves[0].track.unit, curves, names });
+    if (curves.some((c) => c.track.step > 0 || !begin.startsWith('axis.'))) out.push({ title, unit: curves[0].track.unit, curves, names });
   };
   add('Feed', 'feed.commanded');
   add('Path error', 'path.error');

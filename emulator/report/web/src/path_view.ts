@@ -7,7 +7,7 @@ import { type Run, type Track, alike, one, tickAt } from './data';
 import type { State } from './state';
 import { fixed, made, say } from './text';
 
-const MOST_DETAIL = 60_000, MOST_2D = 20_000, RAMP = 16;
+const MOST_DETAIL = 60_000, MOST_WIDE = 6_000, MOST_2D = 20_000, RAMP = 16;
 
 const VERTEX = `
 attribute vec3 position; attribute float value; uniform mat4 view; uniform vec2 squeeze; uniform vec2 shift; uniform vec2 range; uniform vec3 ramp[${RAMP}]; varying vec3 colour;
@@ -45,6 +45,8 @@ export class PathView {
   private program?: ProgramInfo;
   private buffers?: { corners: BufferInfo; detail: BufferInfo };
   private frame = 0;
+  private seen = true;
+  private stale = false;
   readonly ready: Promise<void>;
 
   constructor(private readonly run: Run, private readonly state: State, private readonly canvas: HTMLCanvasElement, private readonly dot: HTMLElement,
@@ -61,6 +63,7 @@ export class PathView {
     select.onchange = () => void this.recolour();
     this.gestures();
     new ResizeObserver(() => this.ask()).observe(canvas);
+    new IntersectionObserver((all) => { this.seen = all[all.length - 1].isIntersecting; if (this.seen && this.stale) this.ask(); }).observe(canvas);
     matchMedia('print').addEventListener('change', () => this.draw());
   }
 
@@ -186,12 +189,15 @@ export class PathView {
     return [0, 1, 2].flatMap((c) => [k * rows[0][c], k * rows[1][c], k * rows[2][c], 0]).concat([move[0], move[1], move[2], 1]);
   }
 
+  /** Draws with the next frame, or when the picture comes into sight. */
   private ask(): void {
-    if (this.frame) return;
+    this.stale = true;
+    if (this.frame || !this.seen) return;
     this.frame = requestAnimationFrame(() => { this.frame = 0; this.draw(); });
   }
 
   draw(): void {
+    this.stale = false;
     const ratio = Math.min(2, devicePixelRatio || 1), { canvas } = this;
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio)), height = Math.max(1, Math.round(canvas.clientHeight * ratio));
     if (canvas.width !== width || canvas.height !== height) { canvas.width = width; canvas.height = height; }
@@ -209,14 +215,16 @@ export class PathView {
     setUniforms(program!, { view: this.matrix(), squeeze: this.squeeze(), range: this.range, ramp: Array.from({ length: RAMP }, (_, k) => ramp(k / (RAMP - 1))).flat() });
     const strip = (buffer: BufferInfo, first: number, end: number, flat_colour: number[]): void => {
       setBuffersAndAttributes(gl, program!, buffer);
-      // lines of WebGL are one pixel wide: drawn thrice, a little aside, they are two
-      const aside = flat_colour[3] > 0 ? [[0, 0]] : [[0, 0], [1, 0], [0, 1]];
+      // lines of WebGL are one pixel wide: drawn thrice, a little aside, they are two; a path of so many lines is seen anyway
+      const aside = flat_colour[3] > 0 || end - first > MOST_WIDE ? [[0, 0]] : [[0, 0], [1, 0], [0, 1]];
       for (const [x, y] of aside) {
         setUniforms(program!, { flat_colour, shift: [2 * x / this.canvas.width, 2 * y / this.canvas.height] });
         gl.drawArrays(gl.LINE_STRIP, first, end - first);
       }
     };
-    if (this.detail || from > 0 || to < this.vertices) strip(buffers!.corners, 0, this.vertices, [...rgb(css('--rule')), 1]);
+    const faint = [...rgb(css('--rule')), 1];
+    if (from > 0) strip(buffers!.corners, 0, from + 1, faint);
+    if (to < this.vertices) strip(buffers!.corners, to - 1, this.vertices, faint);
     if (this.detail) strip(buffers!.detail, 0, this.detail.ticks.length, [0, 0, 0, 0]);
     else strip(buffers!.corners, from, to, [0, 0, 0, 0]);
   }
@@ -251,7 +259,8 @@ export class PathView {
       }
       if (colour) pen.stroke();
     };
-    line(this.corners, 0, this.vertices, css('--rule'));
+    line(this.corners, 0, Math.min(from + 1, this.vertices), css('--rule'));
+    line(this.corners, to - 1, this.vertices, css('--rule'));
     if (this.detail) line(this.detail, 0, this.detail.ticks.length); else line(this.corners, from, to);
   }
 

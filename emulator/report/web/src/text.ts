@@ -2,7 +2,7 @@
 // sign, whatever the browser's locale.
 
 const RU: Record<string, string> = {
-  'Whole run': 'Весь прогон', 'Over the path': 'По пути', 'Dark / light': 'Тёмная / светлая', 'Print': 'Печать', 'Tool path': 'Траектория инструмента', 'Colour': 'Цвет',
+  'Whole run': 'Весь прогон', 'Over the path': 'По пути', 'Runs at the cursor': 'Прогоны у курсора', 'run': 'прогон', 'Dark / light': 'Тёмная / светлая', 'Print': 'Печать', 'Tool path': 'Траектория инструмента', 'Colour': 'Цвет',
   'Iso': 'Изометрия', 'Top': 'Сверху', 'Front': 'Спереди', 'Program': 'Программа', 'Values in this window': 'Значения в этом окне',
   'Events': 'События', 'Blocks': 'Кадры', 'Settings in force': 'Действующие настройки', 'Licences of included libraries': 'Лицензии библиотек',
   'Warning': 'Предупреждение', 'Run': 'Прогон', 'outcome': 'исход', 'time': 'время', 'in motion': 'в движении', 'standing': 'стоянка', 'path': 'путь',
@@ -33,7 +33,7 @@ export function setRussian(on: boolean): void {
     at.textContent = say(at.dataset.en);
   }
 }
-/** Also of "junction X": a word and an axis. */
+/** Also of "junction X": words and an axis. */
 export function say(english: string): string {
   const axis = russian && !(english in RU) ? / [A-Z]$/.exec(english)?.[0] ?? '' : '';
   const word = axis ? english.slice(0, -axis.length) : english;
