@@ -10,7 +10,7 @@
 namespace kadr::emulator {
 namespace {
 
-constexpr std::size_t kFewestPieces = 4096;
+constexpr std::size_t kFewestPieces = 2048;
 constexpr std::size_t kBytesACorner =
     25;  ///< of the page's size for each corner of the path, which takes about 6
 
