@@ -4,8 +4,10 @@ import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'n
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
-// root needs --no-sandbox; SwiftShader gives WebGL without a graphics card
+// root needs --no-sandbox; SwiftShader gives WebGL without a graphics card, and all else is drawn by the processor, as Chromium does
+// on a machine that has none
 const FLAGS = ['--headless', '--no-sandbox', '--disable-gpu-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+  '--disable-accelerated-2d-canvas', '--disable-gpu-rasterization',
   '--no-first-run', '--disable-extensions', '--disable-background-networking', '--hide-scrollbars', '--force-color-profile=srgb', '--lang=en-US'];
 
 export class Browser {

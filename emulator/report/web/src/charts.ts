@@ -9,7 +9,7 @@ import { type Columns, DASHES, WIDTH_PX, bars, line } from './trace';
 
 /** An instant that charts show by an upright line. */
 export interface Mark { x: number; alarm: boolean }
-const CALM_MS = 400, LEFT_PX = 80;
+const CALM_MS = 1200, LEFT_PX = 80;
 type Picture = { points: Points } | { columns: Columns };
 
 /** As many decimals as the step between ticks has. */

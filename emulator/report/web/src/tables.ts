@@ -60,7 +60,10 @@ export function eventTable(run: Run): void {
 export class BlockTable {
   private by = -1;
   private down = false;
-  constructor(private readonly run: Run) { this.draw(); }
+  constructor(private readonly run: Run) {
+    // hundreds of rows below what is seen first: after the first picture
+    setTimeout(() => this.draw(), 100);
+  }
 
   draw(): void {
     const { blocks: b, meta, program } = this.run, n = b.t_s.length, order = Array.from({ length: n }, (_, i) => i);
