@@ -140,6 +140,14 @@ test('dark, Russian, 2-D, printed and without script', async () => {
   for (const name of ['uplot', 'twgl.js']) assert.match(html, new RegExp(`\\n?${name} [0-9.]+\\n\\n`));
 });
 
+test('the frame of a page, without a run in it, is at most 120 kB', (t) => {
+  const html = readFileSync(join(folder, 'hostile.html'), 'utf8');
+  const frame = html.replace(/<script type="application[^]*?<\/script>\n/g, '').replace(/(<section id="summary"[^>]*>)[^]*?<\/section>/, '$1').replace(/<noscript>[^]*?<\/noscript>/, '');
+  t.diagnostic(`${Buffer.byteLength(frame)} B of ${Buffer.byteLength(html)} B`);
+  assert.ok(Buffer.byteLength(frame) > 90_000, 'script and licences are in what is measured');
+  assert.ok(Buffer.byteLength(frame) <= 120_000);
+});
+
 test('words of both languages are readable: contrast of text is at least 4.5 to 1 on either ground', async () => {
   for (const scheme of ['light', 'dark']) {
     const view = await opened('hostile.html', { scheme });

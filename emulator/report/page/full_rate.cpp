@@ -1,6 +1,8 @@
 // The parts of a long run that its page shows control tick by control tick.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "emulator/report/page/page_data.h"
 
