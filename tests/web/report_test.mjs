@@ -109,6 +109,9 @@ test('cursor and window are one for charts, program and path; the mouse, the key
   await view.value('document.getElementById("charts").focus()');
   await view.key('+');
   assert.ok(Math.abs(await view.value('kadr.state.to_s - kadr.state.from_s') - (to_s - from_s) / 2) < 1e-6);
+  // the upright line stays at its instant when the window changes below it
+  const off = await view.value(`(() => { const s = kadr.state, at = (s.cursor_s - s.from_s) / (s.to_s - s.from_s) * ${box.width}; return new DOMMatrix(getComputedStyle(document.querySelectorAll('.u-cursor-x')[2]).transform).e - at; })()`);
+  assert.ok(Math.abs(off) < 1.5, `${off} pixels beside`);
   await view.key('ArrowLeft');
   await view.key('Home');
   assert.equal(await view.value('kadr.state.from_s'), 0);

@@ -200,9 +200,10 @@ export class Charts {
   }
 
   private showCursor(x: number): void {
-    const there = !Number.isNaN(x);
+    const there = !Number.isNaN(x), { from_s: from, to_s: to } = this.state;
     this.plots.forEach((plot, k) => {
-      plot.setCursor({ left: there ? plot.valToPos(x, 'x') : -10, top: 10 }, false);
+      // by the window of now: uPlot's own scales follow a little later
+      plot.setCursor({ left: there ? (x - from) / (to - from) * plot.bbox.width / (devicePixelRatio || 1) : -10, top: 10 }, false);
       this.groups[k].curves.forEach((c, i) => {
         const [low, high] = there ? c.at(x) : [NaN, NaN];
         const text = Number.isNaN(high) ? '' : low === high ? byStep(high, c.track.step) : `${byStep(low, c.track.step)} .. ${byStep(high, c.track.step)}`;
