@@ -28,7 +28,8 @@ int compare_logs(const Arguments& arguments, Console& console) {
     console.data(emulator::render_comparison(runs));
   const std::string& name = arguments.exported.output_path;
   if (!name.empty()) {
-    const std::string page = emulator::render_compare_page(runs);
+    const std::string page = emulator::render_compare_page(
+        std::move(runs), static_cast<std::size_t>(arguments.exported.max_size_mb * 1e6));
     OutputFile file(name);
     file.write(page);
     file.close();

@@ -29,8 +29,18 @@ int report_log(const Arguments& arguments, Console& console) {
   const bool whole =
       data->end.state == emulator::LogState::complete || data->end.state == emulator::LogState::interrupted;
   const std::string name = out.output_path.empty() ? page_path(path) : out.output_path;
+  std::string failure;
+  const auto again = [&](const emulator::PageData& page, const std::vector<emulator::Stretch>& stretches) {
+    auto read = emulator::read_full_rate(path, out.choice, page, stretches);
+    if (!read) failure = read.error().reason;
+    return read ? std::move(*read) : emulator::FullRate{};
+  };
   const std::string page =
-      emulator::render_report_page(std::move(*data), static_cast<std::size_t>(out.max_size_mb * 1e6));
+      emulator::render_report_page(std::move(*data), static_cast<std::size_t>(out.max_size_mb * 1e6), again);
+  if (!failure.empty()) {
+    console.error(fmt::format("{}: {}", path, failure));
+    return kNotStarted;
+  }
   if (name == "-") {
     console.data(page);
   } else {

@@ -12,7 +12,7 @@ namespace {
 
 // pixels of the drawing
 constexpr double kWidth = 960, kPlotHeight = 360, kLeft = 76, kRight = 26, kBelow = 46;
-constexpr double kLegendRow = 20, kSwatch = 26, kCharacter = 6.6;
+constexpr double kLegendRow = 20, kSwatch = 26, kCharacter = 7.4;
 constexpr double kPlotWidth = kWidth - kLeft - kRight;
 constexpr int kTicksX = 10, kTicksY = 6;
 

@@ -89,9 +89,11 @@ TEST_CASE("halving a page's data loses no peak and keeps the last position") {
   PageData data;
   data.tracks.push_back({{"a", "mm", false}, {1, 9, -4, 2, 3}, {1, 9, -4, 2, 3}});
   data.nodes = {{1, 2, 3, 4, 5}};
+  data.path_milli = {0, 10, 20, 20, 30};
   halve(data);
   CHECK(data.every == 2);
   CHECK(data.tracks[0].low == std::vector<float>{1, -4, 3});
   CHECK(data.tracks[0].high == std::vector<float>{9, 2, 3});
   CHECK(data.nodes[0] == std::vector<std::int32_t>{2, 4, 5});
+  CHECK(data.path_milli == std::vector<std::int32_t>{10, 20, 30});
 }

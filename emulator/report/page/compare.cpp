@@ -8,6 +8,8 @@
 #include "emulator/diff/diff_fields.h"
 #include "emulator/report/line_chart.h"
 #include "emulator/report/page/page_style.h"
+#include "emulator/report/page/report_page.h"
+#include "emulator/report/page/run_data.h"
 #include "emulator/report/text.h"
 #include "machine/base/hash.h"
 
@@ -71,24 +73,19 @@ const Track* track(const ComparedRun& run, const char* pattern) {
   return nullptr;
 }
 
-double piece_s(const ComparedRun& run) {
-  return run.data.header.seconds(Ticks{run.data.header.control_tick_ticks}) *
-         static_cast<double>(run.data.every);
-}
-
-/// A signal over time, or over the path length that the feed adds up to; highest value of each piece.
+/// A signal over time, or over the length of path; highest value of each piece.
 ChartLine line(const ComparedRun& run, std::size_t k, const char* pattern, bool over_path) {
   ChartLine out{letter(k), fmt::format("s{}", k % 6), {}, 1};
-  const Track *t = track(run, pattern), *feed = track(run, "feed.commanded*");
-  if (t == nullptr || feed == nullptr) return out;
-  double x =
-      over_path
-          ? 0
-          : run.data.header.seconds(Ticks{run.data.first_control_tick * run.data.header.control_tick_ticks});
+  const Track* t = track(run, pattern);
+  if (t == nullptr) return out;
+  const LogHeader& h = run.data.header;
   for (std::size_t i = 0; i < t->high.size(); ++i) {
     if (std::isnan(t->high[i])) continue;
-    x += over_path ? 0.5 * (double{feed->low[i]} + double{feed->high[i]}) * piece_s(run) : piece_s(run);
-    out.points.push_back({x, t->high[i]});
+    const std::int64_t passed =
+        run.data.first_control_tick + static_cast<std::int64_t>(i + 1) * run.data.every;
+    out.points.push_back(
+        {over_path ? 1e-3 * run.data.path_milli[i] : h.seconds(Ticks{passed * h.control_tick_ticks}),
+         t->high[i]});
   }
   return out;
 }
@@ -194,17 +191,29 @@ Json json_of(const std::vector<ComparedRun>& runs) {
   return {{"kadr", KADR_VERSION}, {"command", "compare"}, {"runs", std::move(list)}};
 }
 
-std::string render_compare_page(const std::vector<ComparedRun>& runs) {
+std::string render_compare_page(std::vector<ComparedRun> runs, std::size_t max_bytes) {
   const std::string unit = path_unit(runs.front().data.header);
-  const std::string title =
-      fmt::format("{} runs of {}", runs.size(), one_line(runs.front().data.header.program_name, 80));
-  std::string out =
-      fmt::format("{}<title>{}</title>\n</head>\n<body>\n<h1>{}</h1>\n<pre>{}</pre>\n", kPlainHead,
-                  xml_text(title), xml_text(title), xml_text(render_comparison(runs)));
-  out += chart(runs, "time", "Feed over time", "feed.commanded*", false, unit + "/s");
-  out += chart(runs, "path", "Feed over the path", "feed.commanded*", true, unit + "/s");
-  out += chart(runs, "error", "Path error over the path", "path.error*", true, "um");
-  return out + fmt::format("<p>kadr {}</p>\n</body>\n</html>\n", KADR_VERSION);
+  const std::string title = xml_text(
+      fmt::format("{} runs of {}", runs.size(), one_line(runs.front().data.header.program_name, 80)));
+  const std::string table =
+      fmt::format("<pre id=\"comparison\">{}</pre>\n", xml_text(render_comparison(runs)));
+  const std::string charts = chart(runs, "time", "Feed over time", "feed.commanded*", false, unit + "/s") +
+                             chart(runs, "path", "Feed over the path", "feed.commanded*", true, unit + "/s") +
+                             chart(runs, "error", "Path error over the path", "path.error*", true, "um");
+  if (report_template().empty())
+    return fmt::format(
+        "{}<title>{}</title>\n</head>\n<body>\n<h1>{}</h1>\n{}{}<p>kadr {}</p>\n</body>\n</html>\n",
+        kPlainHead, title, title, table, charts, KADR_VERSION);
+  const std::size_t frame = report_template().size() + table.size() + charts.size();
+  const std::size_t room = max_bytes > frame ? max_bytes - frame : 0;
+  Json letters = Json::array();
+  std::string data;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    letters.push_back(letter(k));
+    data += fitted_run(runs[k].data, room / runs.size(), letter(k) + "-", true, {});
+  }
+  return filled_template(title, table, charts,
+                         json_script("runs", json_line({{"runs", std::move(letters)}})) + data);
 }
 
 }  // namespace kadr::emulator

@@ -59,21 +59,25 @@ Quantised quantised(const std::vector<float>& values, bool whole) {
   }
   const double range = high - out.low;
   out.step = whole && range <= kSteps ? (range > 0 ? 1 : 0) : range / kSteps;
+  out.data = packed_reals(values, out.low, out.step);
+  return out;
+}
+
+std::string packed_reals(const std::vector<float>& values, double low, double step) {
   const std::size_t n = values.size();
   std::string planes(2 * n, '\0');
   std::uint16_t before = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const std::uint16_t q = !std::isfinite(values[i]) ? kNoValue
-                            : out.step > 0
-                                ? static_cast<std::uint16_t>((values[i] - out.low) / out.step + 0.5)
-                                : std::uint16_t{0};
+    const std::uint16_t q =
+        !std::isfinite(values[i]) ? kNoValue
+        : step > 0 ? static_cast<std::uint16_t>(std::clamp((values[i] - low) / step + 0.5, 0.0, kSteps))
+                   : std::uint16_t{0};
     const auto difference = static_cast<std::uint16_t>(q - before);
     before = q;
     planes[i] = static_cast<char>(difference & 255);
     planes[n + i] = static_cast<char>(difference >> 8);
   }
-  out.data = packed(planes);
-  return out;
+  return packed(planes);
 }
 
 std::string packed_counts(const std::vector<std::int32_t>& values) {

@@ -21,6 +21,9 @@ struct Quantised {
 /// @param whole  integers of a range below 65535 keep their exact value
 Quantised quantised(const std::vector<float>& values, bool whole);
 
+/// Values in given steps from `low`, packed as the data of Quantised; they are within its range.
+std::string packed_reals(const std::vector<float>& values, double low, double step);
+
 /// Whole numbers exactly: differences modulo 2^32 in four planes of bytes, the first one to 0.
 std::string packed_counts(const std::vector<std::int32_t>& values);
 

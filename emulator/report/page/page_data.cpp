@@ -14,11 +14,16 @@ constexpr const char* kSignals[] = {
     "axis.*.vibration*",  "axis.*.step_rate*",
 };
 
+constexpr const char* kPath = "path.length*";  // the last one: not a track
+
 std::string wanted(const LogSamples& log) {
   std::string out;
-  for (const char* pattern : kSignals)
+  const auto add = [&](const char* pattern) {
     for (const Signal& signal : log.signals())
       if (matches_pattern(signal.name, pattern)) out += (out.empty() ? "" : ",") + signal.name;
+  };
+  for (const char* pattern : kSignals) add(pattern);
+  add(kPath);
   return out;
 }
 
@@ -31,12 +36,17 @@ std::optional<machine::MachineModel> machine_of(const LogHeader& header) {
   return std::move(file->model);
 }
 
+std::int32_t count32(double value) {
+  return static_cast<std::int32_t>(std::clamp(value, double{INT32_MIN}, double{INT32_MAX}));
+}
+
 float lower(float a, float b) { return std::isnan(a) ? b : std::isnan(b) ? a : std::min(a, b); }
 float higher(float a, float b) { return std::isnan(a) ? b : std::isnan(b) ? a : std::max(a, b); }
 
 class Gatherer {
  public:
-  explicit Gatherer(PageData& data) : data_(data) {}
+  explicit Gatherer(PageData& data)
+      : data_(data), corners_(picture_steps_mm(data.header), kChord_mm, kMostCorners) {}
 
   void frame(const LogFrame& frame) {
     for (const LogItem& item : frame.items) std::visit(*this, item);
@@ -77,11 +87,15 @@ class Gatherer {
       data_.tracks[k].low[piece] = lower(data_.tracks[k].low[piece], value);
       data_.tracks[k].high[piece] = higher(data_.tracks[k].high[piece], value);
     }
+    data_.path_milli[piece] = count32(std::round(1000 * s.value.back()));
+    nodes_.resize(data_.nodes.size());
     for (std::size_t a = 0; a < data_.nodes.size(); ++a)
-      data_.nodes[a][piece] =
-          static_cast<std::int32_t>(std::clamp<std::int64_t>(ticks.axis[a].steps[i], INT32_MIN, INT32_MAX));
+      nodes_[a] = data_.nodes[a][piece] = count32(static_cast<double>(ticks.axis[a].steps[i]));
+    corners_.add(count32(static_cast<double>(s.control_tick - data_.first_control_tick)), nodes_);
     if (ticks.has_plant) work(ticks, i);
   }
+
+  PathCorners corners() const { return corners_.corners(); }
 
  private:
   void grow() {
@@ -90,6 +104,7 @@ class Gatherer {
       track.high.push_back(std::numeric_limits<float>::quiet_NaN());
     }
     for (auto& nodes : data_.nodes) nodes.push_back(nodes.empty() ? 0 : nodes.back());
+    data_.path_milli.push_back(data_.path_milli.empty() ? 0 : data_.path_milli.back());
   }
 
   void work(const TickBlock& ticks, std::size_t i) {
@@ -105,10 +120,18 @@ class Gatherer {
   }
 
   PageData& data_;
+  CornerFinder corners_;
+  std::vector<std::int32_t> nodes_;  // after the control tick at hand
   std::size_t alarms_ = 0;
 };
 
 }  // namespace
+
+std::vector<double> picture_steps_mm(const LogHeader& header) {
+  std::vector<double> out;
+  for (const LogAxis& axis : header.axis) out.push_back(axis.unit == "mm" ? axis.step_u : 0);
+  return out;
+}
 
 void halve(PageData& data) {
   const std::size_t n = data.pieces();
@@ -121,10 +144,12 @@ void halve(PageData& data) {
     track.low.resize((n + 1) / 2);
     track.high.resize((n + 1) / 2);
   }
-  for (auto& nodes : data.nodes) {
-    for (std::size_t i = 0; i < n; i += 2) nodes[i / 2] = nodes[std::min(i + 1, n - 1)];
-    nodes.resize((n + 1) / 2);
-  }
+  const auto last = [n](std::vector<std::int32_t>& values) {
+    for (std::size_t i = 0; i < n; i += 2) values[i / 2] = values[std::min(i + 1, n - 1)];
+    values.resize((n + 1) / 2);
+  };
+  for (auto& nodes : data.nodes) last(nodes);
+  last(data.path_milli);
   data.every *= 2;
 }
 
@@ -138,11 +163,13 @@ tl::expected<PageData, LogReadError> read_page_data(const std::string& path, con
   PageData data;
   data.header = log->header();
   data.machine = machine_of(data.header);
-  for (const Signal& signal : log->chosen()) data.tracks.push_back({signal, {}, {}});
+  for (const Signal& signal : log->chosen())
+    if (!matches_pattern(signal.name, kPath)) data.tracks.push_back({signal, {}, {}});
   data.nodes.resize(data.header.axis.size());
   Gatherer gather(data);
   log->watch([&](const LogFrame& frame) { gather.frame(frame); });
   for (Sample sample; log->next(sample);) gather.sample(sample);
+  data.corners = gather.corners();
   data.end = *log->end();
   data.summary = log->summary();
   return data;

@@ -8,6 +8,7 @@
 #include <tl/expected.hpp>
 
 #include "emulator/export/log_samples.h"
+#include "emulator/report/page/path_corners.h"
 #include "machine/machine.h"
 
 /// What a report page shows of a run, gathered in one pass over its log; memory does not grow with the log
@@ -17,6 +18,8 @@ namespace kadr::emulator {
 inline constexpr std::size_t kMostPieces = std::size_t{1} << 20;
 inline constexpr std::size_t kMostEvents = 5000;
 inline constexpr std::size_t kMostBlocks = 200'000;
+inline constexpr std::size_t kMostCorners = std::size_t{1} << 17;
+inline constexpr double kChord_mm = 0.005;  ///< of the path's corners, as long as they are not too many
 
 /// One signal over the run: lowest and highest value of every piece of `every` control ticks.
 struct Track {
@@ -38,6 +41,18 @@ struct AxisWork {
   double braking_J = 0;  ///< where they do not, <= 0
 };
 
+/// Control ticks [first, first + ticks) since the page's first.
+struct Stretch {
+  std::int64_t first = 0, ticks = 0;
+};
+
+/// Stretches of a run with every control tick, where all of them would be too many.
+struct FullRate {
+  std::vector<Stretch> stretches;                ///< ascending, apart from each other
+  std::vector<std::vector<float>> tracks;        ///< [tracks][control ticks of all stretches]
+  std::vector<std::vector<std::int32_t>> nodes;  ///< [axes][control ticks of all stretches]
+};
+
 struct PageData {
   LogHeader header;
   LogEnd end;
@@ -48,7 +63,10 @@ struct PageData {
   std::int64_t every = 1;  ///< control ticks a piece
   std::vector<Track> tracks;
   std::vector<std::vector<std::int32_t>> nodes;  ///< [axes][pieces] lattice node at the end of each piece
-  std::vector<AxisWork> work;                    ///< [axes]; empty without plant
+  std::vector<std::int32_t> path_milli;  ///< [pieces] length of path at its end, thousandths of its unit
+  PathCorners corners;
+  FullRate full_rate;
+  std::vector<AxisWork> work;  ///< [axes]; empty without plant
   std::vector<PageBlock> blocks;
   std::vector<EventRecord> events;  ///< alarms all, others up to kMostEvents
   std::vector<LogDiagnostic> diagnostics;
@@ -59,6 +77,19 @@ struct PageData {
 /// Reads a log for a page.
 /// @param choice  part of the run; its signals are the page's own
 tl::expected<PageData, LogReadError> read_page_data(const std::string& path, const SampleChoice& choice);
+
+/// Reads some stretches once more, now control tick by control tick.
+/// @param choice  the one that `data` was read with
+tl::expected<FullRate, LogReadError> read_full_rate(const std::string& path, const SampleChoice& choice,
+                                                    const PageData& data,
+                                                    const std::vector<Stretch>& stretches);
+
+/// Where every control tick is worth its room: 1 s round alarms, warnings and each signal's largest value,
+/// then round other events, as long as all of it is at most `most` control ticks.
+std::vector<Stretch> stretches_of_interest(const PageData& data, std::int64_t most);
+
+/// mm a lattice step of each axis; 0: not an axis of the picture.
+std::vector<double> picture_steps_mm(const LogHeader& header);
 
 /// Each two pieces become one: half the size, no peak lost.
 void halve(PageData& data);

@@ -75,7 +75,7 @@ class Summary {
 
   std::string run() const {
     const std::string unit = path_unit(h_);
-    std::string rows = row_html({word("outcome"), {s().outcome}});
+    std::string rows = row_html({word("outcome"), word(s().outcome)});
     rows += row_html({word("time"), number(h_.seconds(s().ticks), 3, "s")}, " id=\"total-time\"");
     rows += row_html({word("in motion"), number(s().motion_s, 3, "s")});
     rows += row_html({word("standing"), number(s().dwell_s, 3, "s")});
@@ -124,7 +124,7 @@ class Summary {
       const machine::AxisModel* m = d_.machine ? &d_.machine->axis[a] : nullptr;
       const auto against = [&](double value, double limit, int decimals, const char* per) {
         return Cell{fmt::format("{} {}{}", fixed(value, decimals),
-                                m ? "of " + limit_text(limit, decimals) + " " : "", unit + per)};
+                                m ? "/ " + limit_text(limit, decimals) + " " : "", unit + per)};
       };
       rows +=
           row_html({{h_.axis[a].name},

@@ -6,7 +6,7 @@ const ANCHORS = [[0, 32, 77], [39, 60, 110], [87, 92, 109], [124, 123, 120], [16
 export const isDark = (): boolean => document.documentElement.classList.contains('dark');
 
 export function ramp(share: number): [number, number, number] {
-  const [from, to] = isDark() ? [0.22, 1] : [0, 0.86];
+  const [from, to] = isDark() ? [0.22, 1] : [0, 0.8];
   const at = (from + (to - from) * Math.max(0, Math.min(1, share))) * (ANCHORS.length - 1);
   const i = Math.min(ANCHORS.length - 2, Math.floor(at)), part = at - i;
   const mix = (k: number): number => (ANCHORS[i][k] + (ANCHORS[i + 1][k] - ANCHORS[i][k]) * part) / 255;

@@ -1,23 +1,127 @@
-// The run as kadr wrote it into the page (emulator/report/page/report_page.cpp).
+// A run as kadr wrote it into the page (emulator/report/page/run_data.cpp).
+import { Pyramid } from './pyramid';
 
 export interface TrackMeta { name: string; unit: string; low: number; step: number }
 export interface AxisMeta { name: string; unit: string; step_u: number }
 export interface EventMeta { t_s: number; line: number; kind: string; text: string }
+/** Control ticks [first, first + ticks) that the page holds one by one, though the rest is in pieces of several; `at`: where in `fine`. */
+export interface WindowMeta { first: number; ticks: number; at: number }
 export interface Meta {
   kadr: string; title: string; program: string; path_unit: string;
   control_tick_s: number; first_control_tick: number; control_ticks: number; every: number; pieces: number;
-  tracks: TrackMeta[]; axes: AxisMeta[]; limited_by: string[]; events: EventMeta[]; events_left_out: number;
+  tracks: TrackMeta[]; axes: AxisMeta[]; limited_by: string[]; events: EventMeta[]; events_left_out: number; windows: WindowMeta[]; has_path: boolean;
 }
 export interface Blocks {
   t_s: number[]; line: number[]; length_u: number[]; planned_s: number[]; programmed_u_s: number[]; peak_u_s: number[];
   limited_by: number[]; words: string[]; text: string[]; left_out: number;
 }
-/** One signal: lowest and highest value of every piece; the same array while a piece is one control tick. */
-export interface Track { name: string; unit: string; step: number; low: Float32Array; high: Float32Array }
 
-export interface Run {
-  meta: Meta; tracks: Map<string, Track>; nodes: Int32Array[]; blocks: Blocks; program: string[]; settings: string;
-  pieces: number; piece_s: number; first_s: number; end_s: number;
+/** Part of the page that is unpacked when somebody first needs it. */
+export class Later<T> {
+  value: T | undefined;
+  private promise?: Promise<T>;
+  constructor(private readonly make: () => Promise<T>) {}
+  load(): Promise<T> { return (this.promise ??= this.make().then((value) => (this.value = value))); }
+}
+
+const NONE = new Float32Array();
+
+/** One signal: lowest and highest value of every piece, the same array while a piece is one control tick; no values before it is loaded. */
+export class Track {
+  readonly name: string;
+  readonly unit: string;
+  readonly step: number;
+  private readonly data: Later<{ low: Float32Array; high: Float32Array; fine: Float32Array }>;
+  private pyramid_?: Pyramid;
+  lowest = NaN;
+  highest = NaN;
+
+  constructor(meta: TrackMeta, pieces: number, id: string, fineId: string) {
+    this.name = meta.name;
+    this.unit = meta.unit;
+    this.step = meta.step;
+    this.data = new Later(async () => {
+      const all = reals(await unpacked(id), meta.low, meta.step), fine = fineId ? reals(await unpacked(fineId), meta.low, meta.step) : NONE;
+      return all.length > pieces ? { low: all.subarray(0, pieces), high: all.subarray(pieces), fine } : { low: all, high: all, fine };
+    });
+  }
+  load(): Promise<unknown> { return this.data.load(); }
+  get loaded(): boolean { return this.data.value !== undefined; }
+  get low(): Float32Array { return this.data.value?.low ?? NONE; }
+  get high(): Float32Array { return this.data.value?.high ?? NONE; }
+  /** Of the windows, one behind the other. */
+  get fine(): Float32Array { return this.data.value?.fine ?? NONE; }
+  get pyramid(): Pyramid { return (this.pyramid_ ??= new Pyramid(this.low, this.high)); }
+
+  /** Sets lowest and highest to the extremes of control ticks [first, end); lowest > highest: no values. Where the page has pieces of
+   * several, those of whole pieces. */
+  ask(run: Run, first: number, end: number): void {
+    const { every } = run.meta, w = run.windowAt(first);
+    this.lowest = Infinity;
+    this.highest = -Infinity;
+    if (!this.loaded) return;
+    if (w && end <= w.first + w.ticks) {
+      const { fine } = this;
+      for (let i = w.at + first - w.first, stop = i + end - first; i < stop; i++) {
+        if (fine[i] < this.lowest) this.lowest = fine[i];
+        if (fine[i] > this.highest) this.highest = fine[i];
+      }
+      return;
+    }
+    const { pyramid } = this;
+    pyramid.ask(Math.floor(first / every), Math.min(run.pieces, Math.ceil(end / every)));
+    this.lowest = pyramid.low;
+    this.highest = pyramid.high;
+  }
+}
+
+/** Lattice nodes of each axis: after each piece, and after each control tick of the windows. */
+export interface Nodes { pieces: Int32Array[]; fine: Int32Array[] }
+
+/** Corners of the commanded path: exact positions after some of the control ticks; between them it is straight within micrometres. */
+export interface Corners { ticks: Int32Array; nodes: Int32Array[] }
+
+export class Run {
+  readonly pieces: number;
+  readonly ticks: number;  // control ticks that the pieces cover
+  readonly piece_s: number;
+  readonly first_s: number;
+  readonly end_s: number;
+  private path?: Float64Array;
+
+  constructor(readonly meta: Meta, readonly tracks: Map<string, Track>, readonly positions: Later<Nodes>, readonly corners: Corners,
+    private readonly path_milli: Int32Array, readonly blocks: Blocks, readonly program: string[], readonly settings: string) {
+    this.pieces = meta.pieces;
+    this.ticks = meta.pieces * meta.every;
+    this.piece_s = meta.control_tick_s * meta.every;
+    this.first_s = meta.first_control_tick * meta.control_tick_s;
+    this.end_s = this.first_s + meta.pieces * this.piece_s;
+  }
+  /** Length of path at each piece's end. */
+  get path_u(): Float64Array { return (this.path ??= Float64Array.from(this.path_milli, (v) => v / 1000)); }
+
+  windowAt(tick: number): WindowMeta | undefined {
+    if (this.meta.windows.length === 0) return undefined;
+    const w = this.windowBefore(tick);
+    return w && tick < w.first + w.ticks ? w : undefined;
+  }
+  /** Where the next window begins. */
+  windowAfter(tick: number): number {
+    const { windows } = this.meta, w = this.windowBefore(tick);
+    return windows[w ? windows.indexOf(w) + 1 : 0]?.first ?? Infinity;
+  }
+  private windowBefore(tick: number): WindowMeta | undefined {
+    const { windows } = this.meta;
+    let low = 0, high = windows.length;
+    while (low < high) { const middle = (low + high) >> 1; if (windows[middle].first <= tick) low = middle + 1; else high = middle; }
+    return windows[low - 1];
+  }
+  /** Lattice node after a control tick; the piece's last one where it is not in a window. Once positions are loaded. */
+  node(axis: number, tick: number): number {
+    const w = this.windowAt(tick), at = this.positions.value;
+    if (!at) return 0;
+    return w ? at.fine[axis][w.at + tick - w.first] : at.pieces[axis][Math.floor(tick / this.meta.every)];
+  }
 }
 
 const NO_VALUE = 65535;
@@ -62,10 +166,6 @@ async function unpacked(id: string): Promise<Uint8Array<ArrayBuffer>> {
   return out;
 }
 
-async function unpackedText(id: string): Promise<string> {
-  return new TextDecoder().decode(await unpacked(id));
-}
-
 /** Planes of low and high bytes of differences modulo 2^16. */
 function reals(bytes: Uint8Array, low: number, step: number): Float32Array {
   const n = bytes.length / 2;
@@ -88,24 +188,18 @@ function counts(bytes: Uint8Array): Int32Array {
   return out;
 }
 
-export async function readRun(): Promise<Run> {
-  const meta = JSON.parse(element('meta').textContent ?? '') as Meta;
-  const tracks = new Map<string, Track>();
-  const bytes = await Promise.all(meta.tracks.map((_, k) => unpacked(`track${k}`)));
-  meta.tracks.forEach((m, k) => {
-    const all = reals(bytes[k], m.low, m.step);
-    const low = meta.every > 1 ? all.subarray(0, meta.pieces) : all;
-    tracks.set(m.name, { name: m.name, unit: m.unit, step: m.step, low, high: meta.every > 1 ? all.subarray(meta.pieces) : all });
-  });
-  const nodes = (await Promise.all(meta.axes.map((_, a) => unpacked(`nodes${a}`)))).map(counts);
-  const piece_s = meta.control_tick_s * meta.every;
-  const first_s = meta.first_control_tick * meta.control_tick_s;
-  return {
-    meta, tracks, nodes, piece_s, first_s, pieces: meta.pieces, end_s: first_s + meta.pieces * piece_s,
-    blocks: JSON.parse(await unpackedText('data-blocks')) as Blocks,
-    program: (await unpackedText('data-program')).split(/\r?\n/),
-    settings: await unpackedText('data-settings'),
-  };
+/** @param prefix  of the ids of the run's elements: pages of several runs have several */
+export async function readRun(prefix = ''): Promise<Run> {
+  const meta = JSON.parse(element(`${prefix}meta`).textContent ?? '') as Meta;
+  const fine = meta.windows.length > 0, axes = meta.axes.length;
+  const all = async (name: string, n: number): Promise<Int32Array[]> =>
+    (await Promise.all(Array.from({ length: n }, (_, k) => unpacked(`${prefix}${name}${k}`)))).map(counts);
+  const text = async (name: string): Promise<string> => new TextDecoder().decode(await unpacked(`${prefix}data-${name}`));
+  const tracks = new Map(meta.tracks.map((m, k) => [m.name, new Track(m, meta.pieces, `${prefix}track${k}`, fine ? `${prefix}fine${k}` : '')]));
+  const positions = new Later(async () => ({ pieces: await all('nodes', axes), fine: await all('fine-nodes', fine ? axes : 0) }));
+  const [[ticks, ...at], path, blocks, program, settings] = await Promise.all([
+    all('corner', axes + 1), meta.has_path ? unpacked(`${prefix}path`).then(counts) : new Int32Array(), text('blocks'), text('program'), text('settings')]);
+  return new Run(meta, tracks, positions, { ticks, nodes: at }, path, JSON.parse(blocks) as Blocks, program.split(/\r?\n/), settings);
 }
 
 /** Tracks whose names begin and end like that: "axis." and ".speed". */
@@ -115,10 +209,9 @@ export function alike(run: Run, begin: string, part: string): Track[] {
 export function one(run: Run, begin: string): Track | undefined {
   return [...run.tracks.values()].find((t) => t.name.startsWith(begin));
 }
-/** Time at the end of a piece, and the piece that holds a time. */
-export const timeOf = (run: Run, piece: number): number => run.first_s + (piece + 1) * run.piece_s;
-export const pieceAt = (run: Run, t_s: number): number =>
-  Math.max(0, Math.min(run.pieces - 1, Math.ceil((t_s - run.first_s) / run.piece_s - 1e-6) - 1));
+/** The control tick that holds a time. */
+export const tickAt = (run: Run, t_s: number): number =>
+  Math.max(0, Math.min(run.ticks - 1, Math.ceil((t_s - run.first_s) / run.meta.control_tick_s - 1e-6) - 1));
 /** The block under way at a time; -1: none yet. */
 export function blockAt(run: Run, t_s: number): number {
   let low = 0, high = run.blocks.t_s.length;

@@ -1,87 +1,101 @@
 // The tool path in 3-D: WebGL through twgl, and a plain 2-D drawing where there is no WebGL. Colours are by a signal over
 // the window of time; the rest of the path is faint.
-import * as twgl from 'twgl.js';
+import { type BufferInfo, type ProgramInfo, createBufferInfoFromArrays, createProgramInfo, setAttribInfoBufferFromArray, setBuffersAndAttributes,
+  setUniforms } from 'twgl.js';
 import { css, ramp, rgb } from './colours';
-import { type Run, type Track, one, alike, pieceAt } from './data';
+import { type Run, type Track, alike, one, tickAt } from './data';
 import type { State } from './state';
 import { fixed, made, say } from './text';
 
-const MOST_VERTICES = 500_000, MOST_2D = 20_000, DOT_PX = 9;
+const MOST_DETAIL = 60_000, MOST_WIDE = 6_000, MOST_2D = 20_000, RAMP = 16;
 
 const VERTEX = `
-attribute vec3 position; attribute float share; uniform mat4 view; uniform vec2 squeeze; uniform float dot; varying float v_share;
-void main() { gl_Position = view * vec4(position, 1.0); gl_Position.xy *= squeeze; gl_PointSize = dot; v_share = share; }`;
+attribute vec3 position; attribute float value; uniform mat4 view; uniform vec2 squeeze; uniform vec2 shift; uniform vec2 range; uniform vec3 ramp[${RAMP}]; varying vec3 colour;
+void main() {
+  gl_Position = view * vec4(position, 1.0);
+  gl_Position.xy = gl_Position.xy * squeeze + shift;
+  float share = clamp((value - range.x) / max(range.y - range.x, 1e-30), 0.0, 1.0) * ${RAMP - 1}.0;
+  colour = ramp[0];
+  for (int k = 1; k < ${RAMP}; ++k) colour = mix(colour, ramp[k], clamp(share - float(k - 1), 0.0, 1.0));
+}`;
 const FRAGMENT = `
-precision mediump float; uniform sampler2D ramp; uniform vec4 flat_colour; varying float v_share;
-void main() { gl_FragColor = flat_colour.a > 0.0 ? flat_colour : vec4(texture2D(ramp, vec2(v_share, 0.5)).rgb, 1.0); }`;
+precision mediump float; uniform vec4 flat_colour; varying vec3 colour;
+void main() { gl_FragColor = flat_colour.a > 0.0 ? flat_colour : vec4(colour, 1.0); }`;
 
-interface Colouring { name: string; unit: string; value(piece: number): number }
+/** The largest value over control ticks [first, end). */
+interface Colouring { name: string; unit: string; tracks: Track[]; value(first: number, end: number): number }
 
-const largest = (t: Track, i: number): number => Math.max(Math.abs(t.low[i]), Math.abs(t.high[i]));
+/** Part of the path: positions, and behind each the value of the stretch that leads to it. */
+interface Strip { positions: Float32Array; values: Float32Array; ticks: Int32Array }
 
 export class PathView {
-  private readonly positions: Float32Array;
-  private readonly shares: Float32Array;
-  private readonly every: number;  // pieces from one vertex to the next
+  private readonly corners: Strip;
+  private detail: Strip | null = null;  // every control tick of the window, where the page has them and they are not too many
   private readonly colourings: Colouring[] = [];
+  private readonly axes: { k: number; step_u: number }[];
   private yaw = -0.6;
   private pitch = 0.95;
   private scale = 1;
   private shift: [number, number] = [0, 0];
   private centre: [number, number, number] = [0, 0, 0];
   private half: [number, number, number] = [0, 0, 0];  // of the path's box
+  private range: [number, number] = [0, 1];            // of the colours
   private gl: WebGLRenderingContext | null = null;
   private flat: CanvasRenderingContext2D | null = null;
-  private program?: twgl.ProgramInfo;
-  private buffers?: twgl.BufferInfo;
-  private texture?: WebGLTexture;
+  private program?: ProgramInfo;
+  private buffers?: { corners: BufferInfo; detail: BufferInfo };
   private frame = 0;
+  private seen = true;
+  private stale = false;
+  readonly ready: Promise<void>;
 
-  constructor(private readonly run: Run, private readonly state: State, private readonly canvas: HTMLCanvasElement,
+  constructor(private readonly run: Run, private readonly state: State, private readonly canvas: HTMLCanvasElement, private readonly dot: HTMLElement,
     private readonly select: HTMLSelectElement) {
-    this.every = Math.max(1, Math.ceil(run.pieces / MOST_VERTICES));
-    this.positions = this.place();
-    this.shares = new Float32Array(this.positions.length / 3);
+    this.axes = run.meta.axes.map((a, k) => ({ ...a, k })).filter((a) => a.unit === 'mm').slice(0, 3);
+    const { ticks } = run.corners;
+    this.corners = { positions: this.place(ticks.length, (axis, i) => run.corners.nodes[axis][i]), values: new Float32Array(ticks.length), ticks };
+    this.box();
     this.colour();
     this.start();
-    this.paint();
-    state.add({ window: () => this.paint(), cursor: () => this.ask() });
-    select.onchange = () => this.paint();
+    this.ready = this.recolour();
+    void this.ready.then(() => run.positions.load()).then(() => { this.paint(); });
+    state.add({ window: () => this.paint(), cursor: () => this.mark() });
+    select.onchange = () => void this.recolour();
     this.gestures();
     new ResizeObserver(() => this.ask()).observe(canvas);
+    new IntersectionObserver((all) => { this.seen = all[all.length - 1].isIntersecting; if (this.seen && this.stale) this.ask(); }).observe(canvas);
     matchMedia('print').addEventListener('change', () => this.draw());
   }
 
   get kind(): string { return this.gl ? 'webgl' : '2d'; }
-  get vertices(): number { return this.shares.length; }
+  get vertices(): number { return this.corners.ticks.length; }
 
   /** Exact positions: lattice node times step, of the first three linear axes. */
-  private place(): Float32Array {
-    const { run } = this, n = Math.ceil(run.pieces / this.every);
-    const axes = run.meta.axes.map((a, k) => ({ ...a, k })).filter((a) => a.unit === 'mm').slice(0, 3);
+  private place(n: number, node: (axis: number, i: number) => number): Float32Array {
     const out = new Float32Array(3 * n);
-    axes.forEach((axis, d) => {
+    this.axes.forEach(({ k, step_u }, d) => { for (let i = 0; i < n; i++) out[3 * i + d] = node(k, i) * step_u; });
+    return out;
+  }
+
+  private box(): void {
+    const { positions } = this.corners;
+    for (let d = 0; d < 3; d++) {
       let low = Infinity, high = -Infinity;
-      for (let i = 0; i < n; i++) {
-        const value = run.nodes[axis.k][Math.min(run.pieces - 1, i * this.every)] * axis.step_u;
-        out[3 * i + d] = value;
-        if (value < low) low = value;
-        if (value > high) high = value;
-      }
+      for (let i = d; i < positions.length; i += 3) { low = Math.min(low, positions[i]); high = Math.max(high, positions[i]); }
       this.centre[d] = (low + high) / 2;
       this.half[d] = (high - low) / 2;
-    });
-    return out;
+    }
   }
 
   private colour(): void {
     const { run } = this;
+    const largest = (t: Track, first: number, end: number): number => { t.ask(run, first, end); return t.lowest <= t.highest ? Math.max(-t.lowest, t.highest) : NaN; };
     const feed = one(run, 'feed.commanded'), error = one(run, 'path.error');
     const vibration = alike(run, 'axis.', '.vibration').filter((t) => t.unit === 'um');
-    if (feed) this.colourings.push({ name: 'feed', unit: feed.unit, value: (i) => feed.high[i] });
-    if (error) this.colourings.push({ name: 'path error', unit: error.unit, value: (i) => error.high[i] });
-    if (vibration.length) this.colourings.push({ name: 'vibration', unit: 'um', value: (i) => Math.hypot(...vibration.map((t) => largest(t, i))) });
-    this.colourings.push({ name: 'time', unit: 's', value: (i) => run.first_s + (i + 1) * run.piece_s });
+    if (feed) this.colourings.push({ name: 'feed', unit: feed.unit, tracks: [feed], value: (a, b) => largest(feed, a, b) });
+    if (error) this.colourings.push({ name: 'path error', unit: error.unit, tracks: [error], value: (a, b) => largest(error, a, b) });
+    if (vibration.length) this.colourings.push({ name: 'vibration', unit: 'um', tracks: vibration, value: (a, b) => Math.sqrt(vibration.reduce((sum, t) => sum + largest(t, a, b) ** 2, 0)) });
+    this.colourings.push({ name: 'time', unit: 's', tracks: [], value: (_, b) => run.first_s + b * run.meta.control_tick_s });
     this.words();
   }
 
@@ -98,46 +112,62 @@ export class PathView {
       this.flat = this.canvas.getContext('2d');
       return;
     }
-    this.program = twgl.createProgramInfo(this.gl, [VERTEX, FRAGMENT]);
-    this.buffers = twgl.createBufferInfoFromArrays(this.gl, {
-      position: { numComponents: 3, data: this.positions }, share: { numComponents: 1, data: this.shares, drawType: this.gl.DYNAMIC_DRAW },
-    });
+    const gl = this.gl, buffer = ({ positions, values }: Strip): BufferInfo => createBufferInfoFromArrays(gl, {
+      position: { numComponents: 3, data: positions }, value: { numComponents: 1, data: values, drawType: gl.DYNAMIC_DRAW } });
+    this.program = createProgramInfo(gl, [VERTEX, FRAGMENT]);
+    this.buffers = { corners: buffer(this.corners), detail: buffer({ positions: new Float32Array(3), values: new Float32Array(1), ticks: new Int32Array(1) }) };
   }
 
-  /** Colours anew, by the range of the window: with that of the whole run one peak would make all the rest one colour. */
+  private upload(to: BufferInfo, { positions, values }: Strip, all: boolean): void {
+    if (all) setAttribInfoBufferFromArray(this.gl!, to.attribs!.position, positions);
+    setAttribInfoBufferFromArray(this.gl!, to.attribs!.value, values.map((v) => (Number.isFinite(v) ? v : -1e30)));  // no value: the ramp's low end
+  }
+
+  /** Another signal, or other colours. */
+  private async recolour(): Promise<void> {
+    const c = this.colourings[Number(this.select.value)], { values, ticks } = this.corners;
+    await Promise.all(c.tracks.map((t) => t.load()));
+    if (c !== this.colourings[Number(this.select.value)]) return;
+    for (let i = 0; i < ticks.length; i++) values[i] = c.value(i > 0 ? ticks[i - 1] + 1 : 0, ticks[i] + 1);
+    if (this.buffers) this.upload(this.buffers.corners, this.corners, false);
+    this.paint();
+  }
+
+  /** Every control tick of the window; null: too many, or the page does not hold them. */
+  private single(): Strip | null {
+    if (!this.run.positions.value) return null;
+    const { run, state } = this, first = Math.max(0, tickAt(run, state.from_s) - 1), n = tickAt(run, state.to_s) + 1 - first;
+    const w = run.windowAt(first);
+    if (n > MOST_DETAIL || (run.meta.every > 1 && !(w && first + n <= w.first + w.ticks))) return null;
+    const c = this.colourings[Number(this.select.value)];
+    return { positions: this.place(n, (axis, i) => run.node(axis, first + i)), values: Float32Array.from({ length: n }, (_, i) => c.value(first + i, first + i + 1)),
+      ticks: Int32Array.from({ length: n }, (_, i) => first + i) };
+  }
+
+  /** The window in colours of its own range: with that of the whole run one peak would make all the rest one colour. */
   paint(): void {
-    const c = this.colourings[Number(this.select.value)], { shares } = this;
-    const [from, to] = this.window(), values: number[] = [], pick = Math.max(1, Math.floor((to - from) / 20000));
-    for (let i = 0; i < shares.length; i++) {
-      shares[i] = c.value(Math.min(this.run.pieces - 1, i * this.every));
-      if (i >= from && i < to && (i - from) % pick === 0 && Number.isFinite(shares[i])) values.push(shares[i]);
-    }
-    values.sort((a, b) => a - b);
+    const c = this.colourings[Number(this.select.value)];
+    this.detail = this.single();
+    if (this.detail && this.buffers) this.upload(this.buffers.detail, this.detail, true);
+    const [from, to] = this.window(), values = (this.detail?.values ?? this.corners.values.subarray(from, to)).filter(Number.isFinite).sort();
     const low = values[0] ?? 0, high = values[Math.floor(0.995 * (values.length - 1))] ?? 1;
-    for (let i = 0; i < shares.length; i++) shares[i] = (shares[i] - low) / (high - low || 1);
+    this.range = [low, high];
     const decimals = c.unit === 's' ? 3 : 1;
     document.getElementById('scale-low')!.textContent = fixed(low, decimals);
     document.getElementById('scale-high')!.textContent = `${values[values.length - 1] > high ? '≥ ' : ''}${fixed(high, decimals)} ${c.unit}`;
     const strip = document.getElementById('ramp') as HTMLCanvasElement, pen = strip.getContext('2d')!;
-    const texels = new Uint8Array(256 * 4);
-    for (let k = 0; k < 256; k++) texels.set([...ramp(k / 255).map((v) => Math.round(255 * v)), 255], 4 * k);
     for (let x = 0; x < strip.width; x++) {
-      const k = Math.round(x / (strip.width - 1) * 255) * 4;
-      pen.fillStyle = `rgb(${texels[k]},${texels[k + 1]},${texels[k + 2]})`;
+      pen.fillStyle = `rgb(${ramp(x / (strip.width - 1)).map((v) => Math.round(255 * v)).join(',')})`;
       pen.fillRect(x, 0, 1, strip.height);
-    }
-    if (this.gl && this.buffers) {
-      if (this.texture) this.gl.deleteTexture(this.texture);
-      this.texture = twgl.createTexture(this.gl, { src: texels, width: 256, height: 1, minMag: this.gl.LINEAR, wrap: this.gl.CLAMP_TO_EDGE, auto: false });
-      twgl.setAttribInfoBufferFromArray(this.gl, this.buffers.attribs!.share, shares);
     }
     this.ask();
   }
 
-  /** Vertices of the window of time. */
+  /** Corners of the window of time. */
   private window(): [number, number] {
-    const from = Math.floor(pieceAt(this.run, this.state.from_s) / this.every);
-    return [from, Math.min(this.shares.length, Math.max(from + 2, Math.ceil((pieceAt(this.run, this.state.to_s) + 1) / this.every)))];
+    const { ticks } = this.corners;
+    const from = Math.max(0, lower(ticks, tickAt(this.run, this.state.from_s)) - 1);
+    return [from, Math.min(ticks.length, Math.max(from + 2, lower(ticks, tickAt(this.run, this.state.to_s)) + 1))];
   }
 
   /** How the picture is wider than high. */
@@ -159,69 +189,90 @@ export class PathView {
     return [0, 1, 2].flatMap((c) => [k * rows[0][c], k * rows[1][c], k * rows[2][c], 0]).concat([move[0], move[1], move[2], 1]);
   }
 
+  /** Draws with the next frame, or when the picture comes into sight. */
   private ask(): void {
-    if (this.frame) return;
+    this.stale = true;
+    if (this.frame || !this.seen) return;
     this.frame = requestAnimationFrame(() => { this.frame = 0; this.draw(); });
   }
 
   draw(): void {
+    this.stale = false;
     const ratio = Math.min(2, devicePixelRatio || 1), { canvas } = this;
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio)), height = Math.max(1, Math.round(canvas.clientHeight * ratio));
     if (canvas.width !== width || canvas.height !== height) { canvas.width = width; canvas.height = height; }
-    const squeeze = this.squeeze();
-    if (this.gl) this.drawGl(squeeze, ratio); else if (this.flat) this.draw2d(squeeze);
+    if (this.gl) this.drawGl(); else if (this.flat) this.draw2d();
+    this.mark();
   }
 
-  private mark(): number {
-    const t = this.state.cursor_s;
-    return Number.isNaN(t) ? -1 : Math.min(this.shares.length - 1, Math.round(pieceAt(this.run, t) / this.every));
-  }
-
-  private drawGl(squeeze: number[], ratio: number): void {
-    const gl = this.gl!, [from, to] = this.window(), faint = [...rgb(css('--rule')), 1];
+  private drawGl(): void {
+    const gl = this.gl!, [from, to] = this.window(), { program, buffers } = this;
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
     const [r, g, b] = rgb(css('--ground'));
     gl.clearColor(r, g, b, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    gl.useProgram(this.program!.program);
-    twgl.setBuffersAndAttributes(gl, this.program!, this.buffers!);
-    const uniforms = { view: this.matrix(), squeeze, ramp: this.texture, dot: DOT_PX * ratio };
-    const strip = (first: number, end: number, flat_colour: number[], mode: number): void => {
-      twgl.setUniforms(this.program!, { ...uniforms, flat_colour });
-      gl.drawArrays(mode, first, end - first);
-    };
-    if (from > 0 || to < this.shares.length) strip(0, this.shares.length, faint, gl.LINE_STRIP);
-    strip(from, to, [0, 0, 0, 0], gl.LINE_STRIP);
-    const mark = this.mark();
-    if (mark >= 0) strip(mark, mark + 1, [...rgb(css('--mark')), 1], gl.POINTS);
-  }
-
-  private draw2d(squeeze: number[]): void {
-    const pen = this.flat!, m = this.matrix(), { width, height } = this.canvas, [from, to] = this.window();
-    const at = (i: number): [number, number] => {
-      const [x, y, z] = this.positions.subarray(3 * i, 3 * i + 3);
-      return [(1 + (m[0] * x + m[4] * y + m[8] * z + m[12]) * squeeze[0]) * width / 2, (1 - (m[1] * x + m[5] * y + m[9] * z + m[13]) * squeeze[1]) * height / 2];
-    };
-    pen.fillStyle = css('--ground');
-    pen.fillRect(0, 0, width, height);
-    const line = (first: number, end: number, colour?: string): void => {
-      const step = Math.max(1, Math.ceil((end - first) / MOST_2D));
-      for (let i = first; i + 1 < end; i += step) {
-        pen.strokeStyle = colour ?? `rgb(${ramp(this.shares[i]).map((v) => Math.round(255 * v)).join(',')})`;
-        pen.beginPath();
-        pen.moveTo(...at(i));
-        pen.lineTo(...at(Math.min(end - 1, i + step)));
-        pen.stroke();
+    gl.useProgram(program!.program);
+    setUniforms(program!, { view: this.matrix(), squeeze: this.squeeze(), range: this.range, ramp: Array.from({ length: RAMP }, (_, k) => ramp(k / (RAMP - 1))).flat() });
+    const strip = (buffer: BufferInfo, first: number, end: number, flat_colour: number[]): void => {
+      setBuffersAndAttributes(gl, program!, buffer);
+      // lines of WebGL are one pixel wide: drawn thrice, a little aside, they are two; a path of so many lines is seen anyway
+      const aside = flat_colour[3] > 0 || end - first > MOST_WIDE ? [[0, 0]] : [[0, 0], [1, 0], [0, 1]];
+      for (const [x, y] of aside) {
+        setUniforms(program!, { flat_colour, shift: [2 * x / this.canvas.width, 2 * y / this.canvas.height] });
+        gl.drawArrays(gl.LINE_STRIP, first, end - first);
       }
     };
-    line(0, this.shares.length, css('--rule'));
-    line(from, to);
-    const mark = this.mark();
-    if (mark < 0) return;
-    pen.fillStyle = css('--mark');
-    pen.beginPath();
-    pen.arc(...at(mark), DOT_PX / 2, 0, 7);
-    pen.fill();
+    const faint = [...rgb(css('--rule')), 1];
+    if (from > 0) strip(buffers!.corners, 0, from + 1, faint);
+    if (to < this.vertices) strip(buffers!.corners, to - 1, this.vertices, faint);
+    if (this.detail) strip(buffers!.detail, 0, this.detail.ticks.length, [0, 0, 0, 0]);
+    else strip(buffers!.corners, from, to, [0, 0, 0, 0]);
+  }
+
+  /** A position in pixels of the element. */
+  private project(m: number[], [sx, sy]: number[], p: Float32Array, i: number): [number, number] {
+    const { clientWidth: width, clientHeight: height } = this.canvas, [x, y, z] = [p[3 * i], p[3 * i + 1], p[3 * i + 2]];
+    return [(1 + (m[0] * x + m[4] * y + m[8] * z + m[12]) * sx) * width / 2, (1 - (m[1] * x + m[5] * y + m[9] * z + m[13]) * sy) * height / 2];
+  }
+
+  private draw2d(): void {
+    const pen = this.flat!, m = this.matrix(), squeeze = this.squeeze(), [from, to] = this.window(), ratio = this.canvas.width / this.canvas.clientWidth;
+    const [low, high] = this.range;
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.fillStyle = css('--ground');
+    pen.fillRect(0, 0, this.canvas.clientWidth, this.canvas.clientHeight);
+    pen.lineWidth = 2;
+    const line = ({ positions, values }: Strip, first: number, end: number, faint = ''): void => {
+      const step = Math.max(1, Math.ceil((end - first) / MOST_2D));
+      // neighbours of one colour are one stroke
+      let colour = '';
+      for (let i = first; i + 1 < end; i += step) {
+        const j = Math.min(end - 1, i + step), share = (values[j] - low) / (high - low || 1);
+        const own = faint || `rgb(${ramp(Math.round(63 * (share || 0)) / 63).map((v) => Math.round(255 * v)).join(',')})`;
+        if (own !== colour) {
+          if (colour) pen.stroke();
+          pen.strokeStyle = colour = own;
+          pen.beginPath();
+          pen.moveTo(...this.project(m, squeeze, positions, i));
+        }
+        pen.lineTo(...this.project(m, squeeze, positions, j));
+      }
+      if (colour) pen.stroke();
+    };
+    line(this.corners, 0, Math.min(from + 1, this.vertices), css('--rule'));
+    line(this.corners, to - 1, this.vertices, css('--rule'));
+    if (this.detail) line(this.detail, 0, this.detail.ticks.length); else line(this.corners, from, to);
+  }
+
+  /** The cursor's point, an element of its own: the picture stays as it is. */
+  private mark(): void {
+    const t = this.state.cursor_s, there = !Number.isNaN(t) && this.run.positions.value !== undefined;
+    this.dot.hidden = !there;
+    if (!there) return;
+    const tick = tickAt(this.run, t), at = this.place(1, (axis) => this.run.node(axis, tick));
+    const [x, y] = this.project(this.matrix(), this.squeeze(), at, 0);
+    this.dot.hidden = x < 0 || y < 0 || x > this.canvas.clientWidth || y > this.canvas.clientHeight;
+    this.dot.style.transform = `translate(${x}px,${y}px)`;
   }
 
   view(name: string): void {
@@ -266,17 +317,25 @@ export class PathView {
 
   /** A double click on the path takes the cursor to that point's instant. */
   private pick(e: MouseEvent): void {
-    const box = this.canvas.getBoundingClientRect(), m = this.matrix();
-    const squeeze = this.squeeze();
-    const x = (2 * (e.clientX - box.left) / box.width - 1) / squeeze[0], y = (1 - 2 * (e.clientY - box.top) / box.height) / squeeze[1];
-    let best = Infinity, at = 0;
-    for (let i = 0; i < this.shares.length; i++) {
-      const [px, py, pz] = [this.positions[3 * i], this.positions[3 * i + 1], this.positions[3 * i + 2]];
-      const dx = m[0] * px + m[4] * py + m[8] * pz + m[12] - x, dy = m[1] * px + m[5] * py + m[9] * pz + m[13] - y;
-      if (dx * dx + dy * dy < best) { best = dx * dx + dy * dy; at = i; }
+    const box = this.canvas.getBoundingClientRect(), m = this.matrix(), squeeze = this.squeeze();
+    const x = e.clientX - box.left, y = e.clientY - box.top, { positions, ticks } = this.corners;
+    let best = Infinity, tick = 0, [ax, ay] = this.project(m, squeeze, positions, 0);
+    for (let i = 1; i < ticks.length; i++) {
+      const [bx, by] = this.project(m, squeeze, positions, i), [dx, dy] = [bx - ax, by - ay];
+      const part = Math.max(0, Math.min(1, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1)));
+      const off = (ax + part * dx - x) ** 2 + (ay + part * dy - y) ** 2;
+      if (off < best) { best = off; tick = ticks[i - 1] + part * (ticks[i] - ticks[i - 1]); }
+      [ax, ay] = [bx, by];
     }
-    const t_s = this.run.first_s + (at * this.every + 1) * this.run.piece_s;
+    const t_s = this.run.first_s + (Math.round(tick) + 1) * this.run.meta.control_tick_s;
     if (t_s < this.state.from_s || t_s > this.state.to_s) this.state.jump(t_s, this.state.to_s - this.state.from_s);
     else this.state.setCursor(t_s);
   }
+}
+
+/** Index of the first entry that is not below. */
+function lower(values: Int32Array, at: number): number {
+  let low = 0, high = values.length;
+  while (low < high) { const middle = (low + high) >> 1; if (values[middle] < at) low = middle + 1; else high = middle; }
+  return low;
 }

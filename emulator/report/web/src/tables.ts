@@ -1,6 +1,6 @@
 // Tables of events, blocks and values; rows that stand for an instant take the cursor there.
 import type { Charts } from './charts';
-import { type Run, pieceAt } from './data';
+import type { Run } from './data';
 import type { Listing } from './listing';
 import type { State } from './state';
 import { byStep, fixed, made, say } from './text';
@@ -60,7 +60,10 @@ export function eventTable(run: Run): void {
 export class BlockTable {
   private by = -1;
   private down = false;
-  constructor(private readonly run: Run) { this.draw(); }
+  constructor(private readonly run: Run) {
+    // hundreds of rows below what is seen first: after the first picture
+    setTimeout(() => this.draw(), 100);
+  }
 
   draw(): void {
     const { blocks: b, meta, program } = this.run, n = b.t_s.length, order = Array.from({ length: n }, (_, i) => i);
@@ -91,18 +94,19 @@ export class BlockTable {
 }
 
 /** The charts in numbers, for those who do not see them: extremes of the window, value at the cursor. */
-export function valueTable(run: Run, state: State, charts: Charts): () => void {
+export function valueTable(state: State, charts: Charts): () => void {
   const table = document.getElementById('window-values')!, details = table.closest('details')!;
+  let complete = false;
   const draw = (): void => {
     if (!details.open) return;
+    if (!complete) void charts.loaded().then(() => { complete = true; draw(); });
     const body = made('tbody');
     for (const e of charts.extremes()) {
-      const track = run.tracks.get(e.name)!, value = Number.isNaN(state.cursor_s) ? NaN : track.high[pieceAt(run, state.cursor_s)];
-      body.append(row([e.name, byStep(e.low, e.step), byStep(e.high, e.step), Number.isNaN(value) ? '' : byStep(value, e.step), e.unit], NaN, 0));
+      body.append(row([e.name, byStep(e.low, e.step), byStep(e.high, e.step), Number.isNaN(e.now) ? '' : byStep(e.now, e.step), e.unit], NaN, 0));
     }
     table.replaceChildren(head('signal', 'lowest', 'highest', 'at the cursor', ''), body);
   };
   state.add({ window: draw, cursor: draw });
-  details.addEventListener('toggle', draw);
+  details.ontoggle = draw;
   return draw;
 }

@@ -2,7 +2,7 @@
 // sign, whatever the browser's locale.
 
 const RU: Record<string, string> = {
-  'Whole run': 'Весь прогон', 'Dark / light': 'Тёмная / светлая', 'Print': 'Печать', 'Tool path': 'Траектория инструмента', 'Colour': 'Цвет',
+  'Whole run': 'Весь прогон', 'Over the path': 'По пути', 'Runs at the cursor': 'Прогоны у курсора', 'run': 'прогон', 'Dark / light': 'Тёмная / светлая', 'Print': 'Печать', 'Tool path': 'Траектория инструмента', 'Colour': 'Цвет',
   'Iso': 'Изометрия', 'Top': 'Сверху', 'Front': 'Спереди', 'Program': 'Программа', 'Values in this window': 'Значения в этом окне',
   'Events': 'События', 'Blocks': 'Кадры', 'Settings in force': 'Действующие настройки', 'Licences of included libraries': 'Лицензии библиотек',
   'Warning': 'Предупреждение', 'Run': 'Прогон', 'outcome': 'исход', 'time': 'время', 'in motion': 'в движении', 'standing': 'стоянка', 'path': 'путь',
@@ -18,7 +18,8 @@ const RU: Record<string, string> = {
   'Path error': 'Ошибка контура', 'Axis speed': 'Скорость осей', 'Axis acceleration': 'Ускорение осей', 'Axis jerk': 'Рывок осей', 'Following error': 'Ошибка слежения',
   'Vibration': 'Колебания', 'Step rate': 'Частота шагов', 'feed': 'подача', 'path error': 'ошибка контура', 'vibration': 'колебания', 'text': 'текст', 'kind': 'вид',
   'planned time': 'время по плану', 'F': 'F', 'limited by': 'ограничено', 'signal': 'сигнал', 'lowest': 'наименьшее', 'highest': 'наибольшее', 'at the cursor': 'у курсора',
-  'commanded': 'заданная', 'programmed': 'по программе', 'used': 'действует', 'requested': 'запрошено', 'hold': 'останов подачи', 'limiter': 'ограничитель', 'override': 'коррекция',
+  'complete': 'завершён', 'interrupted': 'прерван', 'dwell': 'выдержка', 'path feed': 'подача пути', 'axis speed': 'скорость оси', 'centripetal': 'центростремительное',
+  'junction': 'стык', 'commanded': 'заданная', 'programmed': 'по программе', 'used': 'действует', 'requested': 'запрошено', 'hold': 'останов подачи', 'limiter': 'ограничитель', 'override': 'коррекция',
 };
 
 let russian = false;
@@ -32,7 +33,12 @@ export function setRussian(on: boolean): void {
     at.textContent = say(at.dataset.en);
   }
 }
-export const say = (english: string): string => (russian ? RU[english] ?? english : english);
+/** Also of "junction X": words and an axis. */
+export function say(english: string): string {
+  const axis = russian && !(english in RU) ? / [A-Z]$/.exec(english)?.[0] ?? '' : '';
+  const word = axis ? english.slice(0, -axis.length) : english;
+  return russian && word in RU ? RU[word] + axis : english;
+}
 
 /** An element with text, never markup. */
 export function made<K extends keyof HTMLElementTagNameMap>(tag: K, text = '', className = ''): HTMLElementTagNameMap[K] {
