@@ -32,6 +32,8 @@ export function setRussian(on: boolean): void {
     at.textContent = say(at.dataset.en);
   }
 }
+/** More words, of another page. */
+export const learn = (words: Record<string, string>): void => { Object.assign(RU, words); };
 export const say = (english: string): string => (russian ? RU[english] ?? english : english);
 
 /** An element with text, never markup. */
