@@ -156,8 +156,13 @@ void add_bezier(Options& o, CLI::App* group) {
 
 void add_teach_commands(Options& o) {
   CLI::App* group = o.app.add_subcommand("teach", "Show how interpolators and splines work, step by step");
-  group->require_subcommand(1);
-  group->footer("`kadr teach table --help` lists the cases. docs/interpolators.md explains the methods.");
+  group->require_subcommand(0, 1);
+  group->callback([&o, group] {
+    if (group->get_subcommands().empty()) o.arguments.command = teach_page;
+  });
+  group->footer(
+      "Alone it writes the teaching page, as `kadr teach page`. `kadr teach table --help` lists the cases; "
+      "docs/interpolators.md explains the methods.");
   add_table(o, group);
   add_compare(o, group);
   add_methods(o, group);

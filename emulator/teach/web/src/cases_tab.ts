@@ -23,7 +23,7 @@ function card(row: Row, d: [number, number], letter: string): SVGElement {
   const [corner] = row.places;
   svg.append(shape('line', { x1: X(row.x), y1: Y(row.y), x2: X(corner.x), y2: Y(corner.y), class: 'look' }), testedMark(X(corner.x), Y(corner.y), 8, corner.sign));
   svg.append(arrow(X(row.x), Y(row.y), X(row.x + row.step[0]), Y(row.y + row.step[1]), 12), signMark(X(row.x), Y(row.y), 6, 0, 'begin'));
-  svg.append(shape('text', { x: 8, y: 20, class: 'letter' }, letter));
+  svg.append(shape('text', { x: 8, y: 20, class: 'letter halo' }, letter));
   return svg;
 }
 

@@ -52,12 +52,13 @@ function picture(): SVGElement {
 
 function numbers(points: Vector[]): HTMLElement {
   const j = joint(), [a, b] = [segment(0), segment(1)], largest = Math.max(1 / a.radius, 1 / b.radius), deg = (r: number): string => `${fixed((r * 180) / Math.PI, 2)}\u00b0`;
+  const mm = either('mm', 'мм');
   const list = made('dl', '', 'facts');
   const rows: [string, string, string][] = [
-    ['gap', say('gap'), `${fixed(j.gap, 6)} mm`], ['tangents', say('angle between tangents'), deg(j.tangentAngle)], ['ratio', say('ratio of |dB/dt|'), fixed(j.speedRatio, 3)],
-    ['curvatures', say('curvature before and after'), `${fixed(j.before, 6)}, ${fixed(j.after, 6)} 1/mm`], ['normals', say('angle between normals'), deg(j.normalAngle)],
-    ['jump', say('jump of the curvature vector'), `${fixed(j.jump, 6)} 1/mm`], ['share', say('of the largest curvature'), `${fixed((100 * j.jump) / largest, 0)} %`], ['second', say('jump of the second derivative'), `${fixed(j.secondJump, 3)} mm`],
-    ...([a, b] as const).map((s, k) => [`radius${k + 1}`, `${say(`Curve ${k + 1}`)}: ${say('smallest radius')}`, `${fixed(s.radius, 6)} mm, t = ${fixed(s.t, 5)}`] as [string, string, string]),
+    ['gap', say('gap'), `${fixed(j.gap, 6)} ${mm}`], ['tangents', say('angle between tangents'), deg(j.tangentAngle)], ['ratio', say('ratio of |dB/dt|'), fixed(j.speedRatio, 3)],
+    ['curvatures', say('curvature before and after'), `${fixed(j.before, 6)}, ${fixed(j.after, 6)} 1/${mm}`], ['normals', say('angle between normals'), deg(j.normalAngle)],
+    ['jump', say('jump of the curvature vector'), `${fixed(j.jump, 6)} 1/${mm}`], ['share', say('of the largest curvature'), `${fixed((100 * j.jump) / largest, 0)} %`], ['second', say('jump of the second derivative'), `${fixed(j.secondJump, 3)} ${mm}`],
+    ...([a, b] as const).map((s, k) => [`radius${k + 1}`, `${say(`Curve ${k + 1}`)}: ${say('smallest radius')}`, `${fixed(s.radius, 6)} ${mm}, t = ${fixed(s.t, 5)}`] as [string, string, string]),
   ];
   for (const [id, name, value] of rows) { const dd = made('dd', value); dd.dataset.fact = id; list.append(made('dt', name), dd); }
   const table = made('table');
