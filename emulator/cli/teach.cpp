@@ -93,7 +93,8 @@ int teach_compare(const Arguments& arguments, Console& console) {
 int teach_page(const Arguments& arguments, Console& console) {
   if (emulator::teach_template().empty()) {
     console.error(
-        "this build has no teaching page (KADR_WEB=OFF); `kadr teach table` and `kadr teach compare` print the "
+        "this build has no teaching page (KADR_WEB=OFF); `kadr teach table` and `kadr teach compare` print "
+        "the "
         "same numbers");
     return kNotStarted;
   }

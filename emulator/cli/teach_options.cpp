@@ -118,7 +118,8 @@ void add_page(Options& o, CLI::App* group) {
       ->expected(0, 4096)
       ->type_name("");
   methods(o, sub, kMostCompared);
-  sub->add_option("-o,--output", o.arguments.teach.page_path, "The page (default teach.html); -: standard output")
+  sub->add_option("-o,--output", o.arguments.teach.page_path,
+                  "The page (default teach.html); -: standard output")
       ->type_name("FILE");
   o.output(sub);
   sub->footer("Example: kadr teach page arc 7 0 0 7 ccw -o arc.html");

@@ -5,7 +5,8 @@
 
 #include "emulator/interpolator/lattice/curve.h"
 
-/// What is to be interpolated, as words: `line 7 4`. Shared by `kadr teach` and its page, so nothing here throws.
+/// What is to be interpolated, as words: `line 7 4`. Shared by `kadr teach` and its page, so nothing here
+/// throws.
 namespace kadr::emulator {
 
 /// How a path of several lines is followed: the axes together along it, or each at its own rate from node to

@@ -114,8 +114,7 @@ Place foot_of(const lattice::Polynomial& f, const lattice::Polynomial& fx, const
   for (int i = 0; i < kFootSteps; ++i) {
     const double gx = fx.value(q.x, q.y), gy = fy.value(q.x, q.y), g2 = gx * gx + gy * gy;
     if (!(g2 > 0)) break;
-    const double along = ((from.x - q.x) * -gy + (from.y - q.y) * gx) / g2,
-                 across = f.value(q.x, q.y) / g2;
+    const double along = ((from.x - q.x) * -gy + (from.y - q.y) * gx) / g2, across = f.value(q.x, q.y) / g2;
     q = {q.x - across * gx - along * gy, q.y - across * gy + along * gx};
   }
   return q;

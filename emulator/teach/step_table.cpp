@@ -41,8 +41,8 @@ tl::expected<StepTable, std::string> step_table(const TeachCase& subject, Method
                                                 const TeachOptions& options) {
   Followed followed = follow(subject, method, options);
   if (followed.refusal != Refusal::none)
-    return tl::unexpected(refusal_text(followed.refusal, subject.legs[followed.leg], followed.table.method,
-                                       subject.kind));
+    return tl::unexpected(
+        refusal_text(followed.refusal, subject.legs[followed.leg], followed.table.method, subject.kind));
   if (!followed.complete)
     return tl::unexpected(fmt::format(
         "{}: no end after {} slots, allowed {} (--most); it is longer, or folds inside a cell, where a "

@@ -10,8 +10,8 @@ using lattice::Method;
 
 constexpr std::int64_t kMostSlots = 3000;
 
-/// Whole numbers from SplitMix64, the same everywhere. Each is drawn in a statement or list of its own: the order of a
-/// call's arguments is the compiler's.
+/// Whole numbers from SplitMix64, the same everywhere. Each is drawn in a statement or list of its own: the
+/// order of a call's arguments is the compiler's.
 class Numbers {
  public:
   explicit Numbers(std::uint64_t seed) : state_(seed) {}

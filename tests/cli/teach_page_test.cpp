@@ -16,7 +16,8 @@ TEST_CASE("kadr teach page writes one file, or says that this build has no page 
   const Finished run = call({"teach", "page", "line", "7", "4", "-o", "seven.html"}, folder.path());
   if (run.code == 2) {
     CHECK(run.err ==
-          "kadr: this build has no teaching page (KADR_WEB=OFF); `kadr teach table` and `kadr teach compare` print "
+          "kadr: this build has no teaching page (KADR_WEB=OFF); `kadr teach table` and `kadr teach compare` "
+          "print "
           "the same numbers\n");
     CHECK(!folder.has("seven.html"));
     return;

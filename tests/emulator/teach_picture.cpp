@@ -37,7 +37,8 @@ bool agrees(const Curve& curve, Method method, const lattice::Polynomial& f,
     case Method::half_step:
     case Method::crossing:  // a circle's N is F' - 1/2, so 4 F' = 4 N + 2
       return at(f, places[0]) == (arc ? 4 * lattice::Wide{slot.tested} + 2 : lattice::Wide{slot.tested});
-    case Method::diagonal: {  // beside the neighbour along the longer axis: V = -2 F where that is X, 2 F where Y
+    case Method::diagonal: {  // beside the neighbour along the longer axis: V = -2 F where that is X, 2 F
+                              // where Y
       const auto& d = std::get<lattice::LineCurve>(curve).delta;
       const bool x_leads = lattice::magnitude(d[0]) >= lattice::magnitude(d[1]);
       return at(f, places[0]) == (x_leads ? -1 : 1) * lattice::Wide{slot.tested};
@@ -85,9 +86,9 @@ TEST_CASE("where a method looks, F is just what its step table says") {
       node.y += slot.step[1];
     }
   }
-  for (const Method m : {Method::classic, Method::half_step, Method::crossing, Method::diagonal, Method::extra_points,
-                         Method::octant_midpoint, Method::magnitudes, Method::printed_difference,
-                         Method::progression})
+  for (const Method m :
+       {Method::classic, Method::half_step, Method::crossing, Method::diagonal, Method::extra_points,
+        Method::octant_midpoint, Method::magnitudes, Method::printed_difference, Method::progression})
     CHECK(seen[static_cast<std::size_t>(m)] > 100);
   // methods without a sign look nowhere
   CHECK(tested_places(kadr::test::line({7, 4}), Method::dda, {}).empty());
@@ -103,9 +104,9 @@ TEST_CASE("the corner ahead of the half-step method on line 7 4 is (1/2, 1/2) an
 }
 
 TEST_CASE("the drawn curve is the curve: every place has F = 0, and it runs from end to end") {
-  for (const Curve& curve :
-       {Curve{lattice::ArcCurve{{7, 0}, {0, 7}, lattice::Turn::ccw}}, Curve{lattice::ellipse(12, 5)},
-        Curve{lattice::ParabolaCurve{3, -9, 6}}, Curve{lattice::BezierCurve{2, 2, {{{}, {12, 0}, {12, 9}}}}}}) {
+  for (const Curve& curve : {Curve{lattice::ArcCurve{{7, 0}, {0, 7}, lattice::Turn::ccw}},
+                             Curve{lattice::ellipse(12, 5)}, Curve{lattice::ParabolaCurve{3, -9, 6}},
+                             Curve{lattice::BezierCurve{2, 2, {{{}, {12, 0}, {12, 9}}}}}}) {
     const StepTable table = followed(curve, Method::half_step);
     const auto f = sign_polynomial(curve);
     const std::vector<Place> places = curve_places(curve, table);
@@ -131,8 +132,8 @@ TEST_CASE("a deviation is measured to the place of the curve that is drawn") {
   const StepTable table = followed(arc, Method::half_step);
   for (const StepRow& row : table.rows) {
     const Place foot = nearest_place(arc, row.node, -1);
-    const double away = std::hypot(foot.x - static_cast<double>(row.node[0]),
-                                   foot.y - static_cast<double>(row.node[1]));
+    const double away =
+        std::hypot(foot.x - static_cast<double>(row.node[0]), foot.y - static_cast<double>(row.node[1]));
     CHECK(away == doctest::Approx(std::fabs(row.deviation_steps)).epsilon(1e-9));
   }
 }
@@ -152,7 +153,8 @@ TEST_CASE("the speed rose: 1 along an axis, 1/sqrt 2 or sqrt 2 across, L/(a + b)
 }
 
 TEST_CASE("20,000 traces have one hash, the one that the page's core has in WebAssembly") {
-  // tests/web/teach_test.mjs demands the same of the core; d508b1107e158b18 was found by g++, clang++ and wasm32
+  // tests/web/teach_test.mjs demands the same of the core; d508b1107e158b18 was found by g++, clang++ and
+  // wasm32
   CHECK(sweep_hash(0, 20'000) == 0xd508b1107e158b18ULL);
   // in pieces the same, and one case more or less is seen
   CHECK(sweep_hash(10'000, 10'000, sweep_hash(0, 10'000)) == 0xd508b1107e158b18ULL);

@@ -32,8 +32,8 @@ MadeStepper chord_arc(const ArcCurve& arc, double tolerance);
 enum class CurveRule : std::uint8_t { classic, half_step, extra_points };
 /// @param reach  no coordinate beyond it is followed: there a polynomial would leave 128 bits
 MadeStepper rule_curve(const ImplicitCurve& curve, CurveRule rule, std::int64_t reach);
-/// Which way F(x, y) = 0 goes on from a node: along the tangent (-F_y, F_x) times side. Where a derivative is 0
-/// the node lies on an extreme, and the one half a step ahead decides.
+/// Which way F(x, y) = 0 goes on from a node: along the tangent (-F_y, F_x) times side. Where a derivative is
+/// 0 the node lies on an extreme, and the one half a step ahead decides.
 struct Ahead {
   int sx, sy;
   bool x_lowers;  ///< a step of X lowers F

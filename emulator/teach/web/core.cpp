@@ -1,5 +1,6 @@
-// The teaching page's door to the core, in WebAssembly: numbers in, numbers out, no state but the last answer.
-// A picture of memory is handed over as rows of eight-byte words; core.ts reads them by the same numbers.
+// The teaching page's door to the core, in WebAssembly: numbers in, numbers out, no state but the last
+// answer. A picture of memory is handed over as rows of eight-byte words; core.ts reads them by the same
+// numbers.
 #include <bit>
 #include <cstring>
 #include <optional>
@@ -31,13 +32,13 @@ std::uint64_t word(double v) { return std::bit_cast<std::uint64_t>(v); }
 std::uint64_t word(std::int64_t v) { return static_cast<std::uint64_t>(v); }
 std::uint64_t word(bool v) { return v ? 1 : 0; }
 
-char text[4096];                     // words of a case, a line each
-double numbers[2 * 4 * 3];           // control points of two Beziers in three axes
+char text[4096];            // words of a case, a line each
+double numbers[2 * 4 * 3];  // control points of two Beziers in three axes
 TeachCase subject;
 CaseReading reading;
 StepTable table;
-Words answer;                        // the last answer
-std::vector<Bezier> chain;           // curves end to end
+Words answer;               // the last answer
+std::vector<Bezier> chain;  // curves end to end
 std::optional<planner::ArcLength> arc;
 int arc_of = -1;
 
@@ -48,12 +49,12 @@ void put_row(const StepRow& row, bool last, double reached_at_t, std::size_t i) 
   if (!last) tested = tested_places(curve, table.method, {row.node[0], row.node[1]});
   tested.resize(2, {INT64_MIN, INT64_MIN});
   const double crossing = i < table.crossings_steps.size() ? table.crossings_steps[i] : -1;
-  answer.insert(answer.end(), {word(row.node[0]), word(row.node[1]), word(std::int64_t{row.slot.step[0]}),
-                               word(std::int64_t{row.slot.step[1]}), word(row.slot.forced),
-                               word(row.slot.value), word(row.slot.tested), word(row.slot.tested_y),
-                               word(tested[0].x2), word(tested[0].y2), word(tested[1].x2), word(tested[1].y2),
-                               word(row.deviation_steps), word(row.slot.parameter), word(crossing),
-                               word(foot.x), word(foot.y)});
+  answer.insert(answer.end(),
+                {word(row.node[0]), word(row.node[1]), word(std::int64_t{row.slot.step[0]}),
+                 word(std::int64_t{row.slot.step[1]}), word(row.slot.forced), word(row.slot.value),
+                 word(row.slot.tested), word(row.slot.tested_y), word(tested[0].x2), word(tested[0].y2),
+                 word(tested[1].x2), word(tested[1].y2), word(row.deviation_steps), word(row.slot.parameter),
+                 word(crossing), word(foot.x), word(foot.y)});
 }
 
 void put(const BezierVector& v) {
@@ -136,10 +137,19 @@ KADR_EXPORT(rows) void kadr_rows() {
 }
 
 KADR_EXPORT(summary) void kadr_summary() {
-  answer = {word(static_cast<std::int64_t>(table.rows.size())), word(table.pulses), word(table.diagonals),
-            word(table.idle), word(table.forced), word(table.end_reached), word(table.end[0]),
-            word(table.end[1]), table.hash, word(table.worst_steps), word(table.rms_steps),
-            word(table.worst_square_steps), word(table.length_steps)};
+  answer = {word(static_cast<std::int64_t>(table.rows.size())),
+            word(table.pulses),
+            word(table.diagonals),
+            word(table.idle),
+            word(table.forced),
+            word(table.end_reached),
+            word(table.end[0]),
+            word(table.end[1]),
+            table.hash,
+            word(table.worst_steps),
+            word(table.rms_steps),
+            word(table.worst_square_steps),
+            word(table.length_steps)};
 }
 
 /// Names of the columns: 0 value, 1 tested, 2 the second tested.
@@ -231,8 +241,13 @@ KADR_EXPORT(segment) void kadr_segment(int curve) {
 /// What the joint does (joint.h), and the direction of the first curve's end.
 KADR_EXPORT(joint) void kadr_joint() {
   const planner::JointReport j = planner::joint_report(chain[0], chain[1]);
-  answer = {word(j.gap_u), word(j.tangent_angle_rad), word(j.speed_ratio), word(j.normal_angle_rad),
-            word(j.curvature_before_per_u), word(j.curvature_after_per_u), word(j.curvature_jump_per_u),
+  answer = {word(j.gap_u),
+            word(j.tangent_angle_rad),
+            word(j.speed_ratio),
+            word(j.normal_angle_rad),
+            word(j.curvature_before_per_u),
+            word(j.curvature_after_per_u),
+            word(j.curvature_jump_per_u),
             word(j.second_jump)};
   put(chain[0].derivative(1));
 }
@@ -249,7 +264,8 @@ KADR_EXPORT(repair) bool kadr_repair(int kind) {
 }
 
 /// Errors of t(S): the largest of t, place and feed, then u, error of t and error of feed by place.
-/// @param method  0 Newton, 1 minimax of Newton 8, 2 minimax of the exact t(S), 3 quintic table of `degree` parts
+/// @param method  0 Newton, 1 minimax of Newton 8, 2 minimax of the exact t(S), 3 quintic table of `degree`
+/// parts
 /// @param every   every so manyth place
 KADR_EXPORT(length_errors) void kadr_length_errors(int curve, int method, int degree, int every) {
   if (arc_of != curve) {
