@@ -49,6 +49,9 @@ void name_columns(StepTable& table, const Curve& curve) {
       break;
     case Method::newton:
       table.value_name = "x";
+      if (const auto* f = std::get_if<lattice::ImplicitCurve>(&curve);
+          f != nullptr && explicit_axis(f->f) == 1)
+        table.value_name = "y";
       table.tested_y_name = "d1";
       break;
     case Method::progression:

@@ -44,6 +44,9 @@ MadeStepper progression_parabola(const ParabolaCurve& parabola);
 /// x(y) by Newton's forward differences in fixed point.
 MadeStepper newton_parabola(const ParabolaCurve& parabola, int fraction_bits);
 
+/// v = -P(u)/c of a curve F = c v + P(u) (explicit_axis) by Newton's forward differences in fixed point.
+MadeStepper newton_explicit(const ImplicitCurve& curve, int fraction_bits);
+
 /// Half-crossing events (bezier_events.h), a pulse a slot.
 MadeStepper bezier_events(const BezierCurve& curve);
 
