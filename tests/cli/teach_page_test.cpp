@@ -14,6 +14,10 @@ using Json = nlohmann::json;
 TEST_CASE("kadr teach page writes one file, or says that this build has no page and what prints the same") {
   const Scratch folder;
   const Finished run = call({"teach", "page", "line", "7", "4", "-o", "seven.html"}, folder.path());
+  // without a word behind it the same, as teach.html; another word is no command
+  CHECK(call({"teach"}, folder.path()).code == run.code);
+  CHECK(folder.has("teach.html") == (run.code == 0));
+  CHECK(call({"teach", "pages"}, folder.path()).code == 2);
   if (run.code == 2) {
     CHECK(run.err ==
           "kadr: this build has no teaching page (KADR_WEB=OFF); `kadr teach table` and `kadr teach compare` "

@@ -70,16 +70,17 @@ test('the page opens without requests and complaints, and its policy admits its 
   assert.deepEqual([probe[0] ?? null, probe[1]], [null, false]);
 });
 
-const CASES = ['line 7 4', 'line -5 8', 'arc 7 0 0 7 ccw', 'arc 0 7 7 0 cw', 'circle 9', 'ellipse 12 5', 'parabola 3 -8 8', 'bezier 0 10 12 10 12 0', 'bezier 12 0 12 9'];
+const CASES = [...['line 7 4', 'line -5 8', 'arc 7 0 0 7 ccw', 'arc 0 7 7 0 cw', 'circle 9', 'ellipse 12 5', 'parabola 3 -8 8', 'bezier 0 10 12 10 12 0', 'bezier 12 0 12 9'].map((words) => words.split(' ')),
+  ['curve', '400 y - x^3', '-20', '-20', '20', '20', 'cw']];
 test('every cell of the step table is what kadr teach table prints, for every method that knows the case', async (t) => {
   let cells = 0;
   const view = await opened();
-  for (const words of CASES) {
-    const first = words.split(' ');
-    await view.value(`location.hash = '#${first.join(',')},half_step,0'`);
+  for (const first of CASES) {
+    const words = first.map(encodeURIComponent).join(',');
+    await view.value(`location.hash = '#${words},half_step,0'`);
     await view.frames();
     for (const method of await view.value('[...document.getElementById("method").options].map((o) => o.value)')) {
-      await view.value(`location.hash = '#${first.join(',')},${method},2'`);
+      await view.value(`location.hash = '#${words},${method},2'`);
       await view.frames();
       if (await view.value('document.getElementById("wrong").textContent')) { assert.throws(() => run('teach', 'table', ...first, '--method', method)); continue; }
       const want = json('teach', 'table', ...first, '--method', method), rows = await table(view, 'steps');

@@ -32,8 +32,6 @@ export function setRussian(on: boolean): void {
     at.textContent = say(at.dataset.en);
   }
 }
-/** More words, of another page. */
-export const learn = (words: Record<string, string>): void => { Object.assign(RU, words); };
 export const say = (english: string): string => (russian ? RU[english] ?? english : english);
 
 /** An element with text, never markup. */
@@ -43,6 +41,9 @@ export function made<K extends keyof HTMLElementTagNameMap>(tag: K, text = '', c
   if (className) out.className = className;
   return out;
 }
+
+/** More words, of another page. */
+export const learn = (words: Record<string, string>): void => { Object.assign(RU, words); };
 
 export function fixed(value: number, decimals: number): string {
   if (!Number.isFinite(value)) return '-';
