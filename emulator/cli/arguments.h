@@ -47,6 +47,8 @@ struct TeachArguments {
   double feed_mm_s = 0;           ///< bezier; 0: not asked
   double acceleration_mm_s2 = 0;  ///< bezier; 0: not given
   bool paper = false;             ///< bezier: t(S) by every method
+  std::string page_path = "teach.html";
+  std::uint32_t cases = 20'000;  ///< of a sweep
 };
 
 /// What `kadr export` writes.

@@ -31,6 +31,8 @@ int write_winding(const Arguments& arguments, Console& console);
 int teach_table(const Arguments& arguments, Console& console);
 int teach_compare(const Arguments& arguments, Console& console);
 int teach_methods(const Arguments& arguments, Console& console);
+int teach_page(const Arguments& arguments, Console& console);
+int teach_sweep(const Arguments& arguments, Console& console);
 int teach_bezier(const Arguments& arguments, Console& console);
 int print_version(const Arguments& arguments, Console& console);
 

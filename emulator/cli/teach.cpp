@@ -6,6 +6,8 @@
 #include "emulator/report/bezier_report.h"
 #include "emulator/report/teach_report.h"
 #include "emulator/report/text.h"
+#include "emulator/teach/sweep.h"
+#include "emulator/teach/teach_page.h"
 
 /// `kadr teach`: interpolators step by step.
 namespace kadr::cli {
@@ -84,6 +86,52 @@ int teach_compare(const Arguments& arguments, Console& console) {
     console.data(emulator::render_comparison_csv(tables));
   } else if (!console.options().quiet) {
     console.data(emulator::render_comparison(subject, tables));
+  }
+  return kYes;
+}
+
+int teach_page(const Arguments& arguments, Console& console) {
+  if (emulator::teach_template().empty()) {
+    console.error(
+        "this build has no teaching page (KADR_WEB=OFF); `kadr teach table` and `kadr teach compare` print "
+        "the "
+        "same numbers");
+    return kNotStarted;
+  }
+  // a case that can't be read or followed is refused here, not by the page
+  if (!arguments.files.empty()) {
+    const TeachCase subject = must(emulator::read_teach_case(arguments.files, 2));
+    if (subject.axes != 2 || subject.legs.size() != 1)
+      throw WorldError(fmt::format("{}: the page shows one curve in two axes; `kadr teach table` takes more",
+                                   subject.title));
+    for (const std::string& name : arguments.methods)
+      must(emulator::step_table(subject, *emulator::lattice::method_of(name), {}));
+  }
+  const std::string page =
+      emulator::render_teach_page(emulator::teach_address(arguments.files, arguments.methods));
+  const std::string& path = arguments.teach.page_path;
+  if (path == "-") {
+    console.data(page);
+    return kYes;
+  }
+  OutputFile file(path);
+  file.write(page);
+  file.close();
+  console.note(
+      fmt::format("wrote {}: {}", path, emulator::bytes_text(static_cast<std::int64_t>(page.size()))));
+  return kYes;
+}
+
+int teach_sweep(const Arguments& arguments, Console& console) {
+  const std::uint32_t cases = arguments.teach.cases;
+  const std::string hash = fmt::format("{:016x}", emulator::sweep_hash(0, cases));
+  if (console.options().json) {
+    Json j = head("teach sweep");
+    j["cases"] = cases;
+    j["sweep_hash"] = hash;
+    console.document(j);
+  } else {
+    console.data(fmt::format("{} cases, hash {}\n", emulator::grouped(cases), hash));
   }
   return kYes;
 }

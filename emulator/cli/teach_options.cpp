@@ -110,6 +110,29 @@ void add_methods(Options& o, CLI::App* group) {
   o.output(sub);
 }
 
+void add_page(Options& o, CLI::App* group) {
+  CLI::App* sub = o.command(*group, "page", teach_page,
+                            "Write the teaching page: the same interpolators, to be clicked through in a\n"
+                            "browser; one file, no network");
+  sub->add_option("CASE", o.arguments.files, "What it opens with, as in `kadr teach table`, in two axes")
+      ->expected(0, 4096)
+      ->type_name("");
+  methods(o, sub, kMostCompared);
+  sub->add_option("-o,--output", o.arguments.teach.page_path,
+                  "The page (default teach.html); -: standard output")
+      ->type_name("FILE");
+  o.output(sub);
+  sub->footer("Example: kadr teach page arc 7 0 0 7 ccw -o arc.html");
+}
+
+void add_sweep(Options& o, CLI::App* group) {
+  CLI::App* sub = o.command(*group, "sweep", teach_sweep,
+                            "One hash over the traces of many cases by all methods: the same in every build\n"
+                            "and on the page");
+  bounded(sub, "--cases", o.arguments.teach.cases, 1, 10'000'000, "Cases (default 20000)");
+  o.output(sub);
+}
+
 void add_bezier(Options& o, CLI::App* group) {
   CLI::App* sub =
       o.command(*group, "bezier", teach_bezier,
@@ -134,11 +157,18 @@ void add_bezier(Options& o, CLI::App* group) {
 
 void add_teach_commands(Options& o) {
   CLI::App* group = o.app.add_subcommand("teach", "Show how interpolators and splines work, step by step");
-  group->require_subcommand(1);
-  group->footer("`kadr teach table --help` lists the cases. docs/interpolators.md explains the methods.");
+  group->require_subcommand(0, 1);
+  group->callback([&o, group] {
+    if (group->get_subcommands().empty()) o.arguments.command = teach_page;
+  });
+  group->footer(
+      "Alone it writes the teaching page, as `kadr teach page`. `kadr teach table --help` lists the cases; "
+      "docs/interpolators.md explains the methods.");
   add_table(o, group);
   add_compare(o, group);
   add_methods(o, group);
+  add_page(o, group);
+  add_sweep(o, group);
   add_bezier(o, group);
 }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/bezier/bezier.h"
-
 namespace kadr::emulator {
 namespace {
 
@@ -14,10 +12,6 @@ constexpr int kFootSteps = 40;
 constexpr int kHalvings = 50;
 
 double real(std::int64_t v) { return static_cast<double>(v); }
-
-struct Place {
-  double x, y;
-};
 
 double line_deviation(const lattice::LineCurve& line, const Point& node) {
   const auto& d = line.delta;
@@ -37,39 +31,17 @@ double line_deviation(const lattice::LineCurve& line, const Point& node) {
   return std::sqrt(std::max(0.0, pp - pd * pd / dd));
 }
 
-/// Distance from F = 0: the foot of the perpendicular by turns to the curve and along it.
 double implicit_deviation(const lattice::Polynomial& f, const Point& node) {
-  const lattice::Polynomial fx = f.derivative_x(), fy = f.derivative_y();
   const double px = real(node[0]), py = real(node[1]);
-  Place q{px, py};
-  for (int i = 0; i < kFootSteps; ++i) {
-    const double gx = fx.value(q.x, q.y), gy = fy.value(q.x, q.y), g2 = gx * gx + gy * gy;
-    if (!(g2 > 0)) break;
-    const double along = ((px - q.x) * -gy + (py - q.y) * gx) / g2, across = f.value(q.x, q.y) / g2;
-    q = {q.x - across * gx - along * gy, q.y - across * gy + along * gx};
-  }
+  const Place q = foot_of(f, f.derivative_x(), f.derivative_y(), {px, py});
   const double distance = std::hypot(px - q.x, py - q.y);
   return f.value(px, py) < 0 ? -distance : distance;
-}
-
-planner::Bezier real_bezier(const lattice::BezierCurve& curve) {
-  std::vector<planner::BezierVector> control;
-  for (std::size_t i = 0; i <= static_cast<std::size_t>(curve.degree); ++i) {
-    control.emplace_back();
-    for (std::size_t k = 0; k < control[i].size(); ++k) control[i][k] = real(curve.control[i][k]);
-  }
-  return planner::Bezier(curve.axes, control);
 }
 
 double swept_rad(lattice::Turn turn, Place from, Place to) {
   const double cross = from.x * to.y - from.y * to.x, dot = from.x * to.x + from.y * to.y;
   const double angle = std::atan2(turn == lattice::Turn::ccw ? cross : -cross, dot);
   return angle < 0 ? angle + 2 * M_PI : angle;
-}
-
-double arc_sweep_rad(const lattice::ArcCurve& arc) {
-  if (arc.begin == arc.end) return 2 * M_PI;
-  return swept_rad(arc.turn, {real(arc.begin.x), real(arc.begin.y)}, {real(arc.end.x), real(arc.end.y)});
 }
 
 /// The X or Y at which the curve crosses the side of the dual square that a slot leaves by.
@@ -110,13 +82,57 @@ std::vector<double> chord_lengths(const lattice::Polynomial& f, const lattice::T
 }
 
 /// F of a curve that is followed by the sign of a polynomial.
-lattice::Polynomial polynomial_of(const lattice::Curve& curve) {
+lattice::Polynomial polynomial_of(const lattice::Curve& curve) { return *sign_polynomial(curve); }
+
+}  // namespace
+
+std::optional<lattice::Polynomial> sign_polynomial(const lattice::Curve& curve) {
+  if (const auto* line = std::get_if<lattice::LineCurve>(&curve)) {
+    if (line->axes != 2) return {};
+    const auto &a = line->delta[0], &b = line->delta[1];
+    // a y - b x in coordinates that grow along the line
+    const int sign = (a < 0 ? -1 : 1) * (b < 0 ? -1 : 1);
+    return lattice::Polynomial({{lattice::Wide{sign} * a, 0, 1}, {lattice::Wide{-sign} * b, 1, 0}});
+  }
+  if (const auto* arc = std::get_if<lattice::ArcCurve>(&curve)) {
+    const lattice::Wide x = arc->begin.x, y = arc->begin.y;
+    return lattice::Polynomial({{1, 2, 0}, {1, 0, 2}, {-x * x - y * y, 0, 0}});
+  }
   if (const auto* parabola = std::get_if<lattice::ParabolaCurve>(&curve)) return implicit_of(*parabola).f;
-  if (const auto* bezier = std::get_if<lattice::BezierCurve>(&curve)) return conic_of(*bezier).f;
+  if (const auto* bezier = std::get_if<lattice::BezierCurve>(&curve)) {
+    if (bezier->axes != 2 || bezier->degree != 2) return {};
+    const Point &p = bezier->control[1], &q = bezier->control[2];
+    if (lattice::Wide{q[1]} * p[0] == lattice::Wide{q[0]} * p[1]) return {};
+    return conic_of(*bezier).f;
+  }
   return std::get<lattice::ImplicitCurve>(curve).f;
 }
 
-}  // namespace
+Place foot_of(const lattice::Polynomial& f, const lattice::Polynomial& fx, const lattice::Polynomial& fy,
+              Place from) {
+  Place q = from;
+  for (int i = 0; i < kFootSteps; ++i) {
+    const double gx = fx.value(q.x, q.y), gy = fy.value(q.x, q.y), g2 = gx * gx + gy * gy;
+    if (!(g2 > 0)) break;
+    const double along = ((from.x - q.x) * -gy + (from.y - q.y) * gx) / g2, across = f.value(q.x, q.y) / g2;
+    q = {q.x - across * gx - along * gy, q.y - across * gy + along * gx};
+  }
+  return q;
+}
+
+planner::Bezier real_bezier(const lattice::BezierCurve& curve) {
+  std::vector<planner::BezierVector> control;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(curve.degree); ++i) {
+    control.emplace_back();
+    for (std::size_t k = 0; k < control[i].size(); ++k) control[i][k] = real(curve.control[i][k]);
+  }
+  return planner::Bezier(curve.axes, control);
+}
+
+double arc_sweep_rad(const lattice::ArcCurve& arc) {
+  if (arc.begin == arc.end) return 2 * M_PI;
+  return swept_rad(arc.turn, {real(arc.begin.x), real(arc.begin.y)}, {real(arc.end.x), real(arc.end.y)});
+}
 
 double deviation_steps(const lattice::Curve& curve, const Point& node, double t) {
   if (const auto* line = std::get_if<lattice::LineCurve>(&curve)) return line_deviation(*line, node);

@@ -1,7 +1,14 @@
 #pragma once
+#include <optional>
+
 #include "emulator/interpolator/lattice/lattice.h"
+#include "planner/bezier/bezier.h"
 
 namespace kadr::emulator {
+
+struct Place {
+  double x, y;  ///< steps
+};
 
 /// How far a node lies from a curve, in steps. Of a plane curve with two sides it has the sign of F; of
 /// others none. At a crossing of a Bezier it is the distance from the point of that moment.
@@ -17,5 +24,16 @@ double curve_length_steps(const lattice::Curve& curve, const lattice::Trace& tra
 
 /// Where on the curve each slot of a half-step or crossing run lies, as a share of its length, [slots].
 std::vector<double> crossing_shares(const lattice::Curve& curve, const lattice::Trace& trace);
+
+/// F(x, y) as the step tables show it; nothing for a curve in more axes or a Bezier that is no conic.
+std::optional<lattice::Polynomial> sign_polynomial(const lattice::Curve& curve);
+
+/// Foot of the perpendicular from a place to F = 0: Newton's method by turns across the curve and along it.
+/// @param fx, fy  derivatives of f
+Place foot_of(const lattice::Polynomial& f, const lattice::Polynomial& fx, const lattice::Polynomial& fy,
+              Place from);
+
+planner::Bezier real_bezier(const lattice::BezierCurve& curve);
+double arc_sweep_rad(const lattice::ArcCurve& arc);
 
 }  // namespace kadr::emulator

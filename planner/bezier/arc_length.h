@@ -70,26 +70,38 @@ struct ReparameterisationError {
 inline constexpr int kErrorPlaces = 1201;
 /// Place i of them, as a share of the length.
 double error_place(int i);
+/// Errors at one of these places, with their signs.
+struct PlaceError {
+  double u = 0;  ///< share of the length
+  double reduced = 0;
+  double position_u = 0;  ///< a distance
+  double feed = 0;
+};
 /// @param t_of  t~ at a share u = S/length of the length
+template <class TOf>
+PlaceError error_at(const ArcLength& arc, TOf&& t_of, int place) {
+  constexpr double kApart = 1e-6;  // of the length: for the derivative
+  const double u = error_place(place);
+  const double exact = place == 0 ? 0 : place + 1 == kErrorPlaces ? 1 : arc.t(u * arc.length_u());
+  const double t = t_of(u);
+  const double v = u < kApart ? kApart : u > 1 - kApart ? 1 - kApart : u;
+  const double slope = (t_of(v + kApart) - t_of(v - kApart)) / (2 * kApart) / arc.length_u();
+  const double inside = t_of(v) < 0 ? 0 : t_of(v) > 1 ? 1 : t_of(v);
+  BezierVector off = arc.curve().position(t);
+  const BezierVector at = arc.curve().position(exact);
+  for (std::size_t k = 0; k < kMostBezierAxes; ++k) off[k] -= at[k];
+  return {u, t - exact, norm(off), slope * arc.curve().speed(inside) - 1};
+}
+/// The largest of them.
 template <class TOf>
 ReparameterisationError measure_error(const ArcLength& arc, TOf&& t_of) {
   ReparameterisationError worst;
-  constexpr double kApart = 1e-6;  // of the length: for the derivative
+  const auto keep = [](double& most, double v) { most = v > most ? v : -v > most ? -v : most; };
   for (int i = 0; i < kErrorPlaces; ++i) {
-    const double u = error_place(i);
-    const double exact = i == 0 ? 0 : i + 1 == kErrorPlaces ? 1 : arc.t(u * arc.length_u());
-    const double t = t_of(u);
-    const double v = u < kApart ? kApart : u > 1 - kApart ? 1 - kApart : u;
-    const double slope = (t_of(v + kApart) - t_of(v - kApart)) / (2 * kApart) / arc.length_u();
-    const double inside = t_of(v) < 0 ? 0 : t_of(v) > 1 ? 1 : t_of(v);
-    const double feed = slope * arc.curve().speed(inside) - 1;
-    BezierVector off = arc.curve().position(t);
-    const BezierVector at = arc.curve().position(exact);
-    for (std::size_t k = 0; k < kMostBezierAxes; ++k) off[k] -= at[k];
-    const auto keep = [](double& most, double v2) { most = v2 > most ? v2 : most; };
-    keep(worst.reduced, t > exact ? t - exact : exact - t);
-    keep(worst.position_u, norm(off));
-    keep(worst.feed, feed < 0 ? -feed : feed);
+    const PlaceError e = error_at(arc, t_of, i);
+    keep(worst.reduced, e.reduced);
+    keep(worst.position_u, e.position_u);
+    keep(worst.feed, e.feed);
   }
   return worst;
 }

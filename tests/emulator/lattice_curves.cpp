@@ -116,6 +116,54 @@ TEST_CASE("lattice: a parabola marched by differences meets the nearest node of 
   CHECK_FALSE(trace(parabola, Method::newton, options).end_reached);
 }
 
+TEST_CASE(
+    "lattice: y = p(x)/c marched by differences meets the nearest node of every x, either way and turned") {
+  // 6400 y = x^3 - 30 x^2 + 7, cubic: third differences are constant
+  const lattice::Polynomial f({{6400, 0, 1}, {-1, 3, 0}, {30, 2, 0}, {-7, 0, 0}});
+  const lattice::Polynomial turned({{6400, 1, 0}, {-1, 0, 3}, {30, 0, 2}, {-7, 0, 0}});
+  CHECK(lattice::explicit_axis(f) == 1);
+  CHECK(lattice::explicit_axis(turned) == 0);
+  CHECK(lattice::explicit_axis(lattice::ellipse(5, 3).f) == -1);
+  CHECK(lattice::explicit_axis(lattice::Polynomial({{2, 0, 1}, {-2, 0, 1}, {1, 2, 0}})) == -1);  // 2 y - 2 y
+  CHECK(lattice::explicit_axis(lattice::Polynomial({{1, 0, 1}, {1, 1, 1}, {1, 2, 0}})) == -1);   // y + x y
+  const auto p = [](std::int64_t u) { return u * u * u - 30 * u * u + 7; };
+  // nearest to p/6400, from a half upwards
+  const auto nearest = [&](std::int64_t u) {
+    return static_cast<std::int64_t>(std::floor(static_cast<double>(p(u)) / 6400 + 0.5));
+  };
+  lattice::MethodOptions options;
+  options.fraction_bits = 44;
+  for (const bool y_of_x : {true, false})
+    for (const std::int64_t way : {1, -1}) {
+      const std::int64_t from = -130 * way, to = 130 * way;
+      const Node begin = y_of_x ? Node{from, nearest(from)} : Node{nearest(from), from},
+                 end = y_of_x ? Node{to, nearest(to)} : Node{nearest(to), to};
+      const Trace t =
+          trace(lattice::ImplicitCurve{y_of_x ? f : turned, begin, end, 1}, Method::newton, options);
+      CHECK(t.end_reached);
+      const std::vector<Node> at = nodes(t);
+      int met = 0;
+      for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+        const std::int64_t u = y_of_x ? at[i].x : at[i].y, v = y_of_x ? at[i].y : at[i].x;
+        if (u == (y_of_x ? at[i + 1].x : at[i + 1].y)) continue;
+        CHECK(v == nearest(u));
+        ++met;
+      }
+      CHECK(met == 260);
+      // with few bits the sum drifts, N^3/3! 2^-(B + 1) at most, and the end is missed
+      options.fraction_bits = 4;
+      CHECK_FALSE(trace(lattice::ImplicitCurve{y_of_x ? f : turned, begin, end, 1}, Method::newton, options)
+                      .end_reached);
+      options.fraction_bits = 44;
+    }
+  // what would leave 128 bits is refused: y = x^6 at x = 20000 is 6.4e25
+  const lattice::Polynomial steep({{1, 0, 1}, {-1, 6, 0}});
+  CHECK(lattice::make_stepper(lattice::ImplicitCurve{steep, {20'000, 0}, {20'005, 0}, 1}, Method::newton)
+            .refusal == lattice::Refusal::range);
+  CHECK(lattice::make_stepper(lattice::ellipse(5, 3), Method::newton).refusal ==
+        lattice::Refusal::other_curve);
+}
+
 TEST_CASE("lattice: cubic, rotated ellipse and Cassini oval stay within half a step") {
   // 6400 y = x^3 from (-120, -270)
   const ImplicitCurve cubic{Polynomial({{6400, 0, 1}, {-1, 3, 0}}), {-120, -270}, {120, 270}, -1};

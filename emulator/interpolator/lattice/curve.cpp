@@ -70,6 +70,21 @@ bool Polynomial::fits(std::int64_t reach) const {
   return sum < most;
 }
 
+int explicit_axis(const Polynomial& f) {
+  if (f.degree() > kMostExplicitDegree) return -1;
+  for (const int v : {1, 0}) {
+    Wide c = 0;
+    bool plain = true;
+    for (const Term& t : f.terms()) {
+      const int own = v == 1 ? t.py : t.px, other = v == 1 ? t.px : t.py;
+      if (own == 1) c += t.c;
+      plain = plain && (own == 0 || (own == 1 && other == 0));
+    }
+    if (plain && c != 0) return v;
+  }
+  return -1;
+}
+
 ImplicitCurve ellipse(std::int64_t a, std::int64_t b, Turn turn) {
   return {Polynomial({{Wide{b} * b, 2, 0}, {Wide{a} * a, 0, 2}, {-Wide{a} * a * b * b, 0, 0}}),
           {a, 0},

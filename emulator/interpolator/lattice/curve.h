@@ -71,6 +71,10 @@ struct BezierCurve {
 
 using Curve = std::variant<LineCurve, ArcCurve, ParabolaCurve, ImplicitCurve, BezierCurve>;
 
+/// The axis v of a polynomial that is c v + P(u), so that F = 0 is v = -P(u)/c: 1 (y of x), 0 (x of y), or
+/// -1. Where both are, y. -1 too where P is of a higher degree than kMostExplicitDegree.
+inline constexpr int kMostExplicitDegree = 6;
+int explicit_axis(const Polynomial& f);
 /// (x/a)^2 + (y/b)^2 = 1 from (a, 0), once around.
 ImplicitCurve ellipse(std::int64_t a, std::int64_t b, Turn turn = Turn::ccw);
 ImplicitCurve implicit_of(const ParabolaCurve& parabola);

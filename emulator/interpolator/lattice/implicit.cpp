@@ -19,7 +19,7 @@ class RuleCurve : public Stepper {
     if (magnitude(node_.x) > reach_ || magnitude(node_.y) > reach_) return false;
     begun_ = true;
     slot = {};
-    const Ahead a = ahead();
+    const Ahead a = ahead_of(fx_, fy_, curve_.side, node_);
     const std::int64_t x2 = 2 * node_.x, y2 = 2 * node_.y;
     const Wide at_node = curve_.f.doubled(x2, y2);
     slot.value = unscaled(at_node);
@@ -47,27 +47,6 @@ class RuleCurve : public Stepper {
   }
 
  private:
-  struct Ahead {
-    int sx, sy;
-    bool x_lowers;  ///< a step of X lowers F
-  };
-
-  /// Which way the curve goes on from the node: along the tangent (-F_y, F_x) times side. Where a derivative
-  /// is 0 the node lies on an extreme, and the one half a step ahead decides.
-  Ahead ahead() const {
-    const int d = curve_.side;
-    const std::int64_t x2 = 2 * node_.x, y2 = 2 * node_.y;
-    int gx = sign_of(fx_.doubled(x2, y2));
-    const int gy = sign_of(fy_.doubled(x2, y2));
-    int sx = -d * gy, sy = d * gx;
-    if (gy == 0) sx = -d * sign_of(fy_.doubled(x2, y2 + sy));
-    if (gx == 0) sy = d * sign_of(fx_.doubled(x2 + sx, y2));
-    if (sx == 0) sx = 1;
-    if (sy == 0) sy = 1;
-    if (gx == 0) gx = sign_of(fx_.doubled(x2 + sx, y2));
-    return {sx, sy, gx * sx < 0};
-  }
-
   /// A diagonal step may pass the end by: the end one step ahead is taken.
   void to_end(const Ahead& a, Slot& slot, bool& x, bool& y) const {
     const std::int64_t left_x = (curve_.end.x - node_.x) * a.sx, left_y = (curve_.end.y - node_.y) * a.sy;
@@ -89,6 +68,19 @@ class RuleCurve : public Stepper {
 };
 
 }  // namespace
+
+Ahead ahead_of(const Polynomial& fx, const Polynomial& fy, int side, Node node) {
+  const std::int64_t x2 = 2 * node.x, y2 = 2 * node.y;
+  int gx = sign_of(fx.doubled(x2, y2));
+  const int gy = sign_of(fy.doubled(x2, y2));
+  int sx = -side * gy, sy = side * gx;
+  if (gy == 0) sx = -side * sign_of(fy.doubled(x2, y2 + sy));
+  if (gx == 0) sy = side * sign_of(fx.doubled(x2 + sx, y2));
+  if (sx == 0) sx = 1;
+  if (sy == 0) sy = 1;
+  if (gx == 0) gx = sign_of(fx.doubled(x2 + sx, y2));
+  return {sx, sy, gx * sx < 0};
+}
 
 MadeStepper rule_curve(const ImplicitCurve& curve, CurveRule rule, std::int64_t reach) {
   return std::make_unique<RuleCurve>(curve, rule, reach);

@@ -93,7 +93,8 @@ MadeStepper make_rule(const ImplicitCurve& curve, Method method, std::int64_t re
   }
 }
 
-MadeStepper make(const ImplicitCurve& curve, Method method, const MethodOptions&) {
+MadeStepper make(const ImplicitCurve& curve, Method method, const MethodOptions& options) {
+  if (method == Method::newton) return newton_explicit(curve, options.fraction_bits);
   return make_rule(curve, method, reach_of(curve));
 }
 
@@ -153,10 +154,32 @@ Refusal check(const ParabolaCurve& parabola, Method) {
   return reach > kMostPlane ? Refusal::range : Refusal::none;
 }
 
-Refusal check(const ImplicitCurve& curve, Method) {
+/// Whether v = -P(u)/c and its differences stay below 2^60 steps between the ends and as far beyond the
+/// beginning as the differences are taken: then 60 fraction bits fit as well.
+bool newton_fits(const ImplicitCurve& curve) {
+  const bool y_of_x = explicit_axis(curve.f) == 1;
+  const double u = static_cast<double>(y_of_x ? largest({curve.begin.x, curve.end.x})
+                                              : largest({curve.begin.y, curve.end.y})) +
+                   kMostExplicitDegree;
+  double p = 0, c = 0;
+  for (const Term& t : curve.f.terms()) {
+    auto term = static_cast<double>(t.c);
+    if ((y_of_x ? t.py : t.px) == 1) {
+      c += term;
+      continue;
+    }
+    for (int i = y_of_x ? t.px : t.py; i > 0; --i) term *= u;
+    p += term < 0 ? -term : term;
+  }
+  // a difference of order k is at most 2^k times the largest value
+  return p * 64 < 1.15e18 * (c < 0 ? -c : c);
+}
+
+Refusal check(const ImplicitCurve& curve, Method method) {
   const std::int64_t reach =
       std::max(largest({curve.begin.x, curve.begin.y}), largest({curve.end.x, curve.end.y}));
   if (reach > kMostPlane || !curve.f.fits(reach_of(curve))) return Refusal::range;
+  if (method == Method::newton && !newton_fits(curve)) return Refusal::range;
   return curve.f.degree() == 0 ? Refusal::no_length : Refusal::none;
 }
 
@@ -245,7 +268,7 @@ bool knows(Method method, const Curve& curve) {
     return rule || method == Method::progression || method == Method::newton;
   if (const auto* bezier = std::get_if<BezierCurve>(&curve))
     return method == Method::crossing || (rule && is_conic(*bezier));
-  return rule;
+  return rule || (method == Method::newton && explicit_axis(std::get<ImplicitCurve>(curve).f) >= 0);
 }
 
 Made make_stepper(const Curve& curve, Method method, const MethodOptions& options) {

@@ -32,10 +32,20 @@ MadeStepper chord_arc(const ArcCurve& arc, double tolerance);
 enum class CurveRule : std::uint8_t { classic, half_step, extra_points };
 /// @param reach  no coordinate beyond it is followed: there a polynomial would leave 128 bits
 MadeStepper rule_curve(const ImplicitCurve& curve, CurveRule rule, std::int64_t reach);
+/// Which way F(x, y) = 0 goes on from a node: along the tangent (-F_y, F_x) times side. Where a derivative is
+/// 0 the node lies on an extreme, and the one half a step ahead decides.
+struct Ahead {
+  int sx, sy;
+  bool x_lowers;  ///< a step of X lowers F
+};
+Ahead ahead_of(const Polynomial& fx, const Polynomial& fy, int side, Node node);
 /// y^2 = 2px by the odd numbers: exact, and the half-step path.
 MadeStepper progression_parabola(const ParabolaCurve& parabola);
 /// x(y) by Newton's forward differences in fixed point.
 MadeStepper newton_parabola(const ParabolaCurve& parabola, int fraction_bits);
+
+/// v = -P(u)/c of a curve F = c v + P(u) (explicit_axis) by Newton's forward differences in fixed point.
+MadeStepper newton_explicit(const ImplicitCurve& curve, int fraction_bits);
 
 /// Half-crossing events (bezier_events.h), a pulse a slot.
 MadeStepper bezier_events(const BezierCurve& curve);

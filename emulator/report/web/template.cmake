@@ -17,7 +17,7 @@ if(NOT NODE OR NOT NPM)
   message(FATAL_ERROR "the report page needs nodejs and npm; -DKADR_WEB=OFF builds kadr without it")
 endif()
 set(web ${CMAKE_CURRENT_SOURCE_DIR}/report/web)
-set(work ${PROJECT_BINARY_DIR}/web)
+set(work ${PROJECT_BINARY_DIR}/web/report/web)
 file(GLOB web_sources CONFIGURE_DEPENDS ${web}/src/*)
 add_custom_command(OUTPUT ${work}/packages
   COMMAND ${CMAKE_COMMAND} -E make_directory ${work}

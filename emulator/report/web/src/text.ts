@@ -48,6 +48,9 @@ export function made<K extends keyof HTMLElementTagNameMap>(tag: K, text = '', c
   return out;
 }
 
+/** More words, of another page. */
+export const learn = (words: Record<string, string>): void => { Object.assign(RU, words); };
+
 export function fixed(value: number, decimals: number): string {
   if (!Number.isFinite(value)) return '-';
   const [whole, part] = Math.abs(value).toFixed(decimals).split('.');

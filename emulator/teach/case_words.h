@@ -1,0 +1,73 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "emulator/interpolator/lattice/curve.h"
+
+/// What is to be interpolated, as words: `line 7 4`. Shared by `kadr teach` and its page, so nothing here
+/// throws.
+namespace kadr::emulator {
+
+/// How a path of several lines is followed: the axes together along it, or each at its own rate from node to
+/// node (paper 002: CP and PTP).
+enum class TeachMode : std::uint8_t { continuous, point_to_point };
+
+/// What is to be interpolated: curves end to end, each given from its own beginning. Steps throughout.
+struct TeachCase {
+  std::string title;  ///< "line 7 4"
+  std::string kind;   ///< "line"
+  std::vector<lattice::Curve> legs;
+  lattice::Point begin{};  ///< of the first leg
+  int axes = 2;
+};
+
+/// The kinds of case with their words, for the help: "line DX DY [DZ ...]", ...
+struct TeachKind {
+  const char* name;
+  const char* words;
+  const char* meaning;
+};
+const std::vector<TeachKind>& teach_kinds();
+
+/// What is wrong with the words of a case.
+enum class CaseFault : std::uint8_t {
+  none,
+  kind,          ///< no such kind
+  number,        ///< `word` is not a whole number of steps
+  beyond,        ///< `word` is beyond kMostGiven_steps
+  turn,          ///< the kind takes no ccw or cw
+  count,         ///< `place` numbers are too few, too many or no whole number of points
+  polynomial,    ///< `word` can't be read from character `place` on (from 1)
+  degree,        ///< `word` is of degree `place`
+  half_axes,     ///< of an ellipse: 1 to kMostHalfAxis_steps
+  far_parabola,  ///< `word` is beyond kMostParabola_steps
+  flat_parabola  ///< P is 0
+};
+
+inline constexpr std::int64_t kMostGiven_steps = std::int64_t{1} << 61;  ///< differences of two still fit
+inline constexpr std::int64_t kMostHalfAxis_steps = 10'000;
+inline constexpr std::int64_t kMostParabola_steps = std::int64_t{1} << 29;
+inline constexpr int kMostPolynomialDegree = 6;
+
+/// A case, or what is wrong with which of its words.
+struct CaseReading {
+  TeachCase subject;
+  CaseFault fault = CaseFault::none;
+  std::string word;
+  std::size_t place = 0;
+};
+
+/// Reads the words of a case: the kind and its numbers, in steps.
+/// @param axes  of Beziers and polylines, whose words are taken in groups of so many
+CaseReading read_case(const std::vector<std::string>& words, int axes);
+
+/// "6400 y - x^3": whole coefficients, powers of x and y, degree kMostPolynomialDegree at most.
+struct PolynomialReading {
+  std::vector<lattice::Term> terms;
+  CaseFault fault = CaseFault::none;  ///< none, polynomial or degree
+  std::size_t place = 0;
+};
+PolynomialReading read_terms(const std::string& text);
+
+}  // namespace kadr::emulator

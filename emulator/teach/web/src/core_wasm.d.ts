@@ -1,0 +1,4 @@
+declare module 'core.wasm' {
+  const bytes: Uint8Array;
+  export default bytes;
+}
