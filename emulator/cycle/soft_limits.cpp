@@ -27,7 +27,8 @@ void report(const planner::PathSegment& segment, const machine::AxisModel& axis,
                {},
                {}};
   d.notes.push_back(fmt::format("allowed {:.3f} to {:.3f} {} (axis {} range_{}, machine coordinates)",
-                                axis.soft_min_u, axis.soft_max_u, limit_unit(axis), axis.letter, limit_unit(axis)));
+                                axis.soft_min_u, axis.soft_max_u, limit_unit(axis), axis.letter,
+                                limit_unit(axis)));
   diagnostics.add(std::move(d));
 }
 

@@ -13,7 +13,7 @@ using lattice::Node;
 
 constexpr int kArcPlaces = 360, kBezierPlaces = 240;
 
-double real(std::int64_t v) { return static_cast<double>(v); }
+double number(std::int64_t v) { return static_cast<double>(v); }
 
 /// Directions of travel at a node; 1 where an axis rests.
 struct Travel {
@@ -44,7 +44,7 @@ std::vector<Place> feet(const lattice::Polynomial& f, const StepTable& table) {
   const auto foot = [&](double x, double y) { return foot_of(f, fx, fy, {x, y}); };
   std::vector<Place> out;
   const auto add = [&](const lattice::Point& node) {
-    const Place at = foot(real(node[0]), real(node[1]));
+    const Place at = foot(number(node[0]), number(node[1]));
     if (!out.empty()) {
       const Place before = out.back();
       for (const double share : {0.25, 0.5, 0.75})
@@ -89,7 +89,7 @@ std::vector<TestedPlace> tested_places(const Curve& curve, Method method, Node n
 }
 
 Place nearest_place(const Curve& curve, const lattice::Point& node, double t) {
-  const Place at{real(node[0]), real(node[1])};
+  const Place at{number(node[0]), number(node[1])};
   if (const auto* bezier = std::get_if<lattice::BezierCurve>(&curve); bezier != nullptr && t >= 0) {
     const planner::BezierVector p = real_bezier(*bezier).position(t);
     return {p[0], p[1]};
@@ -101,10 +101,10 @@ Place nearest_place(const Curve& curve, const lattice::Point& node, double t) {
 std::vector<Place> curve_places(const Curve& curve, const StepTable& table) {
   std::vector<Place> out;
   if (const auto* line = std::get_if<lattice::LineCurve>(&curve))
-    return {{0, 0}, {real(line->delta[0]), real(line->delta[1])}};
+    return {{0, 0}, {number(line->delta[0]), number(line->delta[1])}};
   if (const auto* arc = std::get_if<lattice::ArcCurve>(&curve)) {
     const double sweep = arc_sweep_rad(*arc) * (arc->turn == lattice::Turn::ccw ? 1 : -1);
-    const double x = real(arc->begin.x), y = real(arc->begin.y);
+    const double x = number(arc->begin.x), y = number(arc->begin.y);
     for (int i = 0; i <= kArcPlaces; ++i) {
       const double a = sweep * i / kArcPlaces, c = std::cos(a), s = std::sin(a);
       out.push_back({x * c - y * s, x * s + y * c});
@@ -125,14 +125,14 @@ std::vector<Place> curve_places(const Curve& curve, const StepTable& table) {
 std::vector<RosePoint> speed_rose(Method method, int directions, std::int64_t radius_steps) {
   std::vector<RosePoint> out;
   for (int i = 0; i < directions; ++i) {
-    const double angle = 2 * M_PI * i / directions, r = real(radius_steps);
+    const double angle = 2 * M_PI * i / directions, r = number(radius_steps);
     lattice::LineCurve line{2, {std::llround(r * std::cos(angle)), std::llround(r * std::sin(angle))}};
     const lattice::Made made = lattice::make_stepper(line, method);
-    RosePoint point{std::atan2(real(line.delta[1]), real(line.delta[0])), 0};
+    RosePoint point{std::atan2(number(line.delta[1]), number(line.delta[0])), 0};
     lattice::Slot slot;
     std::int64_t slots = 0;
     while (made.stepper && made.stepper->next(slot)) ++slots;
-    if (slots > 0) point.speed = std::hypot(real(line.delta[0]), real(line.delta[1])) / real(slots);
+    if (slots > 0) point.speed = std::hypot(number(line.delta[0]), number(line.delta[1])) / number(slots);
     out.push_back(point);
   }
   return out;

@@ -76,11 +76,11 @@ TEST_CASE("the pulses of a run are the lattice's, one slot after the other, even
   auto machine = machine_with(2, 0.01);
   PathMaker maker({0, 0});
   maker.line({10, 6.18});
-  for (const auto [step, method] : {std::pair(StepMethod::classic, lattice::Method::classic),
-                                    std::pair(StepMethod::half_step, lattice::Method::half_step),
-                                    std::pair(StepMethod::diagonal, lattice::Method::diagonal),
-                                    std::pair(StepMethod::extra_points, lattice::Method::extra_points),
-                                    std::pair(StepMethod::progression, lattice::Method::progression)}) {
+  for (const auto& [step, method] : {std::pair(StepMethod::classic, lattice::Method::classic),
+                                     std::pair(StepMethod::half_step, lattice::Method::half_step),
+                                     std::pair(StepMethod::diagonal, lattice::Method::diagonal),
+                                     std::pair(StepMethod::extra_points, lattice::Method::extra_points),
+                                     std::pair(StepMethod::progression, lattice::Method::progression)}) {
     machine.interpolator = step;
     const Run run = run_path(maker.path, machine, steady(maker.path, machine));
     const auto expected = lattice_nodes(lattice::LineCurve{2, {1000, 618}}, method);

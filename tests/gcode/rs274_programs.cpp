@@ -44,7 +44,8 @@ ToolTable tools_of(const fs::path& path) {
   if (fs::exists(beside)) {
     SourceSet sources;
     Diagnostics diagnostics;
-    return read_tool_table(sources, sources.add(SourceText(beside.string(), program_text(beside))), diagnostics);
+    return read_tool_table(sources, sources.add(SourceText(beside.string(), program_text(beside))),
+                           diagnostics);
   }
   for (int number = 1; number <= kTools; ++number) {
     Tool tool;

@@ -40,7 +40,7 @@ Sum elements_of(const BlockDiagram& b) {
   return sum;
 }
 
-doctest::Approx near(double x) { return doctest::Approx(x).epsilon(1e-11); }
+doctest::Approx close_to(double x) { return doctest::Approx(x).epsilon(1e-11); }
 
 }  // namespace
 
@@ -57,7 +57,7 @@ TEST_CASE("the lowest exit stops at the longest braking path, although exits bel
   CHECK(planner::lowest_exit_u_s(60.0, 2.53, kLimits) == 0.0);
   const double exit = planner::lowest_exit_u_s(60.0, 2.4, kLimits);
   CHECK(exit > 20.0);
-  CHECK(planner::ramp_length_u(exit, 60.0, kLimits) == near(2.4));
+  CHECK(planner::ramp_length_u(exit, 60.0, kLimits) == close_to(2.4));
   // from 300 mm/s full acceleration is reached: longest to a^2/2j = 50 mm/s
   const double longest = planner::ramp_length_u(50.0, 300.0, kLimits);
   CHECK(longest > planner::ramp_length_u(49.0, 300.0, kLimits));
@@ -66,18 +66,18 @@ TEST_CASE("the lowest exit stops at the longest braking path, although exits bel
   CHECK(planner::lowest_exit_u_s(300.0, longest * 0.99, kLimits) > 50.0);
   // without a jerk limit the path grows down to rest: v0^2 - v1^2 = 2 a d
   const RampLimits no_jerk{2000.0, kInfinity};
-  CHECK(planner::lowest_exit_u_s(100.0, 1.0, no_jerk) == near(std::sqrt(100.0 * 100.0 - 4000.0)));
+  CHECK(planner::lowest_exit_u_s(100.0, 1.0, no_jerk) == close_to(std::sqrt(100.0 * 100.0 - 4000.0)));
 }
 
 TEST_CASE("rule a lowers F_HK: 40 mm at 20 mm/s from rest to rest fill 2045 ticks in place of 2044.72") {
   BlockDiagram b = block(40.0, 0.0, 0.0, 20.0);
-  CHECK(b.time_s() == near(2.0 + 2.0 * std::sqrt(20.0 / 40000.0)));
+  CHECK(b.time_s() == close_to(2.0 + 2.0 * std::sqrt(20.0 / 40000.0)));
   planner::fill_block_ticks(b, 0.001, BlockTicks::exact);
   CHECK(b.rule == TickRule::lower_main);
   CHECK(b.ticks == 2045);
   // 40/w + 2 sqrt(w/j) = 2.045
-  CHECK(40.0 / b.main_u_s + 2.0 * std::sqrt(b.main_u_s / 40000.0) == near(2.045));
-  CHECK(elements_of(b).length_u == near(40.0));
+  CHECK(40.0 / b.main_u_s + 2.0 * std::sqrt(b.main_u_s / 40000.0) == close_to(2.045));
+  CHECK(elements_of(b).length_u == close_to(40.0));
 }
 
 TEST_CASE("rule b stretches a brake: from 60 to 20 mm/s over 3 mm, the exit stays") {
@@ -88,10 +88,10 @@ TEST_CASE("rule b stretches a brake: from 60 to 20 mm/s over 3 mm, the exit stay
   CHECK(b.rule == TickRule::stretch_brake);
   CHECK(b.ticks == 72);
   CHECK(b.end_u_s == 20.0);
-  CHECK(b.brake_factor * planner::ramp_time_s(40.0, kLimits) == near(0.066));
+  CHECK(b.brake_factor * planner::ramp_time_s(40.0, kLimits) == close_to(0.066));
   const Sum sum = elements_of(b);
-  CHECK(sum.time_s == near(0.072));
-  CHECK(sum.length_u == near(3.0));
+  CHECK(sum.time_s == close_to(0.072));
+  CHECK(sum.length_u == close_to(3.0));
 }
 
 TEST_CASE("rule c lowers F_KK: 1 mm at a constant 30 mm/s fills 34 ticks in place of 33.3") {
@@ -102,8 +102,8 @@ TEST_CASE("rule c lowers F_KK: 1 mm at a constant 30 mm/s fills 34 ticks in plac
   CHECK(b.main_u_s == 30.0);
   // hold and brake: L/v0 + T_r (v0 - v1)/(2 v0) = 0.034 with T_r = 2 sqrt((v0 - v1)/j)
   const double drop = 30.0 - b.end_u_s;
-  CHECK(1.0 / 30.0 + drop * std::sqrt(drop / 40000.0) / 30.0 == near(0.034));
-  CHECK(elements_of(b).time_s == near(0.034));
+  CHECK(1.0 / 30.0 + drop * std::sqrt(drop / 40000.0) / 30.0 == close_to(0.034));
+  CHECK(elements_of(b).time_s == close_to(0.034));
 }
 
 TEST_CASE("rule d scales: 0.15 mm at a constant 100 mm/s can't brake within 2 ticks, kl = 0.75") {
@@ -112,10 +112,10 @@ TEST_CASE("rule d scales: 0.15 mm at a constant 100 mm/s can't brake within 2 ti
   CHECK(b.rule == TickRule::scale);
   CHECK(b.ticks == 2);
   // m tau - T = 0.5 ms at 100 mm/s are 0.05 mm: kl = 0.15 / 0.2
-  CHECK(b.kl == near(0.75));
+  CHECK(b.kl == close_to(0.75));
   CHECK(b.end_u_s == 100.0);
-  CHECK(elements_of(b).time_s == near(0.002));
-  CHECK(elements_of(b).length_u == near(0.15));
+  CHECK(elements_of(b).time_s == close_to(0.002));
+  CHECK(elements_of(b).length_u == close_to(0.15));
 }
 
 TEST_CASE("kl for every block (eq. 3): the part of a tick that is left is spent at F_KK") {
@@ -125,15 +125,15 @@ TEST_CASE("kl for every block (eq. 3): the part of a tick that is left is spent 
   CHECK(left == doctest::Approx(0.000645).epsilon(1e-3));
   planner::fill_block_ticks(b, 0.001, BlockTicks::kl);
   CHECK(b.rule == TickRule::scale);
-  CHECK(b.kl == near(5.0 / (5.0 + 50.0 * left)));
-  CHECK(elements_of(b).time_s == near(0.136));
-  CHECK(elements_of(b).length_u == near(5.0));
+  CHECK(b.kl == close_to(5.0 / (5.0 + 50.0 * left)));
+  CHECK(elements_of(b).time_s == close_to(0.136));
+  CHECK(elements_of(b).length_u == close_to(5.0));
   // a block that ends at rest stands for the rest of its tick, unscaled
   BlockDiagram stop = block(3.0, 60.0, 0.0, 60.0);
   const double time = stop.time_s();
   planner::fill_block_ticks(stop, 0.001, BlockTicks::kl);
   CHECK(stop.kl == 1.0);
-  CHECK(elements_of(stop).time_s == near(time));
+  CHECK(elements_of(stop).time_s == close_to(time));
 }
 
 TEST_CASE("two passes are as fast as the best of a grid of boundary speeds, three blocks from rest to rest") {
