@@ -9,6 +9,8 @@
 namespace kadr::gcode {
 namespace {
 
+using Kind = CompensationFault::Kind;
+
 /// LinuxCNC takes this angle for a length: under G21 it is 25.4 times as large.
 constexpr double kSweepTolerance_rad = 1e-3;
 
@@ -170,7 +172,6 @@ void Interpreter::end_compensation(Span place) {
 }
 
 void Interpreter::report_compensation_fault(const CompensationFault& fault, Span span) {
-  using Kind = CompensationFault::Kind;
   Diagnostic d = problem(Code::compensation_gouge, span, {});
   switch (fault.kind) {
     case Kind::none:

@@ -8,6 +8,7 @@
 #include "planner/feed_plan.h"
 #include "planner/motion_source.h"
 #include "planner/path.h"
+#include "planner/path_builder.h"
 #include "planner/path_cut.h"
 #include "planner/verify.h"
 

@@ -4,7 +4,7 @@
 
 #include "emulator/cycle/input_timeline.h"
 #include "emulator/emulator.h"
-#include "planner/path_builder.h"
+#include "planner/planner.h"
 
 namespace kadr::emulator {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/bezier/path_curve.h"
+#include "planner/path.h"
 
 namespace kadr::emulator {
 

@@ -21,7 +21,8 @@ constexpr double kPeriodsAfter = 10;  ///< of swinging, shown after the end
 constexpr int kMostPoints = 20'000;   ///< of a line
 constexpr const char* kStyles[kMostLines] = {"a", "b", "c", "d", "e", "f"};
 
-constexpr std::string_view kPointStyle = R"css(.line { fill: none; stroke-width: 1.5; stroke-linejoin: round; }
+constexpr std::string_view kPointStyle =
+    R"css(.line { fill: none; stroke-width: 1.5; stroke-linejoin: round; }
 .a { stroke: var(--blue); stroke-width: 2.2; } .b { stroke: var(--orange); stroke-dasharray: 7 3; }
 .c { stroke: var(--green); stroke-dasharray: 2 3; stroke-width: 2; } .d { stroke: var(--pink); }
 .e { stroke: var(--brown); stroke-dasharray: 10 3 2 3; } .f { stroke: var(--ink); stroke-width: 0.9; }
@@ -59,7 +60,8 @@ class PointPage {
 
   std::string text() const {
     const planner::Load& load = study_.load;
-    std::string out = chart_page_head("Laws from rest to rest", kPointStyle) + "<h1>Laws from rest to rest</h1>\n";
+    std::string out =
+        chart_page_head("Laws from rest to rest", kPointStyle) + "<h1>Laws from rest to rest</h1>\n";
     out += fmt::format("<pre>{}</pre>\n<pre>{}\n{}</pre>\n", xml_text(render_point_question(q_, study_)),
                        xml_text(render_point_table(study_)), xml_text(render_point_answer(study_)));
     out += chart("accel", "Acceleration", "acceleration, m/s2",

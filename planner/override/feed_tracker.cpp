@@ -18,7 +18,7 @@ constexpr std::size_t kHoldSegments = 64;  ///< a hold looks at so many segments
 constexpr double kHorizons = 8.0;     ///< longest brakings that a decision looks ahead, so that a hold lasts
 constexpr double kSamePlace = 2e-15;  ///< of the path's length: rounding of a ramp's end
 constexpr double kSnap = 10.0;        ///< slacks by which a ramp that was braked late may miss its valley
-constexpr double kSpeedRounding = 1e-12;   ///< relative, of a speed
+constexpr double kSpeedRounding = 1e-12;  ///< relative, of a speed
 constexpr double kForever_s = 1e300;
 
 /// A percent that no programmed feed resists: what is left are the hard caps.

@@ -133,7 +133,8 @@ WholeTicks fill_whole_ticks(std::vector<Element>& run, double tau_s) {
   // the rest, if it is more than rounding: near a plateau's lowest speed time is a steep function of it
   const double now = total_time_s(run);
   const double wanted = ticks * tau_s;
-  return {static_cast<std::int64_t>(ticks), std::fabs(wanted - now) > kScaleRounding * now ? wanted / now : 1.0};
+  return {static_cast<std::int64_t>(ticks),
+          std::fabs(wanted - now) > kScaleRounding * now ? wanted / now : 1.0};
 }
 
 }  // namespace kadr::planner

@@ -12,13 +12,13 @@ namespace kadr::planner {
 namespace {
 
 constexpr int kRounds = 24;
-constexpr double kSettledTime = 1e-5;    ///< relative fall of the time at which the rounds end
-constexpr double kStartShare = 0.9;       ///< of the start's speeds by acceleration and jerk alone
-constexpr double kJerkStep = 4.0;    ///< of the jerk limit from an interval to the next
-constexpr double kLeastShare = 0.1;   ///< of the jerk limit, below which a node is not lowered
-constexpr double kStartPart = 4.5;   ///< v^3 = 4.5 j s^2 with constant jerk from rest
-constexpr double kRestEnd = 2.25;    ///< of the jerk limit, at the law's ends: there v^3 = 2 (2.25 j) ds^2
-constexpr double kRounding = 1e-12;  ///< of speeds and times that follow from k
+constexpr double kSettledTime = 1e-5;  ///< relative fall of the time at which the rounds end
+constexpr double kStartShare = 0.9;    ///< of the start's speeds by acceleration and jerk alone
+constexpr double kJerkStep = 4.0;      ///< of the jerk limit from an interval to the next
+constexpr double kLeastShare = 0.1;    ///< of the jerk limit, below which a node is not lowered
+constexpr double kStartPart = 4.5;     ///< v^3 = 4.5 j s^2 with constant jerk from rest
+constexpr double kRestEnd = 2.25;      ///< of the jerk limit, at the law's ends: there v^3 = 2 (2.25 j) ds^2
+constexpr double kRounding = 1e-12;    ///< of speeds and times that follow from k
 
 /// How far a motion is above its limits: factors, 1 and below is kept.
 struct Excess {

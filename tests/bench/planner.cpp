@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "machine/base/numbers.h"
-#include "planner/path_builder.h"
 #include "planner/planner.h"
 
 // A million short segments: from blocks to path, from path to law.

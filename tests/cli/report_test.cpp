@@ -7,7 +7,6 @@
 #include "emulator/report/summary.h"
 #include "emulator/report/text.h"
 #include "emulator/report/travel.h"
-#include "planner/path_builder.h"
 #include "tests/cli/run_kadr.h"
 
 using namespace kadr;

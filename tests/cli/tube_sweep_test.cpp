@@ -18,7 +18,8 @@ const std::string kTubeDocs = std::string(KADR_SOURCE_DIR) + "/docs/tube";
 
 TEST_CASE("a sweep of levels has a row each, and each is what the tube finds with that number alone") {
   // times and passes of laying.toml by levels: docs/time_law.md, measured with the levels in the file
-  const Finished run = call({"tube", kTubeDocs + "/laying.toml", "--sweep-levels", "99..101", "--json"}, kTubeDocs);
+  const Finished run =
+      call({"tube", kTubeDocs + "/laying.toml", "--sweep-levels", "99..101", "--json"}, kTubeDocs);
   REQUIRE(run.code == 0);
   const Json document = Json::parse(run.out);
   REQUIRE(document["sweep"].size() == 3);

@@ -2,7 +2,6 @@
 
 #include "emulator/interpolator/lattice/bezier_events.h"
 #include "interpolator_paths.h"
-#include "planner/path_builder.h"
 #include "planner/planner.h"
 
 using namespace kadr;

@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include "interpolator_paths.h"
-#include "planner/path_builder.h"
 #include "planner/planner.h"
 
 using namespace kadr;

@@ -12,7 +12,7 @@ using machine::PlanMethod;
 namespace {
 
 void check_law_plan(const planner::Path& path, const planner::FeedPlan& plan,
-                const machine::MachineModel& machine) {
+                    const machine::MachineModel& machine) {
   for (const planner::Violation& v : planner::verify(path, plan, machine))
     FAIL_CHECK(fmt::format("{} at {} s, segment {}, axis {}: {} (limit {})", v.what, v.time_s, v.segment,
                            v.axis, v.value, v.limit));

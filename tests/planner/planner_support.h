@@ -7,7 +7,6 @@
 #include <string>
 
 #include "machine/base/numbers.h"
-#include "planner/path_builder.h"
 #include "planner/planner.h"
 
 /// Machines, blocks and random programs for the planner's tests.

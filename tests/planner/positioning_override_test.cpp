@@ -62,7 +62,7 @@ struct RapidRide {
 };
 
 RapidRide rapid_ride(const machine::MachineModel& machine, const std::function<void(ProgramWriter&)>& program,
-          const std::function<void(std::size_t, OperatorInput&)>& hand) {
+                     const std::function<void(std::size_t, OperatorInput&)>& hand) {
   ProgramWriter writer(machine);
   program(writer);
   const planner::Path path = writer.take();
@@ -137,7 +137,8 @@ TEST_CASE("a percent that changes within a rapid counts from the next one") {
 TEST_CASE("the feed's percent does not change a rapid") {
   const machine::MachineModel m = flexible(RapidShape::zv);
   const RapidRide full = rapid_ride(m, kRapid, percent_from(0, 1.0));
-  const RapidRide r = rapid_ride(m, kRapid, [](std::size_t, OperatorInput& input) { input.feed_override = 0.3; });
+  const RapidRide r =
+      rapid_ride(m, kRapid, [](std::size_t, OperatorInput& input) { input.feed_override = 0.3; });
   REQUIRE(r.ticks.size() == full.ticks.size());
   for (std::size_t i = 0; i < r.ticks.size(); ++i) CHECK(r.ticks[i].s_end_u == full.ticks[i].s_end_u);
   // a feed move at 30 %, and then the rapid as planned
@@ -145,7 +146,8 @@ TEST_CASE("the feed's percent does not change a rapid") {
     w.line(xyz(20), 100);
     w.rapid(xyz(120));
   };
-  const RapidRide both = rapid_ride(m, feed_first, [](std::size_t, OperatorInput& input) { input.feed_override = 0.3; });
+  const RapidRide both =
+      rapid_ride(m, feed_first, [](std::size_t, OperatorInput& input) { input.feed_override = 0.3; });
   CHECK(both.ticks[both.ticks.size() - full.ticks.size()].s_begin_u == doctest::Approx(20).epsilon(1e-9));
 }
 
@@ -157,7 +159,8 @@ TEST_CASE("a rapid waits where it stands while its percent is 0, and while the f
   });
   CHECK(zero.ticks.size() == full + 50);
   CHECK(zero.swing_u(m) < 1e-3 * kJump_mm);
-  const RapidRide held = rapid_ride(m, kRapid, [](std::size_t tick, OperatorInput& input) { input.hold = tick < 70; });
+  const RapidRide held =
+      rapid_ride(m, kRapid, [](std::size_t tick, OperatorInput& input) { input.hold = tick < 70; });
   CHECK(held.ticks.size() == full + 70);
 }
 

@@ -78,7 +78,8 @@ TEST_CASE(
     CHECK(s.link_u * 1e-3 == doctest::Approx(e.x1).epsilon(1e-9).scale(0));
     CHECK(s.link_u_s * 1e-3 == doctest::Approx(e.v1).epsilon(1e-9).scale(0));
     const double lag_m = static_cast<double>(std::min(e.steps, e.ticks)) * 1e-5 - e.x0;
-    const double force_N = 5.5 * (100 * kSpringPi_) * (100 * kSpringPi_) * lag_m - 0.2 * 100 * kSpringPi_ * 5.5 * e.v0;
+    const double force_N =
+        5.5 * (100 * kSpringPi_) * (100 * kSpringPi_) * lag_m - 0.2 * 100 * kSpringPi_ * 5.5 * e.v0;
     CHECK(s.motor_force == doctest::Approx(force_N).epsilon(1e-8));
   }
 }
