@@ -26,7 +26,7 @@ test('the page of three runs loads without a complaint or a request and shows th
   assert.equal(await view.value('getComputedStyle(document.getElementById("path")).display'), 'none');
   assert.match(readFileSync(join(folder, 'abc.html'), 'utf8'), /<noscript><h2>Feed over time<\/h2>/);
   await unpacked(view);
-  await shot(view, 'compare.png', true);
+  await shot(view, 'compare.png');
 });
 
 test('every chart has all runs, with the values of their logs', async () => {
@@ -44,6 +44,24 @@ test('every chart has all runs, with the values of their logs', async () => {
       assert.ok(Math.abs(got.path[i] - row[2]) <= 0.00051, `path of ${log} at ${i}`);
     });
   }
+});
+
+test('charts fill a window whose width changes', async () => {
+  const view = await opened('abc.html', { width: 400, height: 3300 });
+  // how far to the right the feed of the third and longest run comes, in its colour
+  const reach = () => view.value(`(() => {
+    const u = kadr.charts.plots[0], { left, top, width, height } = u.bbox, { data } = u.ctx.getImageData(left, top, width, height);
+    let last = 0;
+    for (let i = 0; i < data.length; i += 4)
+      if (data[i] < 60 && Math.abs(data[i + 1] - 121) < 25 && Math.abs(data[i + 2] - 90) < 25) last = Math.max(last, (i / 4) % width);
+    return last / width;
+  })()`);
+  assert.ok(await reach() > 0.95);
+  await view.send('Emulation.setDeviceMetricsOverride', { width: 1440, height: 3300, deviceScaleFactor: 1, mobile: false });
+  await view.until('kadr.charts.plots[0].width > 1000');
+  await view.frames();
+  await view.until('kadr.charts.drawn');
+  assert.ok(await reach() > 0.95);
 });
 
 test('the window reaches to the end of the longest run; a drag in one chart zooms all, the cursor reads all runs', async () => {
@@ -96,7 +114,7 @@ test('over the path the runs stand where they are of one place', async () => {
   });
   assert.ok(Math.abs(got[2] - 20) < 0.001);
   assert.ok(got[0] > 45);
-  await shot(view, 'compare_path.png', true);
+  await shot(view, 'compare_path.png');
   // the choice is in the address, also for a fresh look
   assert.match(await view.value('location.hash'), /path/);
 });
