@@ -38,9 +38,10 @@ test('a page of 600 000 control ticks: size, and how long it takes to open and t
   let view;
   for (let k = 0; k < TIMES; k++) {
     await browser.page('about:blank').then((empty) => empty.close());
-    const begun = performance.now(), used = browser.cpu_ms();
+    const used = browser.cpu_ms();
     view = await opened('long.html');
-    opens.push(performance.now() - begun);
+    // the page's clock begins with the navigation: making a tab is the browser's own time
+    opens.push(await view.value('performance.now()'));
     cpu.push(browser.cpu_ms() - used);
     for (const [name, ms] of Object.entries(await view.value('kadr.ms'))) (inside[name] ??= []).push(ms);
     if (k + 1 < TIMES) await view.close();
