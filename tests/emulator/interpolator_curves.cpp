@@ -24,6 +24,21 @@ planner::Path curve_path(const std::vector<double>& control, std::size_t axes) {
   return path;
 }
 
+struct Moment {
+  double t = 0;
+  int sign = 1;
+};
+using Moments = std::vector<Moment>;
+
+/// An extreme that just touches the middle between two nodes may step out and in again, or not: both are
+/// within half a step.
+void add_moment(Moments& moments, Moment m) {
+  if (!moments.empty() && moments.back().sign != m.sign && m.t - moments.back().t < 1e-6)
+    moments.pop_back();
+  else
+    moments.push_back(m);
+}
+
 }  // namespace
 
 TEST_CASE("curves of degree 2 to 5 in 2 to 6 axes keep every node within half a step and end on the step") {
@@ -74,24 +89,24 @@ TEST_CASE("the pulses along a curve are those of the lattice's Bezier events, in
       }
     const planner::Path path = curve_path(control, 3);
     const Run run = run_path(path, machine, drive(path.length_u(), 5.0, machine, Feed::linear, i));
+    // by axis: events of two axes at one place may change places by rounding
+    std::array<Moments, 3> of_run, of_lattice;
+    for (const auto& e : run.events)
+      add_moment(of_run[static_cast<std::size_t>(e.axis)], {path.curves[0].t(e.s_u), e.sign});
     emulator::lattice::BezierEvents events(lattice);
     emulator::lattice::BezierEvents::Event event;
-    std::size_t n = 0;
-    double off = 0;
-    bool same = true;
-    // events closer than rounding may change places: then the moments tell
-    std::vector<double> t_run, t_lattice;
-    std::array<std::int64_t, 3> net{};
-    while (events.next(event)) {
-      t_lattice.push_back(event.t);
-      net[event.axis] += event.direction;
+    while (events.next(event)) add_moment(of_lattice[event.axis], {event.t, event.direction});
+    for (std::size_t k = 0; k < 3; ++k) {
+      REQUIRE(of_run[k].size() == of_lattice[k].size());
+      double off = 0;
+      bool same = true;
+      for (std::size_t n = 0; n < of_run[k].size(); ++n) {
+        off = std::max(off, std::fabs(of_run[k][n].t - of_lattice[k][n].t));
+        same = same && of_run[k][n].sign == of_lattice[k][n].sign;
+      }
+      CHECK(same);
+      CHECK(off < 1e-7);
     }
-    REQUIRE(run.events.size() == t_lattice.size());
-    for (const auto& e : run.events) t_run.push_back(path.curves[0].t(e.s_u));
-    for (; n < t_run.size(); ++n) off = std::max(off, std::fabs(t_run[n] - t_lattice[n]));
-    for (std::size_t k = 0; k < 3; ++k) same = same && net[k] == run.net[k];
-    CHECK(same);
-    CHECK(off < 1e-7);
   }
 }
 
