@@ -80,7 +80,7 @@ PathCurve PathCurve::part(double from, double to) const {
     double scale = 1;
     for (std::size_t j = 0; j < kPowers; ++j, scale *= to - from) c[j] *= scale;
   }
-  part.panels_.measure([&part](double t) { return part.speed(t); }, kFewestPanels);
+  part.panels_.measure([&part](double t) { return part.speed(t); }, kCurvePanels);
   return part;
 }
 
