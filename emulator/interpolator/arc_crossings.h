@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 
+#include "emulator/interpolator/crossing_run.h"
 #include "planner/path.h"
 
 namespace kadr::emulator {
@@ -16,10 +17,8 @@ namespace kadr::emulator {
 /// axis is monotone. The crossings of a piece are exactly the half-levels between the nodes of its two ends.
 /// Each crossing starts from the circle's closed form, a spiral adds Newton's steps inside the piece's
 /// bracket. Nothing depends on how many turns there are.
-class ArcCrossings {
+class ArcCrossings : public CrossingRun {
  public:
-  static constexpr int kRun = 64;  ///< crossings found ahead at most
-
   struct Ends {
     std::int64_t node_begin = 0;
     std::int64_t node_end = 0;
@@ -31,12 +30,6 @@ class ArcCrossings {
 
   /// Finds the next run of crossings in one direction; false when the segment has no more.
   bool find_run();
-
-  // the run: places on the segment, ascending, of pulses in direction sign
-  std::array<double, kRun> s_u{};
-  int count = 0;
-  int next = 0;  ///< first that has not fired
-  int sign = 1;
 
  private:
   using Run = double[kRun];  // [count], heights above the centre in steps, angles

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "emulator/interpolator/crossing_run.h"
 #include "planner/path.h"
 
 namespace kadr::emulator {
@@ -13,22 +14,14 @@ namespace kadr::emulator {
 /// between the nodes of its two ends, each bracketed by the one before and the piece's end and found by
 /// Newton's method that falls back on halving (papers 002 and 004). Their places are the curve's arc length
 /// there. Doubles in a fixed order of + - * / sqrt.
-class CurveCrossings {
+class CurveCrossings : public CrossingRun {
  public:
-  static constexpr int kRun = 64;  ///< crossings found ahead at most
-
   /// @pre curve.moves(axis); `curve` lives as long as this
   void start(const planner::PathCurve& curve, std::size_t axis, double step_u, std::int64_t node_begin,
              std::int64_t node_end);
 
   /// Finds the next run of crossings in one direction; false when the segment has no more.
   bool find_run();
-
-  // the run: places on the segment, ascending, of pulses in direction sign
-  std::array<double, kRun> s_u{};
-  int count = 0;
-  int next = 0;  ///< first that has not fired
-  int sign = 1;
 
  private:
   bool begin_piece();

@@ -1,10 +1,12 @@
 #include "emulator/interpolator/slot_track.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "machine/base/numbers.h"
+#include "machine/base/require.h"
 
 namespace kadr::emulator {
 namespace {
@@ -15,52 +17,31 @@ using machine::StepMethod;
 constexpr double kOnNode = 1e-6;  // steps: a centre that is a node but for rounding
 constexpr double kOneTurn_rad = 2 * kPi * (1 + 1e-9);
 
-Method line_method(StepMethod method, int axes) {
-  switch (method) {
-    case StepMethod::classic:
-      return Method::classic;
-    case StepMethod::half_step:
-      return Method::half_step;
-    case StepMethod::extra_points:
-      return axes == 2 ? Method::extra_points : Method::diagonal;
-    case StepMethod::dda:
-      return Method::dda;
-    case StepMethod::dda_preloaded:
-    case StepMethod::dda_sequential:
-    case StepMethod::dda_simultaneous:
-      return Method::dda_preloaded;
-    case StepMethod::progression:
-      return Method::progression;
-    case StepMethod::ptp:
-      return Method::ptp;
-    default:
-      return Method::diagonal;
-  }
-}
+/// What follows a line and an arc where a method is asked for that does not know them, or does.
+struct Followers {
+  StepMethod asked;
+  Method line, arc;
+};
+constexpr std::array<Followers, 12> kFollowers = {{
+    {StepMethod::classic, Method::classic, Method::classic},
+    {StepMethod::half_step, Method::half_step, Method::half_step},
+    {StepMethod::diagonal, Method::diagonal, Method::octant_midpoint},
+    {StepMethod::extra_points, Method::extra_points, Method::extra_points},
+    {StepMethod::octant_midpoint, Method::diagonal, Method::octant_midpoint},
+    {StepMethod::dda, Method::dda, Method::dda_sequential},
+    {StepMethod::dda_preloaded, Method::dda_preloaded, Method::dda_sequential},
+    {StepMethod::dda_sequential, Method::dda_preloaded, Method::dda_sequential},
+    {StepMethod::dda_simultaneous, Method::dda_preloaded, Method::dda_simultaneous},
+    {StepMethod::progression, Method::progression, Method::progression},
+    {StepMethod::chords, Method::diagonal, Method::chords},
+    {StepMethod::ptp, Method::ptp, Method::ptp},
+}};
 
-Method arc_method(StepMethod method) {
-  switch (method) {
-    case StepMethod::classic:
-      return Method::classic;
-    case StepMethod::half_step:
-      return Method::half_step;
-    case StepMethod::extra_points:
-      return Method::extra_points;
-    case StepMethod::dda:
-    case StepMethod::dda_preloaded:
-    case StepMethod::dda_sequential:
-      return Method::dda_sequential;
-    case StepMethod::dda_simultaneous:
-      return Method::dda_simultaneous;
-    case StepMethod::progression:
-      return Method::progression;
-    case StepMethod::chords:
-      return Method::chords;
-    case StepMethod::ptp:
-      return Method::ptp;
-    default:
-      return Method::octant_midpoint;
-  }
+const Followers& followers_of(StepMethod asked) {
+  const auto it = std::find_if(kFollowers.begin(), kFollowers.end(),
+                               [&](const Followers& f) { return f.asked == asked; });
+  require(it != kFollowers.end(), "every method but crossings has its followers");
+  return *it;
 }
 
 /// A coordinate that is a node but for rounding.
@@ -92,7 +73,9 @@ bool SlotTrack::start(const planner::Path& path, std::size_t segment, const mach
     if (lanes == 0) return false;
     line.axes = std::max(lanes, 2);
     curve_ = line;
-    method_ = line_method(machine.interpolator, line.axes);
+    method_ = followers_of(machine.interpolator).line;
+    // the two extra points lie in a plane
+    if (method_ == Method::extra_points && line.axes > 2) method_ = Method::diagonal;
   } else if (piece.kind == planner::SegmentKind::arc) {
     const planner::ArcShape& shape = path.arc_of(segment);
     const auto first = static_cast<std::size_t>(shape.first_axis);
@@ -108,7 +91,7 @@ bool SlotTrack::start(const planner::Path& path, std::size_t segment, const mach
                                shape.sweep_rad > 0 ? lattice::Turn::ccw : lattice::Turn::cw};
     lane_[first] = 0;
     lane_[second] = 1;
-    method_ = arc_method(machine.interpolator);
+    method_ = followers_of(machine.interpolator).arc;
   } else {
     return false;
   }
