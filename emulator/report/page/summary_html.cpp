@@ -7,6 +7,7 @@
 
 #include "emulator/diff/diff_fields.h"
 #include "emulator/export/charts.h"
+#include "emulator/report/page/path_svg.h"
 #include "emulator/report/text.h"
 #include "machine/base/hash.h"
 
@@ -278,7 +279,7 @@ std::string chart_html(const PageData& data) {
     signals.push_back(track.signal);
     pieces.push_back(envelope.pieces());
   }
-  std::string out;
+  std::string out = path_svg(data);
   for (const LineChart& chart : charts_of(signals, pieces)) out += render_svg(chart);
   return out;
 }
