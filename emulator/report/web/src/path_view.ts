@@ -7,7 +7,7 @@ import { type Run, type Track, alike, one, tickAt } from './data';
 import type { State } from './state';
 import { fixed, made, say } from './text';
 
-const MOST_DETAIL = 60_000, MOST_STROKES = 200_000, MOST_2D = 20_000, RAMP = 16;
+const MOST_DETAIL = 60_000, MOST_STROKES = 150_000, MOST_2D = 20_000, RAMP = 16;
 
 const VERTEX = `
 attribute vec3 position; attribute float value; uniform mat4 view; uniform vec2 squeeze; uniform vec2 shift; uniform vec2 range; uniform vec3 ramp[${RAMP}]; varying vec3 colour;
