@@ -6,7 +6,7 @@
 #include "emulator/cli/exit_codes.h"
 #include "emulator/log/log_types.h"
 #include "emulator/report/page/built_pages.h"
-#include "emulator/report/text.h"
+#include "emulator/text/text.h"
 #include "machine/base/codes.h"
 #include "machine/base/utf8.h"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "emulator/report/text.h"
+#include "emulator/text/text.h"
 #include "machine/base/require.h"
 
 namespace kadr::emulator {

@@ -11,7 +11,7 @@ struct BuiltPage {
   std::string_view missing;  ///< why this build is without it and how to get it, one line; empty: built in
 };
 
-/// Made by cmake/pages.cmake and emulator/report/web/template.cmake at configure time.
+/// Made by cmake/pages.cmake and emulator/pages/report/template.cmake at configure time.
 std::array<BuiltPage, 3> built_pages();
 
 /// Why this build is without a page of built_pages(), as there; empty: built in.

@@ -6,8 +6,8 @@
 #include <array>
 #include <optional>
 
-#include "emulator/report/line_chart.h"
-#include "emulator/report/text.h"
+#include "emulator/text/line_chart.h"
+#include "emulator/text/text.h"
 
 namespace kadr::emulator {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "emulator/report/page/page_data.h"
+#include "emulator/log_tools/report/page_data.h"
 
 namespace kadr::emulator {
 

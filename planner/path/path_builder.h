@@ -1,0 +1,96 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/path/path.h"
+
+namespace kadr::planner {
+
+/// Turns motion Blocks into a Path, one by one.
+///
+/// Under G64 P two straight feed moves are joined without a corner, within P of the programmed lines and P of
+/// their corner: dense lines (small turns, like lengths) become a curve through the programmed points
+/// (PointFit), any other corner that would brake them is cut (RoundedCorner). One half of a rounded corner
+/// belongs to each block. Corners at rapids, arcs, threads, probing moves and stops stay as they are.
+class PathBuilder {
+ public:
+  /// @param start_u position of every program axis before the first block, machine coordinates
+  PathBuilder(const machine::MachineModel& machine, const AxisValues& start_u);
+  /// Appends the block's motion; a move of zero length adds nothing. A probing move ends at rest where the
+  /// probe changes, a tap goes to its end and back, at rest between. A cubic or quadratic spline becomes
+  /// curves, any other arcs (arcs_along).
+  /// @pre is_motion(block.kind)
+  /// @return whether path was added
+  bool add(const gcode::Block& block);
+  /// The last segment ends at rest (dwell, stop, spindle word follows).
+  void stop();
+  /// A technology point: the next block begins at that speed at most, mm/s or deg/s along what F measures.
+  void limit_speed(double speed_u_s) { speed_limit_u_s_ = std::min(speed_limit_u_s_, speed_u_s); }
+  /// The blocks from here on follow the spindle's angle, or no longer.
+  void follow_spindle(bool on) { follows_spindle_ = on; }
+  /// Motion blocks so far, those of zero length among them: the running number of the next one. Numbers of
+  /// segments may still change.
+  std::uint32_t blocks() const { return blocks_; }
+  /// The path so far; final up to the last stop.
+  const Path& path() const { return path_; }
+  Path take();
+
+ private:
+  using Point = AxisValues;  ///< by machine axis
+
+  /// A straight feed move under G64 P that the path ends with.
+  struct SmoothLine {
+    double length_u =
+        0;  ///< as programmed; the path may have less of it. 0: the path ends with something else
+    double tolerance_u = 0;  ///< P
+    Point direction{};
+  };
+
+  void add_motion(const gcode::Block& block);
+  PathSegment segment_of(const gcode::Block& block);
+  void add_line(PathSegment segment, const gcode::Block& block, const Point& end);
+  void add_arc(PathSegment segment, const gcode::Block& block);
+  void add_spline(PathSegment segment, const gcode::Block& block);
+  double harmless_curvature_per_u(const gcode::Block& block, std::span<const double> control_u) const;
+  bool add_curve(PathSegment segment, const gcode::Block& block, const ArcShape& plane);
+  void append(const PathSegment& segment, const gcode::Block& block, const Point& end,
+              SegmentShape shape = {});
+  void set_shape(PathSegment& segment, SegmentShape shape);
+  void set_feed(PathSegment& segment, const gcode::Block& block, double xyz_u);
+  bool plane_axes(const gcode::Block& block, ArcShape& arc);  ///< false: a fault was noted
+  ArcShape circle(ArcShape arc, double center_first_u, double center_second_u, const Point& end) const;
+  Point machine_point(const AxisValues& program) const;
+  std::span<const double> last_node() const { return path_.node(path_.size()); }
+  Point last_point() const;
+  void fault(Code code, const gcode::Block& block, std::string label, std::string help);
+
+  // path_smoothing.cpp
+  SmoothLine smooth_line(const PathSegment& segment, const gcode::Block& block, const Point& end) const;
+  bool joins(const PathSegment& segment, const SmoothLine& line) const;
+  bool is_dense(const SmoothLine& line) const;
+  bool brakes(const PathSegment& segment, const SmoothLine& line) const;
+  void open_curve(const SmoothLine& line);
+  void settle();
+  void fit(std::size_t begin, std::size_t end);
+  void split_last(double behind_u);
+  void measure_from(std::size_t segment);
+  void round_into(PathSegment segment, const gcode::Block& block, const Point& end, const SmoothLine& line);
+  void cut_last(double trim_u);
+
+  const machine::MachineModel& machine_;
+  Path path_;
+  std::vector<int> program_axis_;  ///< [machine axes] index into AxisValues
+  std::uint32_t blocks_ = 0;
+  bool follows_spindle_ = false;
+  double speed_limit_u_s_ = machine::kInfinity;  ///< of the next segment's beginning
+  SmoothLine last_line_;
+  std::size_t curve_begin_ =
+      0;  ///< first segment of the dense lines that the path ends with; 0: there are none
+  double curve_tolerance_u_ = 0;
+};
+
+}  // namespace kadr::planner
