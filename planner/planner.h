@@ -5,12 +5,12 @@
 
 #include <tl/expected.hpp>
 
-#include "planner/feed_plan.h"
-#include "planner/motion_source.h"
-#include "planner/path.h"
-#include "planner/path_builder.h"
-#include "planner/path_cut.h"
-#include "planner/verify.h"
+#include "planner/laws/feed_plan.h"
+#include "planner/laws/motion_source.h"
+#include "planner/path/path.h"
+#include "planner/path/path_builder.h"
+#include "planner/path/path_cut.h"
+#include "planner/verify/verify.h"
 
 /// Blocks -> path -> feed plan -> motion law. One door to the cycle: MotionSource.
 namespace kadr::planner {

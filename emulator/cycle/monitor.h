@@ -3,8 +3,8 @@
 
 #include "emulator/log/records.h"
 #include "machine/machine.h"
-#include "planner/motion_source.h"
-#include "planner/path.h"
+#include "planner/laws/motion_source.h"
+#include "planner/path/path.h"
 #include "plant/plant.h"
 
 namespace kadr::emulator {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "emulator/interpolator/crossing_run.h"
-#include "planner/path.h"
+#include "planner/path/path.h"
 
 namespace kadr::emulator {
 

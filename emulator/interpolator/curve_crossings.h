@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "emulator/interpolator/crossing_run.h"
-#include "planner/path.h"
+#include "planner/path/path.h"
 
 namespace kadr::emulator {
 

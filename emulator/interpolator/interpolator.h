@@ -5,8 +5,8 @@
 
 #include "machine/machine.h"
 #include "machine/step_batch.h"
-#include "planner/motion_source.h"
-#include "planner/path.h"
+#include "planner/laws/motion_source.h"
+#include "planner/path/path.h"
 
 /// From path and tick motion to step pulses. Which pulses, and in which order along the path, is geometry
 /// alone; the motion law only says when each fires.

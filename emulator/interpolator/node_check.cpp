@@ -8,7 +8,7 @@ namespace kadr::emulator {
 
 namespace {
 
-/// s(t) of planner/motion_source.h at a moment of the tick, measured from a joint.
+/// s(t) of planner/laws/motion_source.h at a moment of the tick, measured from a joint.
 double path_length_at(const planner::TickMotion& motion, double moment_ticks, double base_hz,
                       double joint_s_u) {
   const double after_s = (moment_ticks - motion.move_begin_ticks) / base_hz;

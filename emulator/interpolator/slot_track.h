@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "emulator/interpolator/lattice/lattice.h"
-#include "planner/path.h"
+#include "planner/path/path.h"
 
 namespace kadr::emulator {
 

@@ -3,14 +3,14 @@
 #include <cmath>
 #include <cstdint>
 
-#include "planner/motion_source.h"
+#include "planner/laws/motion_source.h"
 
 namespace kadr::emulator {
 
 /// One control tick's motion s(t) turned round: at which moment is a place of the path reached?
 ///
 /// With w = (s - s_begin)/(s_end - s_begin) and z = (t - t_b)/(t_e - t_b), both in [0, 1], ramp speeds v0, v1
-/// and p = v0/(v0 + v1), the linear feed of planner/motion_source.h reads
+/// and p = v0/(v0 + v1), the linear feed of planner/laws/motion_source.h reads
 ///
 ///   w = 2 p z + (1 - 2p) z^2    =>    z = w / (p + sqrt(p^2 + (1 - 2p) w))
 ///

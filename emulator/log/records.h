@@ -5,7 +5,7 @@
 
 #include "machine/machine.h"
 #include "machine/step_batch.h"
-#include "planner/motion_source.h"
+#include "planner/laws/motion_source.h"
 #include "plant/plant.h"
 
 /// What the cycle tells the log, in tick order; a pure function of the inputs: no clock, address, locale or

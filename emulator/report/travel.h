@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "machine/machine.h"
-#include "planner/path.h"
+#include "planner/path/path.h"
 
 namespace kadr::emulator {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "planner/laws/tick_shape.h"
-#include "planner/motion_source.h"
+#include "planner/laws/motion_source.h"
 
 namespace kadr::planner {
 namespace {

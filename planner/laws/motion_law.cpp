@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "planner/feed_plan.h"
+#include "planner/laws/feed_plan.h"
 
 namespace kadr::planner {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 
-#include "planner/motion_source.h"
+#include "planner/laws/motion_source.h"
 
 namespace kadr::planner {
 

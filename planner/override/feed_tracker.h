@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/feed_plan.h"
+#include "planner/laws/feed_plan.h"
 #include "planner/override/feed_terrain.h"
 
 namespace kadr::planner {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/feed_plan.h"
+#include "planner/laws/feed_plan.h"
 
 namespace kadr::planner {
 

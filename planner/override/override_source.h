@@ -1,8 +1,8 @@
 #pragma once
 #include <optional>
 
-#include "planner/feed_plan.h"
-#include "planner/motion_source.h"
+#include "planner/laws/feed_plan.h"
+#include "planner/laws/motion_source.h"
 #include "planner/override/axis_limiter.h"
 #include "planner/override/feed_terrain.h"
 #include "planner/override/feed_tracker.h"

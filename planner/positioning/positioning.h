@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "machine/machine.h"
-#include "planner/feed_plan.h"
+#include "planner/laws/feed_plan.h"
 #include "planner/point_to_point/law.h"
 #include "planner/point_to_point/mode.h"
-#include "planner/scheduler/limits.h"
+#include "planner/limits/limits.h"
 
 namespace kadr::planner {
 

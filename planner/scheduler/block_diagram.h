@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "machine/machine.h"
-#include "planner/scheduler/ramp.h"
+#include "planner/limits/ramp.h"
 
 namespace kadr::planner {
 

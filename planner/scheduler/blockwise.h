@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "planner/scheduler/block_diagram.h"
-#include "planner/scheduler/limits.h"
+#include "planner/limits/limits.h"
 
 namespace kadr::planner {
 

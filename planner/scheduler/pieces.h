@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/feed_plan.h"
-#include "planner/scheduler/ramp.h"
+#include "planner/laws/feed_plan.h"
+#include "planner/limits/ramp.h"
 
 namespace kadr::planner {
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "planner/scheduler/limits.h"
-#include "planner/scheduler/ramp.h"
+#include "planner/limits/limits.h"
+#include "planner/limits/ramp.h"
 
 namespace kadr::planner {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "machine/base/require.h"
-#include "planner/scheduler/range_min.h"
+#include "planner/limits/range_min.h"
 #include "planner/scheduler/run_planner.h"
 
 namespace kadr::planner {

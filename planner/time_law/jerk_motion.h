@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "planner/feed_plan.h"
+#include "planner/laws/feed_plan.h"
 #include "planner/time_law/jerk_limited.h"
 
 namespace kadr::planner {

@@ -1,8 +1,8 @@
 #pragma once
 #include <optional>
 
-#include "planner/scheduler/limits.h"
-#include "planner/scheduler/ramp.h"
+#include "planner/limits/limits.h"
+#include "planner/limits/ramp.h"
 #include "planner/time_law/table_path.h"
 
 namespace kadr::planner {

@@ -183,7 +183,7 @@ inline Run run_path(const planner::Path& path, const machine::MachineModel& mach
   return run;
 }
 
-/// Exact position of one axis on a segment, in long double, from the definitions in planner/path.h.
+/// Exact position of one axis on a segment, in long double, from the definitions in planner/path/path.h.
 inline long double exact_position(const planner::Path& path, std::size_t segment, int axis, double s_u) {
   const planner::PathSegment& piece = path.segments[segment];
   const long double u = static_cast<long double>(s_u) / piece.length_u;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "planner/spline_arcs.h"
+#include "planner/path/spline_arcs.h"
 #include "planner_support.h"
 
 namespace kadr::test {

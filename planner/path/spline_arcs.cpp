@@ -1,4 +1,4 @@
-#include "planner/spline_arcs.h"
+#include "planner/path/spline_arcs.h"
 
 #include <algorithm>
 #include <array>

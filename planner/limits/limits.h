@@ -4,8 +4,8 @@
 
 #include <tl/expected.hpp>
 
-#include "planner/feed_plan.h"
-#include "planner/path.h"
+#include "planner/laws/feed_plan.h"
+#include "planner/path/path.h"
 #include "planner/planner.h"
 
 /// What geometry and machine allow on each place of a path, before any ramp is thought of.

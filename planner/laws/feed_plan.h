@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/path.h"
+#include "planner/path/path.h"
 
 namespace kadr::planner {
 

@@ -1,4 +1,4 @@
-#include "planner/scheduler/limits.h"
+#include "planner/limits/limits.h"
 
 #include <fmt/format.h>
 

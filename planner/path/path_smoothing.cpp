@@ -4,7 +4,7 @@
 
 #include "planner/bezier/corner.h"
 #include "planner/bezier/point_fit.h"
-#include "planner/path_builder.h"
+#include "planner/path/path_builder.h"
 
 namespace kadr::planner {
 namespace {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/feed_plan.h"
+#include "planner/laws/feed_plan.h"
 
 namespace kadr::planner {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "planner/path.h"
+#include "planner/path/path.h"
 
 namespace kadr::planner {
 

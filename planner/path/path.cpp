@@ -1,4 +1,4 @@
-#include "planner/path.h"
+#include "planner/path/path.h"
 
 #include <algorithm>
 #include <cmath>

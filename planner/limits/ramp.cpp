@@ -1,4 +1,4 @@
-#include "planner/scheduler/ramp.h"
+#include "planner/limits/ramp.h"
 
 #include <algorithm>
 

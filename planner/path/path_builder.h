@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/path.h"
+#include "planner/path/path.h"
 
 namespace kadr::planner {
 

@@ -9,7 +9,7 @@
 #include "planner/positioning/positioning.h"
 #include "planner/scheduler/block_writer.h"
 #include "planner/scheduler/blockwise.h"
-#include "planner/scheduler/limits.h"
+#include "planner/limits/limits.h"
 #include "planner/scheduler/pieces.h"
 #include "planner/scheduler/run_planner.h"
 #include "planner/time_law/jerk_plan.h"

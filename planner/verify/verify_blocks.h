@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "planner/verify.h"
+#include "planner/verify/verify.h"
 
 /// The part of verify() that knows about blocks: plans of the blockwise scheduler.
 namespace kadr::planner {

@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "machine/base/count.h"
-#include "planner/feed_plan.h"
+#include "planner/laws/feed_plan.h"
 
 namespace kadr::planner {
 

@@ -1,4 +1,4 @@
-#include "planner/path_cut.h"
+#include "planner/path/path_cut.h"
 
 #include <algorithm>
 #include <utility>

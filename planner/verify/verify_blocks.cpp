@@ -1,4 +1,4 @@
-#include "planner/verify_blocks.h"
+#include "planner/verify/verify_blocks.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,8 @@
 #include "machine/base/numbers.h"
 #include "machine/base/require.h"
 #include "planner/bezier/curve_parts.h"
-#include "planner/path_builder.h"
-#include "planner/spline_arcs.h"
+#include "planner/path/path_builder.h"
+#include "planner/path/spline_arcs.h"
 
 namespace kadr::planner {
 namespace {

@@ -1,11 +1,11 @@
-#include "planner/verify.h"
+#include "planner/verify/verify.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "machine/base/numbers.h"
-#include "planner/verify_blocks.h"
+#include "planner/verify/verify_blocks.h"
 
 namespace kadr::planner {
 namespace {

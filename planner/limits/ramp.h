@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "planner/scheduler/limits.h"
+#include "planner/limits/limits.h"
 
 /// Ramps and holds: what a plan is made of before it becomes pieces of time.
 namespace kadr::planner {
