@@ -1,7 +1,7 @@
 #include "gcode/gcode.h"
 
-#include "gcode/flow.h"
-#include "gcode/interpreter.h"
+#include "gcode/flow/flow.h"
+#include "gcode/interpret/interpreter.h"
 
 namespace kadr::gcode {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "gcode/block.h"
-#include "gcode/dialect.h"
-#include "gcode/tool_table.h"
+#include "gcode/dialect/dialect.h"
+#include "gcode/read/tool_table.h"
 #include "machine/base/diagnostic.h"
 
 /// The G-code front end: text -> parse tree (what was written, with spans) -> Blocks (what it means).
@@ -74,7 +74,7 @@ void interpret(SourceSet& sources, std::uint32_t file, const InterpretOptions& o
 /// @name:12"
 void append_canon(std::string& out, const Block& block, std::string_view called_file = {});
 
-/// Adds a program in its normal form (gcode/format.h) to `out`: line for line, with the same meaning. A line
+/// Adds a program in its normal form (gcode/format/format.h) to `out`: line for line, with the same meaning. A line
 /// that can't be read stays as it is, and its mistake is told.
 /// @return false if there was a mistake
 bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics, std::string& out);

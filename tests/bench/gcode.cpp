@@ -6,7 +6,7 @@
 #include <string>
 
 #include "gcode/gcode.h"
-#include "gcode/program.h"
+#include "gcode/read/program.h"
 
 /// Speed of the front end on a program of a million short moves (about 30 MB), an arc each 50 lines.
 namespace {

@@ -3,8 +3,8 @@
 
 #include "checks.h"
 #include "gcode/gcode.h"
-#include "gcode/program.h"
-#include "gcode/scanner.h"
+#include "gcode/read/program.h"
+#include "gcode/read/scanner.h"
 #include "machine/base/require.h"
 
 /// Scanner, parser and interpreter: whatever the text, blocks are finite and have their place, diagnostics

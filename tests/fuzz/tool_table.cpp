@@ -2,7 +2,7 @@
 #include <string>
 
 #include "checks.h"
-#include "gcode/tool_table.h"
+#include "gcode/read/tool_table.h"
 #include "machine/base/require.h"
 
 /// Tool tables: whatever the text, tools are finite and within their ranges, diagnostics can be told, and a

@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "gcode/report.h"
+#include "gcode/read/report.h"
 #include "support.h"
 
 using namespace kadr;

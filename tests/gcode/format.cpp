@@ -1,4 +1,4 @@
-#include "gcode/format.h"
+#include "gcode/format/format.h"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "gcode/interpreter.h"
+#include "gcode/interpret/interpreter.h"
 #include "support.h"
 
 using namespace kadr;

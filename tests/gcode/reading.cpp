@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "gcode/program.h"
+#include "gcode/read/program.h"
 #include "random_lines.h"
 #include "support.h"
 

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "gcode/state.h"
+#include "gcode/interpret/state.h"
 #include "rs274_trace.h"
 
 namespace kadr::gcode::test {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <sstream>
 
-#include "gcode/state.h"
+#include "gcode/interpret/state.h"
 
 namespace kadr::gcode::test {
 namespace {

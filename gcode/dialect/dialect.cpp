@@ -1,0 +1,49 @@
+#include "gcode/dialect/dialect.h"
+
+#include <array>
+
+namespace kadr::gcode {
+namespace {
+
+constexpr std::array<std::string_view, 4> kNames = {"linuxcnc", "grbl", "marlin", "fanuc"};
+
+constexpr double kMillisecond_s = 1e-3;
+constexpr std::array<DwellWord, 1> kSeconds = {{{'P', 1}}};
+constexpr std::array<DwellWord, 2> kMarlin = {{{'S', 1}, {'P', kMillisecond_s}}};
+constexpr std::array<DwellWord, 3> kFanuc = {{{'X', 1}, {'U', 1}, {'P', kMillisecond_s}}};
+constexpr std::int64_t kProgramNumbers = 10'000;  // four digits
+
+}  // namespace
+
+std::string_view dialect_name(Dialect dialect) { return kNames[static_cast<std::size_t>(dialect)]; }
+
+std::optional<Dialect> dialect_of(std::string_view name) {
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (kNames[i] == name) return static_cast<Dialect>(i);
+  }
+  return std::nullopt;
+}
+
+std::span<const DwellWord> dwell_words(Dialect dialect) {
+  switch (dialect) {
+    case Dialect::marlin:
+      return kMarlin;
+    case Dialect::fanuc:
+      return kFanuc;
+    default:
+      return kSeconds;
+  }
+}
+
+int meant_g_code(Dialect dialect, int tenths) {
+  if (dialect != Dialect::fanuc) return tenths;
+  return tenths == 700 ? 200 : tenths == 710 ? 210 : tenths;
+}
+
+SubprogramCall subprogram_call(Dialect dialect, std::int64_t p) {
+  const std::int64_t repeats = dialect == Dialect::fanuc ? p / kProgramNumbers : 0;
+  if (repeats == 0) return {p, 1};
+  return {p % kProgramNumbers, static_cast<std::uint64_t>(repeats)};
+}
+
+}  // namespace kadr::gcode

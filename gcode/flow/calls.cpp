@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include "gcode/flow/flow.h"
+#include "gcode/read/sub_file.h"
+
+namespace kadr::gcode {
+namespace {
+
+constexpr std::size_t kLocalParameters = 30;  // #1 to #30 belong to a call
+
+}  // namespace
+
+std::string Flow::label_text(std::int32_t name) const {
+  const std::string& text = state_.names[name];
+  const bool digits = std::all_of(text.begin(), text.end(), is_digit);
+  return digits ? "O" + text : "O<" + text + ">";
+}
+
+void Flow::call_statement(const Line& line) {
+  const FlowStatement& flow = line.flow;
+  const Span place = line.span({flow.label.begin, flow.keyword.end});
+  std::int32_t name = flow.name;
+  if (name < 0) {
+    double label = 0;
+    int number = 0;
+    if (!value(line, flow.label_first, flow.label_root, label)) return;
+    if (!near_integer(label, number) || number < 0) {
+      return error(problem(Code::o_label_missing, place, fmt::format("the label is {}", figure(label)),
+                           "a label is a whole number from 0"));
+    }
+    name = state_.names.number(std::to_string(number));
+  }
+  std::vector<double> arguments;
+  std::int32_t first = flow.first;
+  for (const std::int32_t root : flow.arguments) {
+    double argument = 0;
+    const bool doubtful = !value(line, first, root, argument);
+    if (doubtful) return;
+    arguments.push_back(argument);
+    first = root + 1;
+  }
+  const Target target = find(name, false, place);
+  if (target.unit != nullptr) enter(target, false, place, arguments);
+}
+
+void Flow::call_code(const CallRequest& request) {
+  if (request.returns) return return_code(request);
+  if (request.repeats == 0) return;
+  const Target target = find(state_.names.number(std::to_string(request.number)), true, request.place);
+  if (target.unit == nullptr || !enter(target, true, request.place, {})) return;
+  calls_.back().repeats_left = request.repeats - 1;
+}
+
+Flow::Target Flow::find_known(std::int32_t name, bool by_code) const {
+  // the file that calls comes first, then all others in the order they were read
+  std::vector<Unit*> order{unit_};
+  for (const auto& unit : units_) order.push_back(unit.get());
+  for (Unit* unit : order) {
+    const int statement = by_code ? unit->structure.label(name) : unit->structure.sub(name);
+    if (statement >= 0) return {unit, statement};
+  }
+  return {};
+}
+
+Flow::Target Flow::find(std::int32_t name, bool by_code, Span place) {
+  Target target = find_known(name, by_code);
+  if (target.unit != nullptr) return target;
+  if (find_known(name, !by_code).unit != nullptr) {
+    error(problem(Code::sub_kind, place,
+                  by_code ? fmt::format("{} is a sub ... endsub", label_text(name))
+                          : fmt::format("{} ends with M99", label_text(name)),
+                  by_code ? fmt::format("write {} call", label_text(name))
+                          : fmt::format("write M98 P{}", state_.names[name])));
+    return {};
+  }
+  if (!load(name, place)) return {};
+  target = find_known(name, by_code);
+  if (target.unit != nullptr) return target;
+  error(problem(Code::sub_file, place,
+                fmt::format("{} does not hold {}{}", sources_[units_.back()->program.file()].name(),
+                            label_text(name), by_code ? " for M98" : " sub"),
+                "a called file holds the subroutine of its own name"));
+  return {};
+}
+
+bool Flow::load(std::int32_t name, Span place) {
+  const std::string& text = state_.names[name];
+  const auto loaded =
+      std::find_if(units_.begin(), units_.end(), [&](const auto& u) { return u->name == text; });
+  if (loaded != units_.end()) return false;  // it was told what is wrong with it
+  const SubFile file = find_sub_file(text, folders_);
+  if (!file.refusal.empty()) {
+    error(problem(Code::sub_file, place, file.refusal,
+                  "put the file below the program's folder, or name its folder with --subs"));
+    return false;
+  }
+  if (file.path.empty()) {
+    Diagnostic d = problem(Code::sub_not_found, place, fmt::format("there is no {}", label_text(name)));
+    std::string looked;
+    for (const std::string& folder : file.looked) looked += (looked.empty() ? "" : ", ") + folder;
+    d.notes.push_back(looked.empty() ? "a program from standard input has no folder; --subs names one"
+                                     : fmt::format("{}.ngc was looked for in {}", text, looked));
+    error(std::move(d));
+    return false;
+  }
+  try {
+    const std::uint32_t index = sources_.add(SourceText::open(file.path));
+    return size_allowed(index) && add_unit(index, text);
+  } catch (const std::system_error& e) {
+    error(problem(Code::sub_file, place, fmt::format("{}: {}", file.path, e.code().message())));
+    return false;
+  }
+}
+
+bool Flow::enter(Target target, bool by_code, Span place, const std::vector<double>& arguments) {
+  const std::uint32_t most = options_.bounds.call_depth;
+  if (most != 0 && calls_.size() >= most) {
+    Diagnostic d =
+        problem(Code::calls_too_deep, place, fmt::format("call {} within each other", calls_.size() + 1),
+                "a subroutine that calls itself needs a condition that ends it");
+    d.notes.push_back(fmt::format("allowed are {} (--limit call_depth=N)", most));
+    error(std::move(d));
+    stopped_ = true;
+    return false;
+  }
+  calls_.push_back({unit_, unit_->program.position(), target, by_code, 0});
+  places_.push_back(place);
+  CallLevel level;
+  level.own_numbered = !by_code;
+  if (!by_code) {
+    const auto first = state_.parameters.begin() + parameter::kFirst;
+    std::copy_n(first, kLocalParameters, level.numbered.begin());
+    std::fill_n(first, kLocalParameters, 0.0);
+    std::copy(arguments.begin(), arguments.end(), first);
+  }
+  state_.levels.push_back(std::move(level));
+  unit_ = target.unit;
+  unit_->defined[static_cast<std::size_t>(target.statement)] = true;
+  unit_->program.go_to(unit_->structure[target.statement].after);
+  return true;
+}
+
+void Flow::give_back(const Line& line) {
+  if (calls_.empty() || calls_.back().by_code) {
+    return error(problem(Code::sub_kind, line.span(line.flow.keyword), "no O call has led here",
+                         "M98 calls end with M99"));
+  }
+  double returned = 0;
+  state_.value_returned = !line.flow.arguments.empty() && argument(line, returned);
+  state_.returned_value = state_.value_returned ? returned : 0;
+  leave_call();
+}
+
+void Flow::return_code(const CallRequest& request) {
+  const Span place = request.place;
+  if (calls_.empty()) {
+    report_.warning(problem(Code::main_again, place, "the program ends here, after one run"));
+    return interpreter_.end_program(place);
+  }
+  Call& call = calls_.back();
+  if (!call.by_code) {
+    error(problem(Code::sub_kind, place, "the subroutine was called by O call",
+                  "end it with return or endsub"));
+    return leave_call();
+  }
+  if (!request.alone && options_.dialect != Dialect::fanuc) {
+    error(
+        problem(Code::o_word_place, place, "other words stand beside M99", "write M99 on a line of its own"));
+  }
+  if (call.repeats_left > 0 && report_.errors() == 0) {
+    --call.repeats_left;
+    unit_->program.go_to(unit_->structure[call.target.statement].after);
+    return;
+  }
+  leave_call();
+}
+
+void Flow::leave_call() {
+  const CallLevel& level = state_.levels.back();
+  if (level.own_numbered) {
+    std::copy(level.numbered.begin(), level.numbered.end(), state_.parameters.begin() + parameter::kFirst);
+  }
+  interpreter_.leave_level(places_.back());
+  unit_ = calls_.back().caller;
+  unit_->program.go_to(calls_.back().back);
+  calls_.pop_back();
+  places_.pop_back();
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,150 @@
+#include "gcode/flow/evaluate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "gcode/flow/arithmetic.h"
+#include "gcode/interpret/predefined.h"
+
+namespace kadr::gcode {
+namespace {
+
+constexpr double kIntegerTolerance = 1e-4;  // RS-274/NGC
+constexpr double kLargestInteger = 1e9;
+
+}  // namespace
+
+bool near_integer(double value, int& integer) {
+  if (!(std::fabs(value) <= kLargestInteger)) return false;
+  const double nearest = std::floor(value + 0.5);
+  if (std::fabs(value - nearest) > kIntegerTolerance) return false;
+  integer = static_cast<int>(nearest);
+  return true;
+}
+
+bool Evaluator::evaluate(const Line& line, std::int32_t first, std::int32_t root, const State& state,
+                         Report* report, double& value) {
+  if (values_.size() < line.nodes.size()) values_.resize(line.nodes.size());
+  report_ = report;
+  doubtful_ = false;
+  // operands stand before their node
+  for (std::int32_t i = first; i <= root; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (!node_value(line, line.nodes[at], state, values_[at])) return false;
+    if (!std::isfinite(values_[at])) {
+      return fail(Code::value_too_large, line.span(line.nodes[at].own),
+                  "the result here is beyond every number");
+    }
+  }
+  value = values_[static_cast<std::size_t>(root)];
+  return true;
+}
+
+bool Evaluator::node_value(const Line& line, const Node& node, const State& state, double& value) {
+  const auto operand = [&](std::int32_t i) { return values_[static_cast<std::size_t>(i)]; };
+  Arithmetic result;
+  switch (node.kind) {
+    case NodeKind::number:
+      value = node.value;
+      return true;
+    case NodeKind::named:
+      return read_named(line, node, state, value);
+    case NodeKind::exists: {
+      int number = 0;
+      value = near_integer(operand(node.left), number) && number >= parameter::kFirst &&
+                      number <= parameter::kLast
+                  ? 1
+                  : 0;
+      return true;
+    }
+    case NodeKind::exists_named:
+      value = is_predefined(node.left) || find_named(state, node.left) != nullptr || is_declared(node.left);
+      return true;
+    case NodeKind::parameter:
+      return read(line, node, state, operand(node.left), value);
+    case NodeKind::negate:
+      value = -operand(node.left);
+      return true;
+    case NodeKind::plus:
+    case NodeKind::group:
+      value = operand(node.left);
+      return true;
+    case NodeKind::atan:
+      value = atan_deg(operand(node.left), operand(node.right));
+      return true;
+    case NodeKind::binary:
+      result = apply(node.operation, operand(node.left), operand(node.right));
+      break;
+    case NodeKind::function:
+      result = apply(node.operation, operand(node.left));
+      break;
+  }
+  value = result.value;
+  if (result.refusal.empty()) return true;
+  const Code code = result.divided_by_zero ? Code::division_by_zero : Code::function_domain;
+  return fail(code, line.span(node.own), std::move(result.refusal));
+}
+
+bool Evaluator::read(const Line& line, const Node& node, const State& state, double index, double& value) {
+  if (state.uncertain.parameters) doubtful_ = true;
+  int number = 0;
+  if (!near_integer(index, number) || number < parameter::kFirst || number > parameter::kLast) {
+    return fail(Code::parameter_range, line.span(node.own),
+                fmt::format("parameter {}, allowed are whole numbers from {} to {}", index, parameter::kFirst,
+                            parameter::kLast));
+  }
+  if (number >= parameter::kPosition && number <= parameter::kPositionLast && state.compensating()) {
+    return fail(Code::compensation_conflict, line.span(node.own),
+                fmt::format("#{} tells where the tool is, which the next move decides", number));
+  }
+  value = read_parameter(state, number);
+  const bool own = number >= parameter::kOwnFirst && number <= parameter::kOwnLast;
+  if (own && !state.parameters_set[static_cast<std::size_t>(number)])
+    tell_never_set(line, node, state, number);
+  return true;
+}
+
+void Evaluator::tell_never_set(const Line& line, const Node& node, const State& state, int number) {
+  if (report_ == nullptr || state.uncertain.parameters || !told_.insert(number).second) return;
+  report_->warning(problem(Code::parameter_never_set, line.span(node.own),
+                           fmt::format("#{} is 0, because nothing has set it", number),
+                           "set it at the head of the program, or correct the number"));
+}
+
+bool Evaluator::read_named(const Line& line, const Node& node, const State& state, double& value) {
+  if (is_predefined(node.left)) {
+    value = read_predefined(state, node.left, line.number);
+    return true;
+  }
+  if (state.uncertain.parameters) doubtful_ = true;
+  if (const double* found = find_named(state, node.left)) {
+    value = *found;
+    return true;
+  }
+  if (is_declared(node.left)) {
+    value = 0;
+    if (report_ != nullptr) {
+      report_->warning(problem(Code::parameter_never_set, line.span(node.own),
+                               fmt::format("#<{}> is 0 here, because its first value holds behind this line",
+                                           state.names[node.left]),
+                               "set it on a line before"));
+    }
+    return true;
+  }
+  return fail(Code::name_not_set, line.span(node.own),
+              fmt::format("#<{}> has no value here", state.names[node.left]));
+}
+
+bool Evaluator::is_declared(std::int32_t name) const {
+  return std::find(declared_.begin(), declared_.end(), name) != declared_.end();
+}
+
+bool Evaluator::fail(Code code, Span span, std::string label) {
+  if (report_ != nullptr && !doubtful_) report_->error(problem(code, span, std::move(label)));
+  return false;
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "gcode/read/report.h"
+#include "gcode/interpret/state.h"
+#include "gcode/read/tree.h"
+
+namespace kadr::gcode {
+
+/// Computes expressions of a line with the parameters as they were before the line.
+class Evaluator {
+ public:
+  /// Value of the tree with nodes [first, root]. Angles in degrees. Functions come from
+  /// machine/base/numbers.h, so a program gives the same pulses on every machine.
+  /// @return false if there is no value: a division by zero, an argument outside a function's domain, a
+  /// parameter that
+  ///         does not exist, an overflow. It is told to `report` unless that is null or the value depends on
+  ///         a parameter whose setting failed earlier.
+  bool evaluate(const Line& line, std::int32_t first, std::int32_t root, const State& state, Report* report,
+                double& value);
+  /// True if the last evaluated expression read a parameter that may be wrong after an earlier error.
+  bool doubtful() const { return doubtful_; }
+  /// From here on the line sets this name: it exists, with the value 0 until the line has been run.
+  void declare(std::int32_t name) { declared_.push_back(name); }
+  void begin_line() { declared_.clear(); }
+
+ private:
+  bool node_value(const Line& line, const Node& node, const State& state, double& value);
+  bool read(const Line& line, const Node& node, const State& state, double index, double& value);
+  bool read_named(const Line& line, const Node& node, const State& state, double& value);
+  bool fail(Code code, Span span, std::string label);
+
+  bool is_declared(std::int32_t name) const;
+  void tell_never_set(const Line& line, const Node& node, const State& state, int number);
+
+  std::vector<double> values_;          ///< [nodes of the line]
+  std::set<int> told_;                  ///< parameters told as never set
+  std::vector<std::int32_t> declared_;  ///< names that this line sets, as far as it has been read
+  Report* report_ = nullptr;
+  bool doubtful_ = false;
+};
+
+/// A whole number within 1e-4 of the value, as parameter numbers and P, T, H words need.
+bool near_integer(double value, int& integer);
+
+}  // namespace kadr::gcode

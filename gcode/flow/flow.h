@@ -1,0 +1,103 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "gcode/interpret/interpreter.h"
+#include "gcode/read/program.h"
+#include "gcode/flow/structure.h"
+
+namespace kadr::gcode {
+
+/// Runs a program line by line in the order that its O words, M98 and M99 say: subroutines of its own and of
+/// files beside it, conditions, loops. The lines themselves are the Interpreter's.
+class Flow {
+ public:
+  Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& options, Report& report,
+       Interpreter& interpreter);
+  void run();
+  /// Where the run ended.
+  Span end() const { return end_; }
+
+ private:
+  struct Unit {
+    Program program;
+    Structure structure;
+    std::string name;  ///< file name without folder and ending; empty for the main program
+    std::vector<std::int64_t> passes_left = {};  ///< [statements] of a repeat; kNoPasses: it is not under way
+    std::vector<bool> defined = {};              ///< [statements] subs that were called or passed over
+  };
+  /// A subroutine in a unit.
+  struct Target {
+    Unit* unit = nullptr;
+    int statement = -1;
+  };
+  /// A call that has not returned.
+  struct Call {
+    Unit* caller = nullptr;
+    Program::Position back;
+    Target target;
+    bool by_code = false;            ///< M98
+    std::uint64_t repeats_left = 0;  ///< M98 L
+  };
+  bool add_unit(std::uint32_t file, std::string name);
+  bool size_allowed(std::uint32_t file);
+  void tell_words_behind_end();
+  void step(const Line& line);
+  void statement(const Line& line);
+  void branch(const Line& line, int index);
+  void pass_definition(int index);
+
+  // loops.cpp
+  void while_head(const Line& line, int index);
+  void do_foot(const Line& line, int index);
+  void repeat(const Line& line, int index);
+  void repeat_end(int index);
+  void break_loop(int index);
+  void continue_loop(int index);
+  void pass_over_breaks(int from, int loop);
+  void leave_loop(int loop);
+  void next_pass(int loop);
+  bool count_pass(int beginning);
+  void warn_kept(int index, std::string label, std::string cause);
+
+  void call_statement(const Line& line);
+  void call_code(const CallRequest& request);
+  Target find(std::int32_t name, bool by_code, Span place);
+  Target find_known(std::int32_t name, bool by_code) const;
+  bool load(std::int32_t name, Span place);
+  bool enter(Target target, bool by_code, Span place, const std::vector<double>& arguments);
+  void give_back(const Line& line);
+  void leave_call();
+  void return_code(const CallRequest& request);
+
+  bool value(const Line& line, std::int32_t first, std::int32_t root, double& result);
+  bool argument(const Line& line, double& result) {
+    return value(line, line.flow.first, line.flow.arguments.front(), result);
+  }
+  std::string label_text(std::int32_t name) const;
+  void error(Diagnostic d) { report_.error(std::move(d)); }
+  const Statement& at(int index) const { return unit_->structure[index]; }
+
+  SourceSet& sources_;
+  std::uint32_t file_;
+  const InterpretOptions& options_;
+  Report& report_;
+  Interpreter& interpreter_;
+  State& state_;
+  Evaluator evaluator_;
+  std::vector<std::unique_ptr<Unit>> units_;
+  std::vector<std::string> folders_;
+  Unit* unit_ = nullptr;
+  std::vector<Call> calls_;
+  std::vector<Span> places_;  ///< [calls], where each was made
+  static constexpr std::int64_t kNoPasses = -1;
+  int repeat_gone_back_to_ = -1;  ///< the repeat whose endrepeat was just reached
+  bool break_kept_ = false;       ///< a break was met, and no foot of a do since
+  bool continue_kept_ = false;  ///< a continue was met, and no end of a while or repeat was passed over since
+  std::uint64_t passes_ = 0;
+  Span end_;
+  bool straight_ = false;  ///< no O words: nothing leads behind the program's end
+  bool stopped_ = false;
+};
+
+}  // namespace kadr::gcode

@@ -1,0 +1,355 @@
+#include "gcode/flow/structure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "gcode/flow/evaluate.h"
+#include "gcode/interpret/words.h"
+
+namespace kadr::gcode {
+namespace {
+
+std::string_view word_text(FlowWord word) {
+  switch (word) {
+    case FlowWord::sub:
+      return "sub";
+    case FlowWord::end_sub:
+      return "endsub";
+    case FlowWord::if_true:
+      return "if";
+    case FlowWord::else_if:
+      return "elseif";
+    case FlowWord::otherwise:
+      return "else";
+    case FlowWord::end_if:
+      return "endif";
+    case FlowWord::while_true:
+      return "while";
+    case FlowWord::end_while:
+      return "endwhile";
+    case FlowWord::do_once:
+      return "do";
+    case FlowWord::repeat:
+      return "repeat";
+    case FlowWord::end_repeat:
+      return "endrepeat";
+    case FlowWord::break_loop:
+      return "break";
+    case FlowWord::continue_loop:
+      return "continue";
+    case FlowWord::return_from:
+      return "return";
+    case FlowWord::call:
+      return "call";
+    case FlowWord::label:
+      break;
+  }
+  return "";
+}
+
+std::string_view end_text(FlowWord begin) {
+  return begin == FlowWord::sub          ? "endsub"
+         : begin == FlowWord::if_true    ? "endif"
+         : begin == FlowWord::while_true ? "endwhile"
+         : begin == FlowWord::do_once    ? "while [condition]"
+                                         : "endrepeat";
+}
+
+/// The beginning that a word closes or continues.
+FlowWord beginning_of(FlowWord word) {
+  switch (word) {
+    case FlowWord::end_sub:
+      return FlowWord::sub;
+    case FlowWord::end_while:
+      return FlowWord::while_true;
+    case FlowWord::end_repeat:
+      return FlowWord::repeat;
+    default:
+      return FlowWord::if_true;
+  }
+}
+
+/// The controller passes over what stands beside an O word, messages too.
+void warn_comments(const Line& line, Report& report) {
+  for (const Item& item : line.items) {
+    if (item.kind != ItemKind::comment || active_comment(line.slice(item.bytes)).command.empty()) continue;
+    report.warning(problem(Code::comment_not_run, line.span(item.bytes),
+                           "a comment beside an O word is not run", "write it on a line of its own"));
+  }
+}
+
+bool is_loop(FlowWord word) { return word == FlowWord::while_true || word == FlowWord::do_once; }
+
+}  // namespace
+
+/// State while the O words of one file are read in order.
+struct Structure::Reader {
+  Structure& structure;
+  Names& names;
+  std::vector<Diagnostic> problems = {};
+  std::vector<int> open = {};                   ///< beginnings without an end so far, the innermost last
+  std::vector<int> last_branch = {};            ///< [open], the latest branch of an if
+  std::set<std::int32_t> labels_in_scope = {};  ///< of ifs and loops, in this sub or main program
+  std::set<std::int32_t> labels_of_main = {};   ///< kept while a sub is read
+
+  void error(Code code, Span span, std::string label, std::string note = {}, std::string help = {}) {
+    Diagnostic d = problem(code, span, std::move(label), std::move(help));
+    if (!note.empty()) d.notes.push_back(std::move(note));
+    problems.push_back(std::move(d));
+  }
+
+  std::string name_of(std::int32_t name) const {
+    const std::string& text = names[name];
+    const bool digits = std::all_of(text.begin(), text.end(), is_digit);
+    return digits ? "O" + text : "O<" + text + ">";
+  }
+  std::string told(int index) const {
+    const Statement& s = structure[index];
+    return fmt::format("{} {} of line {}", name_of(s.name), word_text(s.word), s.span.line);
+  }
+
+  void add(const Line& line, Program::Position at, Program::Position after) {
+    const FlowStatement& flow = line.flow;
+    Statement s;
+    s.word = flow.word;
+    s.name = flow.name;
+    s.span = line.span({flow.label.begin, std::max(flow.label.end, flow.keyword.end)});
+    s.at = at;
+    s.after = after;
+    if (flow.word != FlowWord::call && flow.name < 0 && !fixed_label(line, s)) return;
+    const int index = static_cast<int>(structure.statements_.size());
+    structure.statements_.push_back(s);
+    bind(index);
+  }
+
+  /// O[100] written as an expression without parameters is a fixed label, too.
+  bool fixed_label(const Line& line, Statement& s) {
+    const FlowStatement& flow = line.flow;
+    for (std::int32_t i = flow.label_first; i <= flow.label_root; ++i) {
+      const NodeKind kind = line.nodes[static_cast<std::size_t>(i)].kind;
+      if (kind != NodeKind::parameter && kind != NodeKind::named && kind != NodeKind::exists &&
+          kind != NodeKind::exists_named)
+        continue;
+      error(Code::o_label_computed, s.span,
+            fmt::format("the label of this {} depends on a parameter", word_text(flow.word)));
+      return false;
+    }
+    double value = 0;
+    int number = 0;
+    if (!Evaluator().evaluate(line, flow.label_first, flow.label_root, State(), nullptr, value) ||
+        !near_integer(value, number) || number < 0) {
+      error(Code::o_label_missing, s.span, fmt::format("the label is {}", figure(value)), {},
+            "a label is a whole number from 0");
+      return false;
+    }
+    s.name = names.number(std::to_string(number));
+    return true;
+  }
+
+  void bind(int index) {
+    Statement& s = structure.statements_[static_cast<std::size_t>(index)];
+    switch (s.word) {
+      case FlowWord::label:
+        structure.labels_.try_emplace(s.name, index);
+        // what follows may be another program: its labels are its own
+        if (open.empty()) labels_in_scope.clear();
+        return;
+      case FlowWord::call:
+        return;
+      case FlowWord::sub:
+      case FlowWord::if_true:
+      case FlowWord::do_once:
+      case FlowWord::repeat:
+        return begin(index);
+      case FlowWord::while_true:
+        if (!open.empty() && structure[open.back()].word == FlowWord::do_once &&
+            structure[open.back()].name == s.name)
+          return close(index);
+        return begin(index);
+      case FlowWord::end_sub:
+      case FlowWord::end_if:
+      case FlowWord::end_while:
+      case FlowWord::end_repeat:
+        return finish(index);
+      case FlowWord::else_if:
+      case FlowWord::otherwise:
+        return branch(index);
+      case FlowWord::return_from:
+      case FlowWord::break_loop:
+      case FlowWord::continue_loop:
+        return leave(index);
+    }
+  }
+
+  void begin(int index) {
+    const Statement& s = structure[index];
+    if (s.word == FlowWord::sub) {
+      for (const int outer : open) {
+        if (structure[outer].word != FlowWord::sub) continue;
+        error(Code::o_misplaced, s.span, "a sub inside a sub", fmt::format("{} is still open", told(outer)));
+      }
+      const auto [it, is_new] = structure.subs_.try_emplace(s.name, index);
+      if (!is_new) {
+        error(Code::o_label_twice, s.span, "a second sub of this name",
+              fmt::format("the first one stands in line {}", structure[it->second].span.line));
+      }
+      labels_of_main.swap(labels_in_scope);
+      labels_in_scope.clear();
+    } else if (!labels_in_scope.insert(s.name).second) {
+      error(Code::o_label_twice, s.span, fmt::format("{} begins something else already", name_of(s.name)), {},
+            "give it a label of its own, and the words that belong to it as well");
+    }
+    open.push_back(index);
+    last_branch.push_back(index);
+  }
+
+  /// An end word: it must name the innermost thing that is open.
+  void finish(int index) {
+    const Statement& s = structure[index];
+    const bool fits = !open.empty() && structure[open.back()].name == s.name &&
+                      structure[open.back()].word == beginning_of(s.word);
+    if (fits) return close(index);
+    if (s.word == FlowWord::end_while && !open.empty() && structure[open.back()].word == FlowWord::do_once) {
+      // the foot of a do loop is a while
+      error(Code::o_not_opened, s.span, "no while of this label is open here",
+            fmt::format("open is {}, which ends with while [condition]", told(open.back())));
+      return close(index);
+    }
+    not_opened(index);
+  }
+
+  void not_opened(int index) {
+    const Statement& s = structure[index];
+    error(Code::o_not_opened, s.span,
+          fmt::format("no {} {} is open here", name_of(s.name), word_text(beginning_of(s.word))),
+          open.empty() ? "nothing is open here" : fmt::format("open is {}", told(open.back())));
+    // an end that fits something further out ends what is inside it as well, or one slip would be told often
+    for (std::size_t i = open.size(); i-- > 0;) {
+      if (structure[open[i]].name != s.name || structure[open[i]].word != beginning_of(s.word)) continue;
+      while (open.size() > i) drop();
+      return;
+    }
+  }
+
+  void close(int index) {
+    const int first = open.back();
+    Statement& s = structure.statements_[static_cast<std::size_t>(index)];
+    s.begin = first;
+    structure.statements_[static_cast<std::size_t>(first)].end = index;
+    structure.statements_[static_cast<std::size_t>(last_branch.back())].next = index;
+    drop();
+  }
+
+  void drop() {
+    if (structure[open.back()].word == FlowWord::sub) {
+      labels_in_scope.swap(labels_of_main);
+      labels_of_main.clear();
+    }
+    open.pop_back();
+    last_branch.pop_back();
+  }
+
+  void branch(int index) {
+    Statement& s = structure.statements_[static_cast<std::size_t>(index)];
+    const bool fits = !open.empty() && structure[open.back()].name == s.name &&
+                      structure[open.back()].word == FlowWord::if_true;
+    if (!fits) return not_opened(index);
+    const int last = last_branch.back();
+    if (structure[last].word == FlowWord::otherwise) {
+      error(Code::o_misplaced, s.span, fmt::format("{} behind else", word_text(s.word)),
+            fmt::format("{} is the last branch", told(last)));
+    }
+    s.begin = open.back();
+    structure.statements_[static_cast<std::size_t>(last)].next = index;
+    last_branch.back() = index;
+  }
+
+  /// return, break, continue.
+  void leave(int index) {
+    Statement& s = structure.statements_[static_cast<std::size_t>(index)];
+    for (std::size_t i = open.size(); i-- > 0;) {
+      const Statement& outer = structure[open[i]];
+      const bool fits = s.word == FlowWord::return_from ? outer.word == FlowWord::sub
+                                                        : is_loop(outer.word) && outer.name == s.name;
+      if (!fits) continue;
+      s.begin = open[i];
+      return;
+    }
+    if (s.word == FlowWord::return_from) {
+      return error(Code::o_misplaced, s.span, "no sub is open here");
+    }
+    error(Code::o_misplaced, s.span, fmt::format("no while or do loop {} is open here", name_of(s.name)),
+          open.empty() ? "nothing is open here" : fmt::format("open is {}", told(open.back())));
+  }
+
+  void end_of_file() {
+    for (const int index : open) {
+      const Statement& s = structure[index];
+      error(Code::o_not_closed, s.span, fmt::format("no {} {} follows", name_of(s.name), end_text(s.word)));
+    }
+  }
+};
+
+namespace {
+
+bool begins_subroutine(const Line& line) {
+  return line.has_flow && (line.flow.word == FlowWord::sub || line.flow.word == FlowWord::label);
+}
+
+bool ends_program(const Line& line) {
+  return std::any_of(line.items.begin(), line.items.end(), [](const Item& item) {
+    return item.kind == ItemKind::word && item.letter == 'M' && item.value < 0 &&
+           (item.number == 2 || item.number == 30);
+  });
+}
+
+}  // namespace
+
+bool Structure::read(Program& program, bool block_delete, Names& names, Report& report) {
+  Reader reader{*this, names};
+  bool words = false;
+  bool unread = false;
+  bool behind_end = false;
+  for (;;) {
+    program.mute(behind_end);
+    const Program::Position at = program.position();
+    const Line* line = program.next();
+    if (line == nullptr) break;
+    if (line->items.empty()) continue;
+    if (block_delete && line->items.front().kind == ItemKind::block_delete) continue;
+    // what can't be read behind M2 is a remark, until a subroutine begins
+    if (behind_end && (line->failed || !begins_subroutine(*line))) continue;
+    behind_end = reader.open.empty() && ends_program(*line);
+    if (line->has_flow && line->failed) unread = true;
+    if (line->has_flow && !line->failed) {
+      reader.add(*line, at, program.position());
+      warn_comments(*line, report);
+    }
+    const bool percent = std::any_of(line->items.begin(), line->items.end(),
+                                     [](const Item& item) { return item.kind == ItemKind::percent; });
+    if (percent && words) break;
+    words = words || percent || line->has_flow ||
+            std::any_of(line->items.begin(), line->items.end(), [](const Item& item) {
+              return item.kind == ItemKind::word || item.kind == ItemKind::setting;
+            });
+  }
+  reader.end_of_file();
+  program.rewind();
+  // an O word that could not be read leaves others without their partner: it alone is told
+  if (unread) return false;
+  for (Diagnostic& problem : reader.problems) report.error(std::move(problem));
+  return reader.problems.empty();
+}
+
+int Structure::at_line(std::uint32_t line) const {
+  const auto it =
+      std::lower_bound(statements_.begin(), statements_.end(), line,
+                       [](const Statement& s, std::uint32_t wanted) { return s.span.line < wanted; });
+  const bool bound = it != statements_.end() && it->span.line == line;
+  return bound ? static_cast<int>(it - statements_.begin()) : -1;
+}
+
+}  // namespace kadr::gcode

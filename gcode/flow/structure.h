@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "gcode/read/program.h"
+
+namespace kadr::gcode {
+
+/// An O word with the words that belong to it, as indices in Structure.
+struct Statement {
+  FlowWord word = FlowWord::label;
+  std::int32_t name = -1;
+  Span span;
+  Program::Position at;     ///< its own line
+  Program::Position after;  ///< the line after it
+  int begin = -1;  ///< the sub, if, while, do or repeat that it belongs to; -1: it is a beginning itself
+  int next = -1;   ///< if, elseif, else: the next branch or the end
+  int end = -1;    ///< of a beginning: endsub, endif, endwhile, endrepeat, or the while of a do
+};
+
+/// All O words of a file, bound together before anything runs.
+class Structure {
+ public:
+  /// Reads the whole program once, so that every mistake of its text is told, and rewinds it.
+  /// @return false if O words don't fit together (told): nothing of the file may be run
+  bool read(Program& program, bool block_delete, Names& names, Report& report);
+
+  /// The statement on a line that holds an O word, -1 if it lies behind the end of the program.
+  int at_line(std::uint32_t line) const;
+  std::size_t size() const { return statements_.size(); }
+  const Statement& operator[](int index) const { return statements_[static_cast<std::size_t>(index)]; }
+  /// The `sub` of that name, -1 if there is none.
+  int sub(std::int32_t name) const { return find(subs_, name); }
+  /// The O number alone that heads a subroutine for M98, -1 if there is none.
+  int label(std::int32_t name) const { return find(labels_, name); }
+
+ private:
+  struct Reader;
+  static int find(const std::unordered_map<std::int32_t, int>& map, std::int32_t name) {
+    const auto it = map.find(name);
+    return it == map.end() ? -1 : it->second;
+  }
+
+  std::vector<Statement> statements_;  ///< in the order of lines
+  std::unordered_map<std::int32_t, int> subs_, labels_;
+};
+
+}  // namespace kadr::gcode

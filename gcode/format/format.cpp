@@ -1,0 +1,373 @@
+#include "gcode/format/format.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "gcode/dialect/codes.h"
+#include "gcode/gcode.h"
+#include "gcode/read/names.h"
+#include "gcode/read/program.h"
+#include "gcode/read/scanner.h"
+#include "machine/base/utf8.h"
+
+namespace kadr::gcode {
+namespace {
+
+constexpr std::size_t kIndent = 2;
+/// Longer lines don't push the comments of their neighbours to the right.
+constexpr std::size_t kAlignedUpTo = 60;
+/// Letters whose number is a name, not a length: a point behind it means nothing anywhere.
+constexpr std::string_view kCodeLetters = "GMNT";
+
+// what is printed first has the lower rank; items of one rank keep their order
+constexpr std::int32_t kHeadRank = 0;
+constexpr std::int32_t kNumberRank = 1;
+constexpr std::int32_t kFirstRank = 2;  // M98 must be the first word; a name exists from its setting on
+constexpr std::int32_t kGRank = 100;
+constexpr std::int32_t kLetterRank = 200;
+constexpr std::int32_t kMRank = 300;
+constexpr std::int32_t kSettingRank = 400;
+constexpr std::int32_t kMisplacedRank = 401;  // a line number inside a line stays a mistake
+constexpr std::int32_t kCommentRank = 500;
+constexpr std::int32_t kUnknownCode = 50;  // within G and M: behind the known ones
+
+constexpr std::string_view kLetterOrder = "XYZABCUVW@^IJKRPQLDHEFS$T";
+
+// groups in the order in which a line's codes act
+constexpr std::array<GGroup, kGGroups> kGOrder = {
+    GGroup::feed_mode, GGroup::spindle_mode, GGroup::plane,        GGroup::units,
+    GGroup::diameter,  GGroup::compensation, GGroup::tool_length,  GGroup::coordinate_system,
+    GGroup::path,      GGroup::distance,     GGroup::arc_distance, GGroup::retract,
+    GGroup::nonmodal,  GGroup::g92_state,    GGroup::motion};
+constexpr std::array<MGroup, kMGroups> kMOrder = {MGroup::inputs,      MGroup::tool_change, MGroup::spindle,
+                                                  MGroup::modal_state, MGroup::coolant,     MGroup::overrides,
+                                                  MGroup::call,        MGroup::stop};
+
+template <class Group, std::size_t N>
+std::int32_t place_in(const std::array<Group, N>& order, Group group) {
+  return static_cast<std::int32_t>(std::find(order.begin(), order.end(), group) - order.begin());
+}
+
+/// Place of a G word among the others of its line; of a computed or unknown one the group is not known.
+std::int32_t g_rank(const Item& item) {
+  constexpr double kLargestCode = 1000;
+  if (item.value >= 0 || !(item.number >= 0 && item.number < kLargestCode)) return kUnknownCode;
+  const GCode code = g_code(static_cast<int>(std::floor(item.number * 10 + 0.5)));
+  return code.standing == Standing::unknown ? kUnknownCode : place_in(kGOrder, code.group);
+}
+
+std::int32_t m_rank(const Item& item) {
+  constexpr double kLargestCode = 1000;
+  if (item.value >= 0 || !(item.number >= 0 && item.number < kLargestCode)) return kUnknownCode;
+  const MCode code = m_code(static_cast<int>(std::floor(item.number + 0.5)));
+  return code.standing == Standing::unknown ? kUnknownCode : place_in(kMOrder, code.group);
+}
+
+std::int32_t rank_of(const Item& item) {
+  switch (item.kind) {
+    case ItemKind::setting:
+      return kSettingRank;
+    case ItemKind::comment:
+    case ItemKind::line_comment:
+      return kCommentRank;
+    case ItemKind::word:
+      break;
+    default:
+      return item.kind == ItemKind::o_word ? kGRank : kHeadRank;
+  }
+  if (item.letter == 'N') return kNumberRank;
+  if (item.letter == 'G') return kGRank + g_rank(item);
+  if (item.letter == 'M') return kMRank + m_rank(item);
+  return kLetterRank + static_cast<std::int32_t>(kLetterOrder.find(item.letter));
+}
+
+bool is_comment(const Item& item) {
+  return item.kind == ItemKind::comment || item.kind == ItemKind::line_comment;
+}
+
+/// Capital letters without blanks; a name in < > stays as written.
+void append_plain(std::string& out, std::string_view text) {
+  const std::size_t name = std::min(text.find('<'), text.size());
+  for (const char c : text.substr(0, name))
+    if (!is_blank(c)) out += upper(c);
+  out += text.substr(name);
+}
+
+std::string_view without_blanks_behind(std::string_view text) {
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string_view keyword_text(FlowWord word) {
+  constexpr std::array<std::string_view, 16> kTexts = {
+      "",      "sub",   "endsub",   "call", "return", "if",        "elseif", "else",
+      "endif", "while", "endwhile", "do",   "repeat", "endrepeat", "break",  "continue"};
+  return kTexts[static_cast<std::size_t>(word)];
+}
+
+}  // namespace
+
+std::string plain_number(std::string_view written, bool point) {
+  std::string whole, fraction;
+  bool negative = false;
+  bool has_point = false;
+  for (const char c : written) {
+    if (c == '-') negative = true;
+    if (c == '.') has_point = true;
+    if (is_digit(c)) (has_point ? fraction : whole) += c;
+  }
+  const std::size_t first = std::min(whole.find_first_not_of('0'), whole.size());
+  whole.erase(0, first);
+  fraction.erase(fraction.find_last_not_of('0') + 1);
+  std::string out = negative ? "-" : "";
+  out += whole.empty() ? "0" : whole;
+  if (!fraction.empty() || (has_point && point)) out += '.';
+  return out + fraction;
+}
+
+void Formatter::add(const Line& line) {
+  note_percent(line);
+  if (line.failed) {
+    keep(line.text);
+    return;
+  }
+  const std::size_t indent = indentation(line);
+  sort_items(line);
+  Formatted formatted;
+  std::string& code = formatted.code;
+  bool empty = true;  // no word stands on the line yet
+  for (const std::uint32_t at : order_) {
+    const Item& item = line.items[at];
+    if (is_comment(item)) {
+      if (!formatted.comment.empty()) formatted.comment += ' ';
+      formatted.comment += without_blanks_behind(line.slice(item.bytes));
+      continue;
+    }
+    const bool head = item.kind == ItemKind::byte_order_mark || item.kind == ItemKind::block_delete;
+    if (!head && empty) {
+      code.append(indent, ' ');
+      empty = false;
+    } else if (!head) {
+      code += ' ';
+    }
+    append_item(code, line, at);
+  }
+  if (!empty && !formatted.comment.empty()) {
+    run_.push_back(std::move(formatted));
+    return;
+  }
+  flush();
+  if (!formatted.comment.empty()) code += std::string(indent, ' ') + formatted.comment;
+  out_ += code + '\n';
+}
+
+void Formatter::keep(std::string_view text) {
+  flush();
+  // each carriage return before the line end would be taken for a part of it the next time
+  while (!text.empty() && text.back() == '\r') text.remove_suffix(1);
+  out_ += text;
+  out_ += '\n';
+}
+
+void Formatter::sort_items(const Line& line) {
+  const auto count = static_cast<std::uint32_t>(line.items.size());
+  order_.resize(count);
+  ranks_.resize(count);
+  bool first = true;  // no word but N, and no setting, stands before
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Item& item = line.items[i];
+    order_[i] = i;
+    const bool calls = item.letter == 'M' && item.value < 0 && item.number == 98;
+    const bool names = item.kind == ItemKind::setting && item.name >= 0;
+    ranks_[i] = item.letter == 'N' && !first ? kMisplacedRank
+                : first && (calls || names)  ? kFirstRank
+                                             : rank_of(item);
+    if ((item.kind == ItemKind::word && item.letter != 'N') || item.kind == ItemKind::setting) first = false;
+  }
+  std::stable_sort(order_.begin(), order_.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return ranks_[a] < ranks_[b]; });
+}
+
+void Formatter::append_item(std::string& out, const Line& line, std::uint32_t at) {
+  const Item& item = line.items[at];
+  switch (item.kind) {
+    case ItemKind::word:
+      out += item.letter;
+      if (item.value < 0) {
+        const bool code = kCodeLetters.find(item.letter) != std::string_view::npos;
+        out += plain_number(line.slice({item.bytes.begin + 1, item.bytes.end}), !code);
+      } else {
+        append_lexemes(out, line, at);
+      }
+      break;
+    case ItemKind::setting:
+      append_lexemes(out, line, at);
+      break;
+    case ItemKind::o_word:
+      append_o_word(out, line, at);
+      break;
+    default:
+      out += line.slice(item.bytes);
+      break;
+  }
+}
+
+void Formatter::append_o_word(std::string& out, const Line& line, std::uint32_t at) {
+  const FlowStatement& flow = line.flow;
+  out += 'O';
+  if (flow.label_root < 0) {
+    const std::string_view label = line.slice({flow.label.begin + 1, flow.label.end});
+    const std::size_t name = label.find('<');
+    if (name != std::string_view::npos)
+      out += label.substr(name);
+    else
+      out += plain_number(label, false);
+  }
+  append_lexemes(out, line, at);
+}
+
+/// The parts of an item's expressions in the order written. Not by a walk down the tree: a line of a megabyte
+/// may hold an expression as deep.
+void Formatter::append_lexemes(std::string& out, const Line& line, std::uint32_t at) {
+  const Item& item = line.items[at];
+  lexemes_.clear();
+  const std::int32_t end_node = node_end(line, at);
+  for (std::int32_t i = item.first; i < end_node; ++i) {
+    const Node& node = line.nodes[static_cast<std::size_t>(i)];
+    // a sign + changes nothing; before a number it would be read as the number's own the next time
+    if (node.kind != NodeKind::plus) lexemes_.push_back({node.own, node.kind});
+    if (node.closing.end > node.closing.begin) lexemes_.push_back({node.closing, NodeKind::group});
+  }
+  const bool o_word = item.kind == ItemKind::o_word;
+  if (item.kind == ItemKind::setting) {
+    const std::uint32_t begin = item.bytes.begin;
+    lexemes_.push_back({{begin, item.name < 0 ? begin + 1 : item.equals}, NodeKind::parameter});
+    lexemes_.push_back({{item.equals, item.equals + 1}, NodeKind::group});
+  }
+  if (o_word && line.flow.keyword.end > 0) lexemes_.push_back({line.flow.keyword, NodeKind::function});
+  std::sort(lexemes_.begin(), lexemes_.end(),
+            [](const Lexeme& a, const Lexeme& b) { return a.bytes.begin < b.bytes.begin; });
+
+  int depth = 0;
+  for (const Lexeme& lexeme : lexemes_) {
+    const std::string_view text = line.slice(lexeme.bytes);
+    if (o_word && lexeme.bytes.begin == line.flow.keyword.begin && line.flow.keyword.end > 0) {
+      out += ' ';
+      out += keyword_text(line.flow.word);
+      continue;
+    }
+    if (o_word && depth == 0 && text == "[" && lexeme.bytes.begin > line.flow.keyword.begin) out += ' ';
+    if (lexeme.kind == NodeKind::number) {
+      out += plain_number(text);
+    } else if (lexeme.kind == NodeKind::binary) {
+      out += ' ';
+      append_plain(out, text);
+      out += ' ';
+    } else {
+      append_plain(out, without_blanks_behind(text));
+    }
+    if (text.find('[') != std::string_view::npos) ++depth;
+    if (text == "]") --depth;
+  }
+}
+
+/// Indentation of this line, in blanks; opens and closes what its O word says.
+std::size_t Formatter::indentation(const Line& line) {
+  if (!line.has_flow) return kIndent * open_.size();
+  const FlowStatement& flow = line.flow;
+  const auto close = [&](FlowWord word) {
+    // a label that closes nothing is somebody else's mistake
+    for (std::size_t i = open_.size(); i-- > 0;) {
+      if (open_[i].word != word || open_[i].name != flow.name) continue;
+      open_.resize(i);
+      return true;
+    }
+    return false;
+  };
+  const auto open = [&] {
+    open_.push_back({flow.word, flow.name});
+    return kIndent * (open_.size() - 1);
+  };
+  switch (flow.word) {
+    case FlowWord::sub:
+    case FlowWord::if_true:
+    case FlowWord::do_once:
+    case FlowWord::repeat:
+      return open();
+    case FlowWord::while_true:
+      if (close(FlowWord::do_once)) break;
+      return open();
+    case FlowWord::else_if:
+    case FlowWord::otherwise:
+      return kIndent * (open_.empty() ? 0 : open_.size() - 1);
+    case FlowWord::end_sub:
+      close(FlowWord::sub);
+      break;
+    case FlowWord::end_if:
+      close(FlowWord::if_true);
+      break;
+    case FlowWord::end_while:
+      close(FlowWord::while_true);
+      break;
+    case FlowWord::end_repeat:
+      close(FlowWord::repeat);
+      break;
+    default:
+      break;
+  }
+  return kIndent * open_.size();
+}
+
+/// The first % opens a program, the next one, or the first behind a word, ends it.
+void Formatter::note_percent(const Line& line) {
+  for (const Item& item : line.items) {
+    if (item.kind == ItemKind::percent) ended_ = started_;
+    started_ = started_ || item.kind == ItemKind::percent || item.kind == ItemKind::word ||
+               item.kind == ItemKind::setting || item.kind == ItemKind::o_word;
+  }
+}
+
+/// Writes the lines held back, their comments below each other.
+void Formatter::flush() {
+  std::size_t column = 0;
+  for (const Formatted& line : run_) {
+    const std::size_t width = count_code_points(line.code);
+    if (width <= kAlignedUpTo) column = std::max(column, width);
+  }
+  for (const Formatted& line : run_) {
+    const std::size_t width = count_code_points(line.code);
+    out_ += line.code;
+    out_.append(width < column ? column - width + 1 : 1, ' ');
+    out_ += line.comment;
+    out_ += '\n';
+  }
+  run_.clear();
+}
+
+bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics,
+                    std::string& out) {
+  Report report(diagnostics);
+  Names names;
+  Program program(sources, file, {}, names, report);
+  Formatter formatter(out);
+  while (!formatter.ended()) {
+    const Line* line = program.next();
+    if (line == nullptr) break;
+    formatter.add(*line);
+  }
+  formatter.finish();
+  const SourceText& source = sources[file];
+  const auto last = program.position();
+  std::string_view rest = source.text().substr(std::min(last.offset, source.text().size()));
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    formatter.keep(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  report.close({file, last.line, 1, 1});
+  return !diagnostics.has_errors();
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+
+#include "gcode/block.h"
+#include "gcode/gcode.h"
+#include "gcode/read/report.h"
+#include "gcode/interpret/state.h"
+
+namespace kadr::gcode {
+
+/// Warns of what is legal and hardly ever meant: it looks at the blocks as they are made. Rules that a good
+/// program could break by intent are left out: a warning that is often wrong is not read.
+class Advice {
+ public:
+  Advice(const State& state, const InterpretOptions& options, Report& report);
+
+  /// A block is about to be handed out.
+  void watch(const Block& block) {
+    if ((wanted_ & (std::uint64_t{1} << static_cast<unsigned>(block.kind))) != 0) look(block);
+  }
+  /// G43, G43.1, G43.2 or G49 was read: the length in force is meant.
+  void length_named() { length_doubtful_ = false; }
+  /// G28 or G30 with axis words goes there first.
+  void way_to_reference(const AxisValues& from, const AxisValues& by, Span span);
+
+ private:
+  void look(const Block& block);
+  void spindle_block(const Block& block);
+  void move_block(const Block& block);
+  void tool_changed(const Block& block);
+  void check_length(const Block& block);
+  void tell_cut_without_spindle();
+  void watch_moves();
+
+  const State& state_;
+  Report& report_;
+  const bool seconds_;        ///< P of a dwell is in seconds
+  std::uint64_t wanted_ = 0;  ///< bit per BlockKind that some rule waits for
+  bool spindle_runs_ = false;
+  bool spindle_ran_ = false;
+  Span spindle_began_;    ///< where it was started last
+  Span spindle_stopped_;  ///< what stopped it
+  bool probing_ = false;  ///< a probe stands in the spindle: it moves without turning
+  Span cut_;              ///< first feed move downward while the spindle stands; line 0: none
+  double z_mm_ = 0;       ///< where the last block watched ended
+  bool length_doubtful_ = false;
+  AxisValues length_in_force_{};  ///< as the tool was changed
+};
+
+}  // namespace kadr::gcode

@@ -1,0 +1,217 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "gcode/interpret/interpreter.h"
+#include "gcode/measure.h"
+
+namespace kadr::gcode {
+namespace {
+
+/// Letter of the centre offset along an axis X Y Z: I J K.
+char offset_letter(int axis) { return static_cast<char>('I' + axis); }
+std::string_view plane_name(Plane plane) {
+  return plane == Plane::xy ? "XY (G17)" : plane == Plane::zx ? "XZ (G18)" : "YZ (G19)";
+}
+PlanePoint in_plane(const AxisValues& values, const PlaneAxes& axes) {
+  return {values[static_cast<std::size_t>(axes.first)], values[static_cast<std::size_t>(axes.second)]};
+}
+
+}  // namespace
+
+AxisValues Interpreter::arc_frame(const AxisValues& machine) const {
+  const bool tilted = state_.rotation_deg != 0 && state_.plane != Plane::xy;
+  return tilted ? state_.to_program(machine) : machine;
+}
+
+AxisValues Interpreter::arc_frame_to_machine(const AxisValues& point) const {
+  const bool tilted = state_.rotation_deg != 0 && state_.plane != Plane::xy;
+  return tilted ? state_.to_machine(point) : point;
+}
+
+void Interpreter::arc(Motion motion) {
+  const bool clockwise = motion == Motion::arc_clockwise;
+  const PlaneAxes axes = plane_axes(state_.plane);
+  if (state_.straight_move_due) {
+    error(problem(Code::compensation_exit_arc, action_span(),
+                  "an arc can't lead back from beside the contour",
+                  "write a straight move, G0 or G1, before it"));
+    state_.straight_move_due = false;
+    return move_to(target());
+  }
+  const bool feed_is_ready = feed_ready();
+  const AxisValues end = target();
+  const std::uint32_t plane_bits = (1U << axes.first) | (1U << axes.second);
+  const std::uint32_t words_in_doubt = words_.doubtful & (kAxisBits | letter_bits("IJKR"));
+  const AxisValues from = arc_frame(state_.position);
+  const AxisValues to = arc_frame(end);
+  Arc found;
+  const bool known = (state_.uncertain.axes & plane_bits) == 0 && words_in_doubt == 0;
+  if (!known || !find_arc(from, to, clockwise, found) || !feed_is_ready) return move_to(end);
+
+  Block& block = motion_block_;
+  int turns = 1;
+  if (words_.has('P')) near_integer(words_.value('P'), turns);
+  block.kind = BlockKind::arc;
+  block.span = action_span();
+  block.end = end;
+  AxisValues center = to;
+  center[static_cast<std::size_t>(axes.first)] = found.center.first_mm;
+  center[static_cast<std::size_t>(axes.second)] = found.center.second_mm;
+  const PlanePoint handed_center =
+      compensation_tilted_ ? found.center : in_plane(arc_frame_to_machine(center), axes);
+  block.center_first_mm = handed_center.first_mm;
+  block.center_second_mm = handed_center.second_mm;
+  block.plane_rotation_deg = state_.plane == Plane::xy ? 0 : state_.rotation_deg;
+  block.turns = clockwise ? -turns : turns;
+  const double sweep =
+      arc_sweep_rad(in_plane(from, axes), in_plane(to, axes), found.center, clockwise, turns);
+  const auto normal = static_cast<std::size_t>(axes.normal);
+  measure_arc(sweep, (found.radius_start_mm + found.radius_end_mm) / 2, to[normal] - from[normal], block);
+  set_feed(block);
+  move_to(end);
+  emit(block);
+  block.center_first_mm = block.center_second_mm = 0;
+  block.turns = 0;
+  block.plane_rotation_deg = 0;
+}
+
+bool Interpreter::find_arc(const AxisValues& start, const AxisValues& end, bool clockwise, Arc& result) {
+  const PlaneAxes axes = plane_axes(state_.plane);
+  const PlanePoint from = in_plane(start, axes);
+  const PlanePoint to = in_plane(end, axes);
+  const bool centers = (words_.present & letter_bits("IJK")) != 0;
+  const Span span = action_span();
+  if (words_.has('R')) {
+    if (centers) {
+      return error(problem(Code::arc_format_mixed, span, "both R and I J K describe this arc",
+                           "give either the radius R or the centre I J K"));
+    }
+    result = arc_of_radius(from, to, words_.value('R') * state_.length_factor(), clockwise);
+  } else {
+    if (!centers) {
+      return error(
+          problem(Code::arc_center_missing, span, "neither a centre (I J K) nor a radius (R) is given"));
+    }
+    PlanePoint center;
+    if (!arc_center_words(center)) return false;
+    result = arc_about(
+        from, to, center,
+        arc_limits(state_.inches, options_.arc_end_tolerance_mm, options_.arc_end_tolerance_relative));
+  }
+  if (result.fault != ArcFault::none) return refuse_arc(result, to);
+  warn_arc(result);
+  return true;
+}
+
+bool Interpreter::arc_center_words(PlanePoint& center) {
+  const PlaneAxes axes = plane_axes(state_.plane);
+  const char across = offset_letter(axes.normal);
+  if (words_.has(across)) {
+    return error(problem(Code::arc_offset_outside_plane, words_.span(*line_, across),
+                         fmt::format("{} points out of the plane {}", across, plane_name(state_.plane)),
+                         "choose the plane with G17, G18 or G19 before the arc"));
+  }
+  // the centre in program coordinates, from there to the machine's as every end point
+  AxisValues program = state_.to_program(state_.position);
+  for (const int axis : {axes.first, axes.second}) {
+    const char letter = offset_letter(axis);
+    if (state_.arc_centers_absolute && !words_.has(letter)) {
+      return error(problem(Code::arc_center_missing, action_span(), fmt::format("{} is missing", letter),
+                           "under G90.1 both coordinates of the centre must be given"));
+    }
+    const double value = words_.has(letter) ? words_.value(letter) * state_.length_factor() : 0;
+    double& along = program[static_cast<std::size_t>(axis)];
+    along = state_.arc_centers_absolute ? value : along + value;
+  }
+  center = in_plane(arc_frame(state_.to_machine(program)), axes);
+  return true;
+}
+
+ArcLimits Interpreter::limits_of_arc() const {
+  return arc_limits(state_.inches, options_.arc_end_tolerance_mm, options_.arc_end_tolerance_relative);
+}
+
+bool Interpreter::refuse_arc(const Arc& arc, PlanePoint end) {
+  const PlaneAxes axes = plane_axes(state_.plane);
+  const char first = kAxisLetters[static_cast<std::size_t>(axes.first)];
+  const char second = kAxisLetters[static_cast<std::size_t>(axes.second)];
+  const double unit = state_.length_factor();
+  const auto point = [&](double a_mm, double b_mm) {
+    AxisValues at = arc_frame(state_.position);
+    at[static_cast<std::size_t>(axes.first)] = a_mm;
+    at[static_cast<std::size_t>(axes.second)] = b_mm;
+    at = state_.to_program(arc_frame_to_machine(at));
+    return fmt::format("{}{} {}{}", first, figure(at[static_cast<std::size_t>(axes.first)] / unit), second,
+                       figure(at[static_cast<std::size_t>(axes.second)] / unit));
+  };
+  const PlanePoint start = in_plane(arc_frame(state_.position), axes);
+  const Span span = action_span();
+  Diagnostic d = problem(Code::arc_end_off_circle, span, {});
+  switch (arc.fault) {
+    case ArcFault::radius_too_small:
+      d = problem(Code::arc_radius_too_small, words_.span(*line_, 'R'),
+                  fmt::format("radius {:.4f} mm", arc.radius_start_mm));
+      d.notes.push_back(fmt::format("the end is {:.4f} mm away: the radius must be at least {:.4f} mm",
+                                    2 * arc.half_chord_mm, arc.half_chord_mm));
+      break;
+    case ArcFault::no_chord:
+      d = problem(Code::arc_radius_undetermined, span, "the arc ends where it starts",
+                  "give the centre with I J K: R alone doesn't say where the circle lies");
+      break;
+    case ArcFault::zero_radius:
+      d = problem(
+          Code::arc_radius_zero, span,
+          fmt::format("radius at start {:.4f} mm, at end {:.4f} mm", arc.radius_start_mm, arc.radius_end_mm));
+      d.notes.push_back(fmt::format("allowed above {} mm", figure(kRadiusTolerance_mm, 5)));
+      break;
+    default: {
+      const double apart = std::fabs(arc.radius_start_mm - arc.radius_end_mm);
+      d.label = fmt::format("radius at start {:.3f} mm, at end {:.3f} mm, differ by {:.3f} mm",
+                            arc.radius_start_mm, arc.radius_end_mm, apart);
+      const ArcLimits limits = limits_of_arc();
+      d.notes.push_back(
+          fmt::format("allowed {} mm: the larger of {} mm (path.arc_end_tolerance_mm may widen it) and {} % "
+                      "of the radius, at most {} mm",
+                      figure(arc.allowed_mm), figure(limits.least_mm), figure(limits.relative * 100),
+                      figure(limits.ceiling_mm)));
+      // the second coordinate that would lie on the circle, on the side where the end is
+      const double across = end.first_mm - arc.center.first_mm;
+      const double square = (arc.radius_start_mm - across) * (arc.radius_start_mm + across);
+      d.help = "give R instead of I J K, or check the centre";
+      if (square >= 0) {
+        const double up = end.second_mm >= arc.center.second_mm ? 1 : -1;
+        const double fitting = arc.center.second_mm + up * std::sqrt(square);
+        d.help = fmt::format("with this centre the end is {}; or give R instead of I J K",
+                             point(end.first_mm, fitting));
+      }
+      break;
+    }
+  }
+  if (arc.fault == ArcFault::off_circle || arc.fault == ArcFault::zero_radius) {
+    d.notes.push_back(fmt::format("start {}, centre {}", point(start.first_mm, start.second_mm),
+                                  point(arc.center.first_mm, arc.center.second_mm)));
+  }
+  return error(std::move(d));
+}
+
+void Interpreter::warn_arc(const Arc& arc) {
+  const double apart = std::fabs(arc.radius_start_mm - arc.radius_end_mm);
+  if (arc.half_circle_taken &&
+      arc.half_chord_mm - std::fabs(words_.value('R')) * state_.length_factor() > kHalfCircleNoise_mm) {
+    Diagnostic d =
+        problem(Code::arc_by_tolerance, words_.span(*line_, 'R'),
+                fmt::format("radius short of {:.5f} mm: the half circle is taken", arc.half_chord_mm));
+    d.notes.push_back(fmt::format("accepted up to {} mm short", figure(kRadiusTolerance_mm, 5)));
+    report_.warning(std::move(d));
+  } else if (apart > options_.arc_end_tolerance_mm) {
+    Diagnostic d = problem(Code::arc_by_tolerance, action_span(),
+                           fmt::format("radius at start {:.3f} mm, at end {:.3f} mm: a spiral",
+                                       arc.radius_start_mm, arc.radius_end_mm));
+    d.notes.push_back(fmt::format("accepted up to {:.3f} mm; told above {} mm (path.arc_end_tolerance_mm)",
+                                  arc.allowed_mm, figure(options_.arc_end_tolerance_mm)));
+    report_.warning(std::move(d));
+  }
+}
+
+}  // namespace kadr::gcode

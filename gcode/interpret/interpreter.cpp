@@ -1,0 +1,187 @@
+#include "gcode/interpret/interpreter.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace kadr::gcode {
+
+Interpreter::Interpreter(const InterpretOptions& options, Report& report, const Sink& sink)
+    : options_(options),
+      report_(report),
+      sink_(sink),
+      advice_(state_, options, report),
+      words_(options.dialect),
+      compensation_([this](Block& block) { hand_out_compensated(block); }) {
+  state_.position = options.home;
+  state_.parameters[parameter::kDebug] = 1;
+  write_axis_parameters(state_, parameter::kG28, options.g28);
+  write_axis_parameters(state_, parameter::kG30, options.g30);
+  if (options.tools) state_.tools = *options.tools;
+  for (const char letter : options.axis_letters) axes_on_machine_ |= letter_bit(letter);
+}
+
+void Interpreter::run(const Line& line) {
+  line_ = &line;
+  if (line.items.empty()) return;
+  if (options_.block_delete && line.items.front().kind == ItemKind::block_delete) return;
+  const bool readable = words_.read(line, state_, line.failed ? nullptr : &report_);
+  if (words_.percent) {
+    // the first % opens the program, the next one ends it; before the first only comments may stand
+    if (started_) finish(line_span(), true);
+    started_ = true;
+    return;
+  }
+  started_ = started_ || words_.any;
+  if (line.failed) return recover(true);
+  if (state_.diameter_mode || words_.g(GGroup::diameter) != kNoCode) take_diameters();
+  if (words_.g(GGroup::nonmodal) == 40 && options_.dialect != Dialect::linuxcnc) take_dwell_words();
+  if (readable && plain_move()) return motion();
+  if (!readable || !polar_words() || !check()) return recover(false);
+  if (calls_only()) return call();
+  if (compensation_.active()) return execute_compensated();
+  execute();
+}
+
+/// True for a line of nothing but axis words under G0 or G1. Most lines of most programs are such; they pass
+/// by the checks and settings that can't concern them.
+bool Interpreter::plain_move() const {
+  if (!words_.only_moves() || (words_.present & ~axes_on_machine_) != 0 || state_.uncertain.motion ||
+      compensation_.active())
+    return false;
+  const Motion motion = motion_of_line();
+  return motion == Motion::feed || motion == Motion::traverse;
+}
+
+void Interpreter::execute() {
+  parameters();
+  if (words_.comment >= 0) comment();
+  if (!words_.any) return;
+  spindle_mode();
+  feed_mode();
+  feed_rate();
+  spindle_speed();
+  select_tool();
+  inputs_and_outputs();
+  change_tool();
+  spindle();
+  modal_state();
+  coolant();
+  overrides();
+  dwell();
+  plane();
+  units();
+  diameter_mode();
+  compensation();
+  tool_length();
+  work_system();
+  path_control();
+  distance_mode();
+  retract_mode();
+  nonmodal();
+  motion();
+  call();
+  stop();
+}
+
+void Interpreter::apply_modes() {
+  feed_mode();
+  feed_rate();
+  plane();
+  units();
+  compensation();
+  work_system();
+  distance_mode();
+}
+
+void Interpreter::recover(bool syntax) {
+  silent_ = true;
+  apply_modes();
+  silent_ = false;
+  const Motion before = state_.motion;
+  Uncertain& uncertain = state_.uncertain;
+  const bool cycles = motion_of_line() == Motion::cycle && moves();
+  const int motion_code = words_.g(GGroup::motion);
+  const bool for_this_line = motion_code == 50 || motion_code == 51;
+  if (motion_code != kNoCode && !for_this_line) take_motion(motion_code);
+  if (for_this_line) uncertain.motion = false;
+  if (cycles) uncertain.cycle = true;
+  if (nurbs_.open) nurbs_.faulty = true;
+  if (words_.refused_motion || (syntax && words_.g(GGroup::motion) == kNoCode)) uncertain.motion = true;
+  if (syntax) uncertain.feed = true;
+  if (syntax || words_.has_axis() || (words_.present & letter_bits("IJK")) != 0) compensation_.lose();
+  for (const Item& item : line_->items) {
+    if (item.kind == ItemKind::setting || item.kind == ItemKind::unread) uncertain.parameters = true;
+  }
+  const int nonmodal_code = words_.g(GGroup::nonmodal);
+  const bool plain_move =
+      !uncertain.motion && nonmodal_code == kNoCode && (words_.has_axis() || state_.motion != before);
+  if (syntax || nonmodal_code != kNoCode || words_.g(GGroup::g92_state) != kNoCode) {
+    uncertain.axes = (1U << kProgramAxes) - 1;
+  } else if (plain_move) {
+    move_to(target());
+  } else {
+    for (int axis = 0; axis < kProgramAxes; ++axis) {
+      if (words_.has(kAxisLetters[static_cast<std::size_t>(axis)])) uncertain.axes |= 1U << axis;
+    }
+  }
+}
+
+void Interpreter::finish(Span end, bool by_percent) {
+  if (ended_) return;
+  if (nurbs_.open) drop_nurbs(end);
+  Block block = make_block(BlockKind::program_end, end);
+  block.number = by_percent ? 1 : 0;
+  emit(block);
+  ended_ = true;
+}
+
+Block Interpreter::make_block(BlockKind kind, Span span) const {
+  Block block;
+  block.kind = kind;
+  block.span = span;
+  block.end = state_.position;
+  block.feed_mode = state_.feed_mode;
+  block.path_mode = state_.path_mode;
+  block.path_tolerance_mm = state_.path_tolerance_mm;
+  block.feed_override_enabled = state_.feed_override;
+  block.plane = state_.plane;
+  return block;
+}
+
+void Interpreter::simple_block(BlockKind kind, Span span) {
+  Block block = make_block(kind, span);
+  emit(block);
+}
+
+void Interpreter::emit(Block& block) {
+  if (silent_ || ended_) return;
+  if (compensation_.active()) return compensate(block);
+  hand_out(block);
+}
+
+void Interpreter::hand_out(Block& block) {
+  if (ended_) return;
+  if (options_.bounds.blocks != 0 && blocks_ >= options_.bounds.blocks) {
+    error(problem(Code::too_many_blocks, block.span, fmt::format("block {} would begin here", blocks_ + 1),
+                  fmt::format("allowed are {} (--limit blocks=N)", options_.bounds.blocks)));
+    ended_ = true;
+    return;
+  }
+  ++blocks_;
+  if (place_) block.span = *place_;
+  advice_.watch(block);
+  sink_(block);
+}
+
+Span Interpreter::line_span() const {
+  const auto& items = line_->items;
+  return line_->span({items.front().bytes.begin, items.back().bytes.end});
+}
+
+bool Interpreter::error(Diagnostic d) {
+  report_.error(std::move(d));
+  return false;
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,311 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "gcode/interpret/advice.h"
+#include "gcode/arc.h"
+#include "gcode/compensation/compensation.h"
+#include "gcode/gcode.h"
+#include "gcode/read/report.h"
+#include "gcode/interpret/state.h"
+#include "gcode/interpret/words.h"
+
+namespace kadr::gcode {
+
+/// M98 or M99 on a line that was run.
+struct CallRequest {
+  bool returns = false;       ///< M99
+  bool alone = true;          ///< no other word on its line
+  std::int64_t number = 0;    ///< M98 P
+  std::uint64_t repeats = 1;  ///< M98 L
+  Span place;
+};
+
+/// A word that a code can't do without, and what it says.
+struct NeededWord {
+  char letter;
+  std::string_view meaning;
+};
+
+using Sink = std::function<void(const Block&)>;
+
+/// The points between G5.2 and G5.3: program coordinates, mm.
+struct Nurbs {
+  bool open = false;
+  int order = 3;
+  std::vector<SplinePoint> points;
+  Span span;             ///< of its first line
+  double inverse_f = 0;  ///< F of one of its lines under G93
+  bool faulty = false;   ///< an error was told
+  bool doubtful = false;
+};
+
+/// Lines -> Blocks. Keeps what earlier lines have set, checks a whole line before anything of it takes
+/// effect, then executes its words in the order of RS-274/NGC, whatever order they are written in.
+class Interpreter {
+ public:
+  Interpreter(const InterpretOptions& options, Report& report, const Sink& sink);
+
+  void run(const Line& line);
+  /// The program's end if no M2 or M30 gave it.
+  void finish(Span end, bool by_percent = false);
+  /// The end by M2, M30, or M99 in the main program: modes are reset first.
+  void end_program(Span place);
+  /// What the line just run asks of the flow; asked once.
+  std::optional<CallRequest> take_call() { return std::exchange(call_, std::nullopt); }
+  /// The end of a call: its modes are given back if M73 asked for it, and its level goes.
+  void leave_level(Span place);
+  /// A line that only steers has been read: the program has begun.
+  void start() { started_ = true; }
+  State& state() { return state_; }
+  /// True after M2, M30, the closing % or the bound on blocks.
+  bool ended() const { return ended_; }
+
+ private:
+  // check.cpp: may these words stand together?
+  bool check();
+  void check_axes();
+  void check_unused();
+  void check_values();
+  void check_motion_words();
+  void check_codes();
+  void check_call();
+  std::uint32_t usable_letters() const;
+  bool require_word(char letter, GGroup group, std::string_view what);
+  bool require_words(const std::vector<NeededWord>& needed, Span span, std::string_view who);
+  bool check_whole(char letter, double least, double most);
+  void check_shared_p();
+
+  // settings.cpp: what holds from here on
+  void comment();
+  void technology(std::string_view text, Span span);
+  void feed_mode();
+  void feed_rate();
+  void plane();
+  void units();
+  void work_system();
+  void path_control();
+  void set_path_mode(PathMode mode, double tolerance, Span span);
+  void distance_mode();
+  void parameters();
+
+  // functions.cpp: spindle, coolant, overrides, dwell, stop
+  void spindle();
+  void orient_spindle();
+  void turn_spindle(Turning turning, Span span);
+  void coolant();
+  void overrides();
+  void dwell();
+  void stop();
+  void call();
+  void override_block(BlockKind kind, bool enabled);
+
+  // tools.cpp: T, M6 M61, G43 G43.1 G43.2 G49, G10 L1 L10 L11
+  void select_tool();
+  void change_tool();
+  void take_real_position();
+  void tool_length();
+  const Tool* length_of_tool(int number);
+  void set_tool_table();
+  AxisValues measured_tool_offset(AxisValues offset, bool in_fixture) const;
+
+  // references.cpp: G10 G28 G30 G52 G92
+  void nonmodal();
+  void go_to_reference(int parameters);
+  void set_offsets();
+  void set_work_offset();
+  AxisValues measured_work_offset(int system);
+  void turn_under_g92(double rotation_deg);
+  void set_g92(bool local);
+  void set_g92_state();
+
+  // check_offsets.cpp
+  void check_axis_words();
+  void check_tools();
+  bool check_tool(char letter, double least);
+  void check_g10();
+  void check_g10_tool(int l);
+  void check_g10_work_offset(int l);
+
+  // motion.cpp
+  void motion();
+  Motion motion_of_line() const;
+  bool axis_words_taken() const;
+  bool moves() const;
+  void take_motion(int code);
+  AxisValues target() const;
+  AxisValues near_position(const AxisValues& wanted) const;
+  void straight(Motion motion);
+  void go(BlockKind kind, const AxisValues& program);
+  void go_to(BlockKind kind, const AxisValues& end);
+  void arc(Motion motion);
+  /// Where an arc is a circle of its plane: machine coordinates, and program coordinates of X Z and Y Z under
+  /// a rotation, which tilts those planes.
+  AxisValues arc_frame(const AxisValues& machine) const;
+  AxisValues arc_frame_to_machine(const AxisValues& point) const;
+  bool find_arc(const AxisValues& start, const AxisValues& end, bool clockwise, Arc& result);
+  bool arc_center_words(PlanePoint& center);
+  ArcLimits limits_of_arc() const;
+  bool refuse_arc(const Arc& arc, PlanePoint end);
+  void warn_arc(const Arc& arc);
+  bool feed_ready();
+  void set_feed(Block& block);
+  void move_to(const AxisValues& end);
+
+  // splines.cpp: G5 G5.1 G5.2 G5.3
+  void spline(Motion motion);
+  bool spline_allowed(Motion motion);
+  bool spline_place_allowed(std::string_view name);
+  double spline_offset(char letter) const;
+  void add_control(Block& block, AxisValues program, double x_mm, double y_mm, double weight) const;
+  void warn_direction_kept();
+  void emit_spline(Block& block);
+  void add_nurbs_point();
+  void add_nurbs_control(const AxisValues& program, double weight);
+  bool nurbs_words_allowed(bool first);
+  void set_nurbs_order();
+  void end_nurbs();
+  void emit_nurbs(const Nurbs& nurbs);
+  void drop_nurbs(Span span);
+
+  // spindle_feed.cpp: S, G96, G97, feeds that follow the spindle
+  void spindle_speed();
+  void spindle_mode();
+  double surface_speed_m_min() const;
+  double mean_spindle_rpm(const AxisValues& from, const AxisValues& to) const;
+  bool feed_per_turn_ready();
+  void warn_standing_spindle();
+  void follow_spindle(Block& block);
+
+  // threads.cpp: G33 G33.1
+  void check_thread(int code);
+  bool spindle_turns(int code);
+  void start_thread(double pitch_u_rev);
+  void stop_thread();
+  void warn_pitch(char letter);
+  void thread();
+  void rigid_tap();
+
+  // thread_cycle.cpp: G76
+  struct ThreadShape;
+  void check_thread_cycle();
+  void thread_cycle();
+  bool thread_shape(ThreadShape& shape, const AxisValues& end);
+  void warn_thread(const ThreadShape& shape);
+  void thread_pass(const ThreadShape& shape, double depth);
+
+  // cycles.cpp: G73 G74 G81 to G86 G89, G98 G99
+  struct Hole;
+  void check_cycle(int code);
+  bool cycle_allowed();
+  void cycle();
+  bool cycle_levels(Hole& hole);
+  void cycle_holes(Hole hole);
+  void make_hole(const Hole& hole);
+  void peck(const Hole& hole);
+  void tap(const Hole& hole);
+  void bore_and_stop(const Hole& hole);
+  void tap_to_level(const Hole& hole, double level);
+  AxisValues place_at(const Hole& hole, double level) const;
+  void go_to_level(const Hole& hole, BlockKind kind, double level);
+  void dwell_at_bottom();
+  void retract_mode();
+
+  // probe.cpp: G38.2 to G38.5
+  void probe();
+  bool probe_allowed();
+  double probe_feed_under_inverse_time();
+  bool find_contact(Block& block, double& travelled);
+  bool refuse_probe_start(const Block& block, double beyond_mm);
+  std::string stock_text() const;
+  void keep_probe_result(const Block& block);
+
+  // compensation_codes.cpp: G40 G41 G42 G41.1 G42.1
+  void compensation();
+  void compensation_off();
+  bool find_compensation_tool(CompensationTool& tool);
+  const Tool* compensation_table_entry();
+  void execute_compensated();
+  void compensate(const Block& block);
+  void hand_out_compensated(Block& block);
+  void end_compensation(Span place);
+  void report_compensation_fault(const CompensationFault& fault, Span span);
+
+  // compensation_checks.cpp: what may not stand while compensation is on
+  void check_compensation();
+  void check_compensation_words();
+  void check_while_compensating(bool until_now, bool from_now);
+  void refuse_while_compensating(Span span, std::string_view name, std::string_view what);
+
+  // inputs.cpp: M62 to M68
+  void inputs_and_outputs();
+  void wait_input();
+  void check_functions();
+  void check_orientation();
+  void check_inputs();
+  void check_wait();
+
+  // polar.cpp: @ and ^, X as a diameter
+  bool polar_words();
+  bool resolve_polar();
+  void take_diameters();
+  void take_dwell_words();  ///< those of the dialect become P in seconds
+
+  // modal_state.cpp: M70 to M73, G7 G8
+  void modal_state();
+  ModalState modes() const;
+  void restore(const ModalState& saved, Span place);
+  void run_words(const std::string& words, Span place);
+  void diameter_mode();
+
+  // interpreter.cpp
+  bool plain_move() const;
+  bool calls_only() const;
+  const Item* words_beside_call() const;
+  void execute();
+  void apply_modes();
+  void recover(bool syntax);
+  void emit(Block& block);
+  void hand_out(Block& block);
+  Block make_block(BlockKind kind, Span span) const;
+  void simple_block(BlockKind kind, Span span);
+  Span line_span() const;
+  Span action_span() const;
+  Span g_span(GGroup group) const { return words_.span(*line_, group); }
+  bool error(Diagnostic d);
+
+  const InterpretOptions& options_;
+  Report& report_;
+  const Sink& sink_;
+  State state_;
+  Advice advice_;
+  Words words_;
+  Block motion_block_;
+  std::optional<CallRequest> call_;
+  std::optional<Span> place_;  ///< of blocks while modes are restored
+  Compensation compensation_;
+  bool compensation_tilted_ = false;     ///< it runs in program coordinates: G18 in a rotated work system
+  Span compensation_span_;               ///< the G41 or G42 in force
+  std::size_t compensation_faults_ = 0;  ///< told on this line
+  const Line* line_ = nullptr;
+  Nurbs nurbs_;
+  double spline_i_mm_ = 0;  ///< from the start to the first control point of a G5 without I and J
+  double spline_j_mm_ = 0;
+  std::optional<AxisValues> spline_end_;  ///< of the last G5
+  std::optional<AxisValues> tapped_at_;   ///< where the last tap ended for the program: not where the tool is
+  std::optional<AxisValues> probe_left_;  ///< where the last G38.4 or G38.5 lost contact
+  bool probe_stock_told_ = false;
+  std::uint32_t axes_on_machine_ = 0;
+  std::uint64_t blocks_ = 0;
+  bool started_ = false;  ///< some line with words has been run, or the opening % was seen
+  bool ended_ = false;
+  bool threading_ = false;         ///< feed moves follow the spindle's angle, by thread_pitch_u_rev_
+  double thread_pitch_u_rev_ = 0;  ///< as written
+  bool standing_told_ = false;     ///< the warning of a feed that follows a standing spindle
+  bool silent_ = false;            ///< recovering from an error: modes are taken over, nothing is handed out
+};
+
+}  // namespace kadr::gcode

@@ -1,0 +1,254 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gcode/constants.h"
+#include "gcode/interpret/interpreter.h"
+#include "gcode/measure.h"
+
+namespace kadr::gcode {
+namespace {
+
+constexpr double kLeastInverseFeed = 0.1;  // #<_feed> of a very slow move under G93, per minute
+
+}  // namespace
+
+Motion Interpreter::motion_of_line() const {
+  switch (words_.g(GGroup::motion)) {
+    case 0:
+      return Motion::traverse;
+    case 10:
+      return Motion::feed;
+    case 20:
+      return Motion::arc_clockwise;
+    case 30:
+      return Motion::arc_counterclockwise;
+    case 50:
+      return Motion::cubic_spline;
+    case 51:
+      return Motion::quadratic_spline;
+    case 52:
+      return Motion::nurbs;
+    case 330:
+      return Motion::thread;
+    case 331:
+      return Motion::rigid_tap;
+    case 382:
+    case 383:
+    case 384:
+    case 385:
+      return Motion::probe;
+    case 760:
+      return Motion::thread_cycle;
+    case 53:
+    case 800:
+      return Motion::none;
+    case kNoCode:
+      return state_.motion;
+    default:
+      return Motion::cycle;
+  }
+}
+
+bool Interpreter::axis_words_taken() const {
+  if (takes_axis_words(words_.g(GGroup::nonmodal))) return true;
+  const int tool_length = words_.g(GGroup::tool_length);
+  return tool_length == 431 || tool_length == 432;
+}
+
+bool Interpreter::moves() const {
+  const int code = words_.g(GGroup::motion);
+  if (code != kNoCode) return code != 800 && code != 53;
+  if (axis_words_taken()) return false;
+  return words_.has_axis() || (is_arc(state_.motion) && (words_.present & letter_bits("IJK")) != 0);
+}
+
+void Interpreter::motion() {
+  const int code = words_.g(GGroup::motion);
+  if (code != kNoCode) {
+    if (nurbs_.open && code != 52 && code != 53) drop_nurbs(g_span(GGroup::motion));
+    if (code == 50 || code == 51) {
+      if ((words_.present & letter_bits("@^")) != 0 && !resolve_polar()) return;
+      return spline(motion_of_line());
+    }
+    take_motion(code);
+    if (code == 53) return end_nurbs();
+  }
+  if (!moves()) return;
+  if ((words_.present & letter_bits("@^")) != 0 && !resolve_polar()) return;
+  if (state_.uncertain.motion) return move_to(target());
+  switch (state_.motion) {
+    case Motion::none:
+    case Motion::cubic_spline:  // hold for their line only
+    case Motion::quadratic_spline:
+      return;
+    case Motion::traverse:
+    case Motion::feed:
+      return straight(state_.motion);
+    case Motion::arc_clockwise:
+    case Motion::arc_counterclockwise:
+      return arc(state_.motion);
+    case Motion::nurbs:
+      return add_nurbs_point();
+    case Motion::thread:
+      return thread();
+    case Motion::rigid_tap:
+      return rigid_tap();
+    case Motion::probe:
+      return probe();
+    case Motion::thread_cycle:
+      return thread_cycle();
+    case Motion::cycle:
+      return cycle();
+  }
+}
+
+void Interpreter::take_motion(int code) {
+  state_.motion = motion_of_line();
+  state_.uncertain.motion = false;
+  if (state_.motion == Motion::cycle) {
+    state_.cycle.code = code;
+    return;
+  }
+  state_.cycle.in_sequence = false;
+  if (state_.motion == Motion::probe) state_.probe_code = code;
+}
+
+AxisValues Interpreter::target() const {
+  const bool machine_coordinates = words_.g(GGroup::nonmodal) == 530;
+  AxisValues wanted = state_.position;
+  if (machine_coordinates || state_.rotation_deg == 0) {
+    // each axis for itself
+    for (int axis = 0; axis < kProgramAxes; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      if (!words_.has(kAxisLetters[a])) continue;
+      const double value = state_.to_base_units(axis, words_.value(kAxisLetters[a]));
+      if (machine_coordinates) {
+        wanted[a] = state_.incremental ? wanted[a] + value : value;
+      } else {
+        wanted[a] = state_.axis_to_machine(
+            a, state_.incremental ? state_.axis_to_program(a, wanted[a]) + value : value);
+      }
+    }
+  } else if (words_.has_axis()) {
+    AxisValues program = state_.to_program(wanted);
+    for (int axis = 0; axis < kProgramAxes; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      if (!words_.has(kAxisLetters[a])) continue;
+      const double value = state_.to_base_units(axis, words_.value(kAxisLetters[a]));
+      program[a] = state_.incremental ? program[a] + value : value;
+    }
+    wanted = state_.to_machine(program);
+  }
+  return near_position(wanted);
+}
+
+void Interpreter::move_to(const AxisValues& end) {
+  state_.position = end;
+  if (state_.uncertain.axes == 0 && words_.doubtful == 0) return;
+  for (int axis = 0; axis < kProgramAxes; ++axis) {
+    const std::uint32_t letter = letter_bit(kAxisLetters[static_cast<std::size_t>(axis)]);
+    if ((words_.present & letter) == 0) continue;
+    if ((words_.doubtful & letter) != 0) {
+      state_.uncertain.axes |= 1U << axis;
+    } else if (!state_.incremental) {
+      state_.uncertain.axes &= ~(1U << axis);
+    }
+  }
+}
+
+void Interpreter::straight(Motion motion) {
+  Block& block = motion_block_;
+  const bool feed = motion == Motion::feed;
+  state_.straight_move_due = false;
+  const bool ready = !feed || feed_ready();
+  block.kind = feed ? BlockKind::feed : BlockKind::traverse;
+  block.span = action_span();
+  block.end = target();
+  measure_straight(state_.position, block);
+  if (ready) set_feed(block);
+  move_to(block.end);
+  if (ready) emit(block);
+}
+
+void Interpreter::go(BlockKind kind, const AxisValues& program) {
+  go_to(kind, near_position(state_.to_machine(program)));
+}
+
+void Interpreter::go_to(BlockKind kind, const AxisValues& end) {
+  Block& block = motion_block_;
+  block.kind = kind;
+  block.span = action_span();
+  block.end = end;
+  measure_straight(state_.position, block);
+  set_feed(block);
+  move_to(end);
+  emit(block);
+}
+
+AxisValues Interpreter::near_position(const AxisValues& wanted) const {
+  AxisValues end = state_.position;
+  for (std::size_t a = 0; a < kProgramAxes; ++a) {
+    if (std::fabs(wanted[a] - end[a]) > kSamePoint_u) end[a] = wanted[a];
+  }
+  return end;
+}
+
+bool Interpreter::feed_ready() {
+  if (state_.feed_mode == FeedMode::inverse_time) {
+    if (!words_.has('F')) {
+      return error(problem(Code::inverse_feed_missing, action_span(), "no F on this line",
+                           "under G93 each feed move needs its own F: 60 divided by its seconds"));
+    }
+    if (words_.value('F') > 0) return true;
+    return error(
+        problem(Code::feed_zero, words_.span(*line_, 'F'), "F0 under G93: the move would never end"));
+  }
+  if (state_.feed_linear_mm_min > 0) return true;
+  if (state_.feed_linear_mm_rev > 0) return feed_per_turn_ready();
+  const Span span = action_span();
+  if (state_.uncertain.feed) return false;
+  state_.uncertain.feed = true;
+  const bool per_turn = state_.feed_mode == FeedMode::units_per_revolution;
+  const std::string help =
+      fmt::format("write F and the feed in units per {}", per_turn ? "turn of the spindle" : "minute");
+  if (state_.feed_given) return error(problem(Code::feed_zero, span, "the feed in force here is F0"));
+  if (state_.feed_cleared) {
+    return error(
+        problem(Code::feed_cleared, span, fmt::format("no F since {}", per_turn ? "G95" : "G94"), help));
+  }
+  return error(problem(Code::feed_missing, span, "no F has been given before this move", help));
+}
+
+void Interpreter::set_feed(Block& block) {
+  block.path_mode = state_.path_mode;
+  block.path_tolerance_mm = state_.path_tolerance_mm;
+  block.feed_override_enabled = state_.feed_override;
+  block.feed_mode = state_.feed_mode;
+  block.plane = state_.plane;
+  block.feed_u_s = 0;
+  block.duration_s = 0;
+  block.pitch_u_rev = 0;
+  if (block.kind == BlockKind::traverse) return;
+  const bool rotary = block.feed_length == FeedLength::rotary;
+  if (threading_ || state_.feed_mode == FeedMode::units_per_revolution) return follow_spindle(block);
+  if (state_.feed_mode == FeedMode::inverse_time) {
+    block.duration_s = kSecondsPerMinute / words_.value('F');
+    block.feed_u_s = block.length_u / block.duration_s;
+    // a probing move, which has no time of its own, goes on at this feed
+    state_.feed_linear_mm_min = state_.feed_rotary_deg_min = block.feed_u_s * kSecondsPerMinute;
+    const double length = rotary ? block.length_u : block.length_u / state_.length_factor();
+    state_.feed_number = std::max(kLeastInverseFeed, length * words_.value('F'));
+    return;
+  }
+  const double per_minute = rotary ? state_.feed_rotary_deg_min : state_.feed_linear_mm_min;
+  block.feed_u_s = per_minute / kSecondsPerMinute;
+}
+
+Span Interpreter::action_span() const {
+  const Span span = words_.motion_span(*line_);
+  return span.length > 1 ? span : line_span();
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+
+#include "gcode/interpret/interpreter.h"
+#include "gcode/interpret/message.h"
+#include "machine/base/parse_number.h"
+
+namespace kadr::gcode {
+namespace {
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+}  // namespace
+
+void Interpreter::parameters() {
+  for (const Words::Setting& setting : words_.settings) {
+    if (setting.name >= 0) {
+      set_named(state_, setting.name, setting.value);
+    } else {
+      const auto number = static_cast<std::size_t>(setting.number);
+      state_.parameters[number] = setting.value;
+      state_.parameters_set[number] = true;
+    }
+  }
+}
+
+void Interpreter::comment() {
+  const Item& item = line_->items[static_cast<std::size_t>(words_.comment)];
+  const ActiveComment active = active_comment(line_->slice(item.bytes));
+  if (same_letters(active.command, "TECH")) return technology(active.text, line_->span(item.bytes));
+  const bool message = same_letters(active.command, "MSG");
+  const bool debug = same_letters(active.command, "DEBUG");
+  if (!message && !debug && !same_letters(active.command, "PRINT")) return;
+  if (debug && state_.parameters[parameter::kDebug] == 0) return;
+  Block block =
+      make_block(message || debug ? BlockKind::message : BlockKind::comment, line_->span(item.bytes));
+  block.text = message ? valid_text(active.text) : expanded_text(active.text, state_, line_->number);
+  emit(block);
+}
+
+/// (TECH s_max=200): a technological limit of speed at the place where it stands.
+void Interpreter::technology(std::string_view text, Span span) {
+  constexpr double kFastest_mm_s = 1e6;
+  const std::size_t equals = text.find('=');
+  const std::string_view name = without_blanks(text.substr(0, equals)),
+                         value = without_blanks(text.substr(equals + 1));
+  const std::optional<double> speed = parse_number(value);
+  if (same_letters(name, "S_MAX") && speed && *speed > 0 && *speed <= kFastest_mm_s) {
+    Block block = make_block(BlockKind::speed_point, span);
+    block.value = *speed;
+    emit(block);
+    return;
+  }
+  const bool known = same_letters(name, "S_MAX");
+  report_.error(problem(
+      Code::technology_comment, span,
+      known ? fmt::format("s_max is {}, allowed above 0 to {:.0f} mm/s", valid_text(value), kFastest_mm_s)
+            : fmt::format("{} is not known", valid_text(name)),
+      "write (TECH s_max=200): at most 200 mm/s where the next move begins"));
+}
+
+void Interpreter::feed_mode() {
+  const int code = words_.g(GGroup::feed_mode);
+  if (code == kNoCode) return;
+  const Span span = g_span(GGroup::feed_mode);
+  state_.feed_mode = code == 930   ? FeedMode::inverse_time
+                     : code == 940 ? FeedMode::units_per_minute
+                                   : FeedMode::units_per_revolution;
+  simple_block(BlockKind::set_feed_mode, span);
+  if (state_.feed_mode == FeedMode::inverse_time) return;
+  // G94 and G95 always begin without a feed, even if they were in force already
+  simple_block(BlockKind::set_feed_rate, span);
+  state_.feed_cleared = state_.feed_cleared || state_.feed_given;
+  state_.feed_given = false;
+  state_.feed_linear_mm_min = state_.feed_rotary_deg_min = 0;
+  state_.feed_linear_mm_rev = state_.feed_rotary_deg_rev = 0;
+  state_.feed_number = 0;
+}
+
+void Interpreter::feed_rate() {
+  if (!words_.has('F')) return;
+  const double f = words_.value('F');
+  const Span span = words_.span(*line_, 'F');
+  Block block = make_block(BlockKind::set_feed_rate, span);
+  block.value = f;
+  const bool inverse = state_.feed_mode == FeedMode::inverse_time;
+  if (!inverse) {
+    state_.feed_number = f;
+    const bool per_minute = state_.feed_mode == FeedMode::units_per_minute;
+    block.value = f * state_.length_factor();
+    (per_minute ? state_.feed_linear_mm_min : state_.feed_linear_mm_rev) = block.value;
+    (per_minute ? state_.feed_rotary_deg_min : state_.feed_rotary_deg_rev) = f;
+    state_.feed_given = true;
+    state_.feed_cleared = false;
+    state_.uncertain.feed = (words_.doubtful & letter_bit('F')) != 0;
+  }
+  emit(block);
+  const int units_code = words_.g(GGroup::units);
+  const bool changes_units = units_code != kNoCode && (units_code == 200) != state_.inches;
+  if (changes_units && !inverse && !silent_) {
+    report_.warning(problem(Code::feed_before_units, span,
+                            fmt::format("taken as {} per {}", state_.inches ? "inches" : "mm",
+                                        state_.feed_mode == FeedMode::units_per_minute ? "minute" : "turn"),
+                            fmt::format("write {} on a line before F", g_name(units_code))));
+  }
+}
+
+void Interpreter::plane() {
+  switch (words_.g(GGroup::plane)) {
+    case 170:
+      state_.plane = Plane::xy;
+      break;
+    case 180:
+      state_.plane = Plane::zx;
+      break;
+    case 190:
+      state_.plane = Plane::yz;
+      break;
+    default:
+      break;
+  }
+}
+
+void Interpreter::units() {
+  const int code = words_.g(GGroup::units);
+  if (code != kNoCode) state_.inches = code == 200;
+}
+
+void Interpreter::work_system() {
+  const int code = words_.g(GGroup::coordinate_system);
+  if (code == kNoCode) return;
+  // G54 .. G59 are 1 .. 6, G59.1 .. G59.3 are 7 .. 9
+  const int system = code <= 590 ? (code - 530) / 10 : 6 + (code - 590);
+  // as RS-274/NGC: parameters that a program has set take effect with the change to their system
+  if (system != state_.work_system) state_.use_work_system(system);
+}
+
+void Interpreter::path_control() {
+  const int code = words_.g(GGroup::path);
+  if (code == kNoCode) return;
+  const double tolerance = code == 640 && words_.has('P') ? words_.value('P') : 0;
+  set_path_mode(code == 610   ? PathMode::exact_path
+                : code == 611 ? PathMode::exact_stop
+                              : PathMode::continuous,
+                tolerance, g_span(GGroup::path));
+}
+
+void Interpreter::set_path_mode(PathMode mode, double tolerance, Span span) {
+  state_.path_mode = mode;
+  state_.path_tolerance = tolerance;
+  state_.path_tolerance_mm = tolerance * state_.length_factor();
+  simple_block(BlockKind::set_path_mode, span);
+}
+
+void Interpreter::distance_mode() {
+  const int distance = words_.g(GGroup::distance);
+  if (distance != kNoCode) state_.incremental = distance == 910;
+  const int arc_distance = words_.g(GGroup::arc_distance);
+  if (arc_distance != kNoCode) state_.arc_centers_absolute = arc_distance == 901;
+}
+
+}  // namespace kadr::gcode

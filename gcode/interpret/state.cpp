@@ -1,0 +1,149 @@
+#include "gcode/interpret/state.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gcode/constants.h"
+#include "machine/base/numbers.h"
+
+namespace kadr::gcode {
+namespace {
+
+constexpr double kQuarterTurn_deg = 90;
+
+}  // namespace
+
+AxisValues State::to_machine(const AxisValues& program) const {
+  AxisValues at;
+  for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] = program[a] + g92_offset[a];
+  at = rotated(at);
+  for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] += work_offset[a] + tool_offset[a];
+  return at;
+}
+
+AxisValues State::to_program(const AxisValues& machine) const {
+  AxisValues at;
+  for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] = machine[a] - work_offset[a] - tool_offset[a];
+  at = rotated_back(at);
+  for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] -= g92_offset[a];
+  return at;
+}
+
+AxisValues State::tool_point() const {
+  AxisValues at = position;
+  for (std::size_t a = 0; a < kProgramAxes; ++a) at[a] += tool_shift[a];
+  return at;
+}
+
+AxisValues State::rotated(AxisValues vector) const {
+  if (rotation_deg == 0) return vector;
+  const double x = vector[0], y = vector[1];
+  vector[0] = x * rotation_cos - y * rotation_sin;
+  vector[1] = x * rotation_sin + y * rotation_cos;
+  return vector;
+}
+
+AxisValues State::rotated_back(AxisValues vector) const {
+  if (rotation_deg == 0) return vector;
+  const double x = vector[0], y = vector[1];
+  vector[0] = x * rotation_cos + y * rotation_sin;
+  vector[1] = y * rotation_cos - x * rotation_sin;
+  return vector;
+}
+
+void State::set_rotation(double degrees) {
+  rotation_deg = degrees;
+  // quarter turns are exact
+  const double quarters = degrees / kQuarterTurn_deg;
+  const double whole = std::floor(quarters + 0.5);
+  if (quarters == whole) {
+    static constexpr double kCosines[] = {1, 0, -1, 0};
+    const auto turn = static_cast<std::size_t>(whole - 4 * std::floor(whole / 4));
+    rotation_cos = kCosines[turn];
+    rotation_sin = kCosines[(turn + 3) % 4];
+    return;
+  }
+  const SinCos turned = exact_sincos(std::fmod(degrees, kFullTurn_deg) * kRadiansPerDegree);
+  rotation_cos = turned.cos;
+  rotation_sin = turned.sin;
+}
+
+void State::use_work_system(int system) {
+  work_system = system;
+  work_offset = read_axis_parameters(*this, work_offset_parameter(system));
+  set_rotation(parameters[static_cast<std::size_t>(work_rotation_parameter(system))]);
+}
+
+namespace {
+
+/// Parameters 5400 to 5413, in mm and degrees.
+double tool_parameter(const State& state, int index) {
+  if (index == parameter::kToolNumber) return state.tool_in_spindle;
+  const Tool* tool = state.find_tool(0);
+  if (tool == nullptr) return 0;
+  switch (index) {
+    case parameter::kToolDiameter:
+      return tool->diameter_mm;
+    case parameter::kToolFrontAngle:
+      return tool->front_angle_deg;
+    case parameter::kToolBackAngle:
+      return tool->back_angle_deg;
+    case parameter::kToolOrientation:
+      return tool->orientation;
+    default:
+      return tool->offset[static_cast<std::size_t>(index - parameter::kToolOffset)];
+  }
+}
+
+}  // namespace
+
+double read_parameter(const State& state, int index) {
+  if (parameter::is_read_only(index)) {
+    if (index == parameter::kWorkSystem) return state.work_system;
+    if (index <= parameter::kToolLast) return tool_parameter(state, index);
+    return state.program_position(index - parameter::kPosition);
+  }
+  return state.parameters[static_cast<std::size_t>(index)];
+}
+
+const double* find_named(const State& state, std::int32_t name) {
+  const auto at = static_cast<std::size_t>(name);
+  if (is_global(state.names[name])) {
+    return at < state.global_named.size() && state.global_named_set[at] ? &state.global_named[at] : nullptr;
+  }
+  for (const auto& [number, value] : state.levels.back().named) {
+    if (number == name) return &value;
+  }
+  return nullptr;
+}
+
+void set_named(State& state, std::int32_t name, double value) {
+  const auto at = static_cast<std::size_t>(name);
+  if (is_global(state.names[name])) {
+    if (state.global_named.size() <= at) {
+      state.global_named.resize(at + 1, 0.0);
+      state.global_named_set.resize(at + 1, false);
+    }
+    state.global_named[at] = value;
+    state.global_named_set[at] = true;
+    return;
+  }
+  for (auto& [number, old] : state.levels.back().named) {
+    if (number != name) continue;
+    old = value;
+    return;
+  }
+  state.levels.back().named.emplace_back(name, value);
+}
+
+AxisValues read_axis_parameters(const State& state, int first) {
+  AxisValues values;
+  std::copy_n(state.parameters.begin() + first, kProgramAxes, values.begin());
+  return values;
+}
+
+void write_axis_parameters(State& state, int first, const AxisValues& values) {
+  std::copy(values.begin(), values.end(), state.parameters.begin() + first);
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,287 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "gcode/read/parser.h"
+#include "gcode/interpret/words.h"
+
+namespace kadr::gcode {
+namespace {
+
+struct NamedOperation {
+  std::string_view name;
+  Operation operation;
+  int precedence;  ///< higher binds tighter; all are read from left to right
+};
+
+// ** before * so that the longer one is found first
+constexpr std::array<NamedOperation, 15> kOperators = {{{"**", Operation::power, 5},
+                                                        {"*", Operation::multiply, 4},
+                                                        {"/", Operation::divide, 4},
+                                                        {"MOD", Operation::modulo, 4},
+                                                        {"+", Operation::add, 3},
+                                                        {"-", Operation::subtract, 3},
+                                                        {"EQ", Operation::equal, 2},
+                                                        {"NE", Operation::not_equal, 2},
+                                                        {"GT", Operation::greater, 2},
+                                                        {"GE", Operation::greater_equal, 2},
+                                                        {"LT", Operation::less, 2},
+                                                        {"LE", Operation::less_equal, 2},
+                                                        {"AND", Operation::logical_and, 1},
+                                                        {"OR", Operation::logical_or, 1},
+                                                        {"XOR", Operation::logical_xor, 1}}};
+
+constexpr std::array<NamedOperation, 12> kFunctions = {{{"ABS", Operation::abs, 0},
+                                                        {"ACOS", Operation::acos, 0},
+                                                        {"ASIN", Operation::asin, 0},
+                                                        {"COS", Operation::cos, 0},
+                                                        {"EXP", Operation::exp, 0},
+                                                        {"FIX", Operation::fix, 0},
+                                                        {"FUP", Operation::fup, 0},
+                                                        {"LN", Operation::ln, 0},
+                                                        {"ROUND", Operation::round, 0},
+                                                        {"SIN", Operation::sin, 0},
+                                                        {"SQRT", Operation::sqrt, 0},
+                                                        {"TAN", Operation::tan, 0}}};
+
+}  // namespace
+
+bool match(Cursor& cursor, std::string_view name, Bytes& bytes) {
+  Cursor ahead = cursor;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (upper(ahead.peek()) != name[i]) return false;
+    if (i == 0) bytes.begin = ahead.at();
+    ahead.advance();
+  }
+  bytes.end = ahead.at();
+  cursor = ahead;
+  return true;
+}
+
+std::int32_t ExpressionParser::value() {
+  const char c = cursor_.peek();
+  if (++depth_ > kMaxDepth) {
+    return fail(Code::expression_too_deep, {cursor_.at(), cursor_.at() + 1},
+                fmt::format("nested more than {} deep", kMaxDepth));
+  }
+  std::int32_t root = -1;
+  if (is_digit(c) || c == '.') {
+    root = number();
+  } else if (c == '-' || c == '+') {
+    Cursor ahead = cursor_;
+    ahead.advance();
+    const char next = ahead.peek();
+    const bool plain = is_digit(next) || next == '.';
+    root = plain ? number() : signed_value(c == '-' ? NodeKind::negate : NodeKind::plus);
+  } else if (c == '[') {
+    root = group();
+  } else if (c == '#') {
+    root = parameter();
+  } else if (is_letter(c)) {
+    root = function();
+  } else {
+    const std::uint32_t at = cursor_.at();
+    root = fail(Code::number_missing, {at, at + 1},
+                "a number, #parameter, [expression] or function is missing here");
+  }
+  --depth_;
+  return root;
+}
+
+std::int32_t ExpressionParser::number() {
+  Node node;
+  const NumberResult result = cursor_.read_number(node.value, node.own);
+  if (result == NumberResult::good) return add(node);
+  if (report_ != nullptr) report_->error(number_problem(line_, result, node.own, 0));
+  return -1;
+}
+
+std::int32_t ExpressionParser::signed_value(NodeKind kind) {
+  Node node;
+  node.kind = kind;
+  node.own = {cursor_.at(), cursor_.at() + 1};
+  cursor_.advance();
+  node.left = value();
+  return node.left < 0 ? -1 : add(node);
+}
+
+std::int32_t ExpressionParser::parameter() {
+  Node node;
+  node.kind = NodeKind::parameter;
+  node.own = {cursor_.at(), cursor_.at() + 1};
+  cursor_.advance();
+  if (cursor_.peek() == '<') {
+    node.kind = NodeKind::named;
+    node.left = name(node.own.begin);
+    node.own.end = cursor_.at();
+  } else {
+    node.left = value();
+  }
+  return node.left < 0 ? -1 : add(node);
+}
+
+std::int32_t ExpressionParser::name(std::uint32_t sign) {
+  const std::uint32_t open = cursor_.at();
+  const std::size_t close = line_.text.find('>', open);
+  if (close == std::string_view::npos) {
+    return fail(Code::name_not_closed, {sign, open + 1}, "no > closes this name");
+  }
+  const std::string_view written = line_.text.substr(open + 1, close - open - 1);
+  const auto end = static_cast<std::uint32_t>(close) + 1;
+  for (const char c : written) {
+    const bool good = is_letter(c) || is_digit(c) || c == '_' || c == '-' || c == '.' || is_blank(c) ||
+                      static_cast<unsigned char>(c) >= 0x80;
+    if (!good) {
+      const std::string_view head = written.substr(0, std::min<std::size_t>(written.size(), 5));
+      if (c == '[' && (same_letters(head, "_INI[") || same_letters(head, "_HAL["))) {
+        return fail(Code::name_bad, {sign, end}, "kadr has no INI file and no HAL",
+                    "set a named parameter at the head of the program and use it here");
+      }
+      return fail(Code::name_bad, {sign, end}, fmt::format("{} can't stand in a name", c),
+                  "names are made of letters, digits, _ - and .");
+    }
+  }
+  cursor_.go_to(end);
+  const std::int32_t number = names_.number(written);
+  if (!names_[number].empty()) return number;
+  return fail(Code::name_bad, {sign, end}, "a name without letters");
+}
+
+std::int32_t ExpressionParser::exists(Node node) {
+  const auto refuse = [&] {
+    return fail(Code::argument_missing, node.own, "EXISTS takes one parameter",
+                "write EXISTS[#<name>] or EXISTS[#5]");
+  };
+  if (cursor_.peek() != '[') return refuse();
+  cursor_.advance();
+  if (cursor_.peek() != '#') return refuse();
+  const std::uint32_t sign = cursor_.at();
+  cursor_.advance();
+  node.kind = NodeKind::exists;
+  if (cursor_.peek() == '<') {
+    node.kind = NodeKind::exists_named;
+    node.left = name(sign);
+  } else {
+    node.left = value();
+  }
+  if (node.left < 0) return -1;
+  node.own.end = node.kind == NodeKind::exists ? sign + 1 : cursor_.at();
+  if (cursor_.peek() != ']') return fail(Code::bracket_not_closed, node.own, "no ] closes this bracket");
+  node.closing = {cursor_.at(), cursor_.at() + 1};
+  cursor_.advance();
+  return add(node);
+}
+
+std::int32_t ExpressionParser::group() {
+  Node node;
+  node.kind = NodeKind::group;
+  node.own = {cursor_.at(), cursor_.at() + 1};
+  cursor_.advance();
+  node.left = chain(1);
+  if (node.left < 0) return -1;
+  if (cursor_.peek() != ']') return fail(Code::bracket_not_closed, node.own, "no ] closes this bracket");
+  node.closing = {cursor_.at(), cursor_.at() + 1};
+  cursor_.advance();
+  return add(node);
+}
+
+std::int32_t ExpressionParser::function() {
+  Node node;
+  node.kind = NodeKind::function;
+  const Cursor before = cursor_;
+  if (match(cursor_, "EXISTS", node.own)) return exists(node);
+  if (match(cursor_, "ATAN", node.own)) {
+    node.kind = NodeKind::atan;
+  } else {
+    for (const NamedOperation& f : kFunctions) {
+      if (!match(cursor_, f.name, node.own)) continue;
+      node.operation = f.operation;
+      break;
+    }
+    if (node.operation == Operation::none) return unknown_name("function");
+  }
+  if (is_letter(cursor_.peek())) {  // SINE, COSH: a name that only begins like a function
+    cursor_ = before;
+    return unknown_name("function");
+  }
+  if (cursor_.peek() != '[') return fail(Code::argument_missing, node.own, "an argument in [ ] must follow");
+  node.left = group();
+  if (node.left < 0) return -1;
+  if (node.kind == NodeKind::atan) {
+    if (cursor_.peek() != '/') {
+      return fail(Code::argument_missing, node.own, "ATAN takes two arguments", "write ATAN[y]/[x]");
+    }
+    node.closing = {cursor_.at(), cursor_.at() + 1};
+    cursor_.advance();
+    if (cursor_.peek() != '[') {
+      return fail(Code::argument_missing, node.own, "ATAN takes two arguments", "write ATAN[y]/[x]");
+    }
+    node.right = group();
+    if (node.right < 0) return -1;
+  }
+  return add(node);
+}
+
+std::int32_t ExpressionParser::chain(int lowest_precedence) {
+  std::int32_t left = value();
+  while (left >= 0) {
+    const char c = cursor_.peek();
+    if (c == ']' || cursor_.at_end()) return left;
+    const Cursor before = cursor_;
+    Node node;
+    node.kind = NodeKind::binary;
+    if (!read_operator(node.operation, node.own)) return unknown_name("operator");
+    int precedence = 0;
+    for (const NamedOperation& o : kOperators) {
+      if (o.operation == node.operation) precedence = o.precedence;
+    }
+    if (precedence < lowest_precedence) {
+      cursor_ = before;
+      return left;
+    }
+    node.left = left;
+    node.right = chain(precedence + 1);
+    if (node.right < 0) return -1;
+    left = add(node);
+  }
+  return left;
+}
+
+bool ExpressionParser::read_operator(Operation& operation, Bytes& bytes) {
+  for (const NamedOperation& o : kOperators) {
+    if (!match(cursor_, o.name, bytes)) continue;
+    operation = o.operation;
+    return true;
+  }
+  return false;
+}
+
+std::int32_t ExpressionParser::unknown_name(const char* expected) {
+  const char c = cursor_.peek();
+  Bytes bytes{cursor_.at(), cursor_.at() + 1};
+  if (!is_letter(c)) {
+    return fail(Code::operator_expected, bytes, "an operator or ] is expected here",
+                "operators: + - * / ** MOD EQ NE GT GE LT LE AND OR XOR");
+  }
+  while (bytes.end < line_.text.size() && is_letter(line_.text[bytes.end])) ++bytes.end;
+  if (bytes.end - bytes.begin == 1 && expected[0] == 'f') {
+    return fail(Code::number_missing, bytes, "a value is missing before this letter");
+  }
+  return fail(Code::unknown_name, bytes, fmt::format("there is no {} of this name", expected),
+              expected[0] == 'f' ? "functions: ABS ACOS ASIN ATAN COS EXP FIX FUP LN ROUND SIN SQRT TAN"
+                                 : "operators: + - * / ** MOD EQ NE GT GE LT LE AND OR XOR");
+}
+
+std::int32_t ExpressionParser::add(const Node& node) {
+  line_.nodes.push_back(node);
+  return static_cast<std::int32_t>(line_.nodes.size()) - 1;
+}
+
+std::int32_t ExpressionParser::fail(Code code, Bytes bytes, std::string label, std::string help) {
+  if (report_ != nullptr) report_->error(problem(code, line_.span(bytes), std::move(label), std::move(help)));
+  return -1;
+}
+
+}  // namespace kadr::gcode

@@ -1,0 +1,91 @@
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+#include "gcode/read/names.h"
+#include "gcode/read/report.h"
+#include "gcode/read/scanner.h"
+#include "gcode/read/tree.h"
+
+namespace kadr::gcode {
+
+/// Text of one line -> items and expression nodes. The first syntax error of a line is told and the rest of
+/// that line becomes one `unread` item, so the next line is read as if nothing had happened.
+class Parser {
+ public:
+  Parser(Names& names, Report& report) : names_(names), report_(report) {}
+  /// Takes the whole line as one item that was not read, without a message.
+  void leave_unread(Line& line);
+  /// Mistakes are not told: of a line that was told before, or that nothing leads to.
+  void mute(bool muted) { muted_ = muted; }
+
+  /// Fills line.items and line.nodes from line.text, from byte `begin` on.
+  void parse(Line& line, std::size_t begin = 0);
+
+ private:
+  bool parse_item(char c);
+  bool parse_word(char letter);
+  bool parse_setting();
+  bool parse_o_word();
+  bool parse_label(FlowStatement& flow);
+  bool parse_arguments(FlowStatement& flow);
+  bool may_follow_o_word(char c) const;
+  bool parse_comment();
+  bool parse_line_comment();
+  bool parse_percent();
+  void check_encoding(Bytes bytes);
+
+  bool bad_character();
+  bool fail(Code code, Bytes bytes, std::string label, std::string help = {});
+
+  Names& names_;
+  Report& report_;
+  Line* line_ = nullptr;
+  Cursor cursor_{{}};
+  bool encoding_told_ = false;
+  bool muted_ = false;
+};
+
+/// Reads the value of a word or setting: [expression], #parameter, function, signed number.
+class ExpressionParser {
+ public:
+  /// Brackets, signs and # within each other; more is a mistake or an attack on the stack.
+  static constexpr int kMaxDepth = 100;
+
+  /// @param report  null: mistakes are not told
+  ExpressionParser(Line& line, Cursor& cursor, Names& names, Report* report)
+      : line_(line), cursor_(cursor), names_(names), report_(report) {}
+
+  /// @return index of the root node, -1 after an error was told
+  std::int32_t value();
+  /// A value in [ ].
+  std::int32_t group();
+  /// Reads <name>. @return its number, -1 after an error was told
+  std::int32_t name(std::uint32_t sign);
+
+ private:
+  std::int32_t number();
+  std::int32_t signed_value(NodeKind kind);
+  std::int32_t parameter();
+  std::int32_t function();
+  std::int32_t exists(Node node);
+  std::int32_t chain(int lowest_precedence);
+  bool read_operator(Operation& operation, Bytes& bytes);
+  std::int32_t unknown_name(const char* expected);
+  std::int32_t add(const Node& node);
+  std::int32_t fail(Code code, Bytes bytes, std::string label, std::string help = {});
+
+  Line& line_;
+  Cursor& cursor_;
+  Names& names_;
+  Report* report_;
+  int depth_ = 0;
+};
+
+/// Reads `name` (capital letters) if it stands here, blanks between its letters allowed.
+bool match(Cursor& cursor, std::string_view name, Bytes& bytes);
+
+/// Tells what is wrong with a number that could not be read.
+Diagnostic number_problem(const Line& line, NumberResult result, Bytes bytes, char letter);
+
+}  // namespace kadr::gcode

@@ -1,0 +1,53 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "gcode/gcode.h"
+#include "gcode/read/parser.h"
+#include "gcode/read/tree.h"
+
+namespace kadr::gcode {
+
+/// A control program as a stream of parsed lines. One line is held at a time, so memory does not grow with
+/// the file; a place can be kept and gone back to, which is what loops and calls need.
+class Program {
+ public:
+  /// Where the next line begins.
+  struct Position {
+    std::size_t offset = 0;
+    std::uint32_t line = 1;
+  };
+
+  Program(const SourceSet& sources, std::uint32_t file, const Bounds& bounds, Names& names, Report& report);
+
+  /// Parses the next line; it holds until the next call. Null at the end of the text.
+  const Line* next();
+  /// Whether mistakes of the lines that follow are told.
+  void mute(bool muted) { parser_.mute(muted); }
+  Position position() const { return at_; }
+  void go_to(Position position) { at_ = position; }
+  std::uint32_t file() const { return file_; }
+  /// The head of the text again, after all of it was read and its mistakes told. From here on nothing is told
+  /// twice, and the lines of a short text stay parsed.
+  void rewind();
+  /// True if some line begins with an O word other than a program number at the very head.
+  bool has_o_words() const;
+
+ private:
+  bool read(Line& line);
+  void let_go_what_was_read();
+
+  const SourceText& source_;
+  std::string_view text_;
+  std::uint32_t file_;
+  std::uint32_t line_bytes_;
+  Position at_;
+  std::size_t held_from_ = 0;  ///< what stands before it has been let go
+  Parser parser_;
+  Report& report_;
+  Line line_;
+  std::vector<Line> kept_;  ///< [lines], after rewind() of a short text
+};
+
+}  // namespace kadr::gcode

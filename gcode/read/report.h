@@ -1,0 +1,65 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "gcode/read/tree.h"
+#include "machine/base/diagnostic.h"
+
+namespace kadr::gcode {
+
+/// Hands mistakes of a program to the caller's list, a bounded number of them: a broken file of a million
+/// lines must neither fill memory nor the screen. A line that runs many times, in a loop or a subroutine,
+/// tells each of its mistakes once: for the first pass that makes it.
+class Report {
+ public:
+  static constexpr std::size_t kMaxErrors = 1000;
+  static constexpr std::size_t kMaxWarnings = 1000;
+  /// Calls kept with a diagnostic: half of them from either end of the chain.
+  static constexpr std::size_t kMaxCalls = 64;
+
+  explicit Report(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  /// Adds an error; beyond kMaxErrors it is dropped.
+  void error(Diagnostic d);
+  void warning(Diagnostic d);
+  /// The calls in force while the program runs, outermost first, as they are pushed and popped: every
+  /// diagnostic from now on carries them. Null: none. The vector must outlive its use here.
+  void set_call_chain(const std::vector<Span>* chain) { chain_ = chain; }
+
+  /// Where everything told from now on stands, whatever place it names itself: for words that kadr runs on
+  /// the program's behalf and that stand nowhere in its text. Nothing: its own place again.
+  void set_place(std::optional<Span> place) { place_ = place; }
+
+  /// Errors found, repeated ones included: grows with every call of error().
+  std::size_t errors() const { return errors_; }
+  /// True as soon as reading on is of no use.
+  bool full() const { return told_errors_ >= kMaxErrors; }
+  /// Says what the bounds left out.
+  void close(Span end);
+
+ private:
+  bool first_time(const Diagnostic& d);
+  void add(Diagnostic d);
+
+  using Key = std::tuple<Code, std::uint32_t, std::uint32_t, std::uint32_t>;
+  Diagnostics& diagnostics_;
+  const std::vector<Span>* chain_ = nullptr;
+  std::optional<Span> place_;
+  std::set<Key> told_;  ///< code and place; as bounded as the diagnostics
+  std::size_t errors_ = 0;
+  std::size_t told_errors_ = 0;
+  std::size_t warnings_ = 0;
+};
+
+/// A diagnostic with the code's title as its headline.
+Diagnostic problem(Code code, Span span, std::string label, std::string help = {});
+
+/// A length or angle for a message: shortest form within `decimals`, at least one digit: "5.6", "0.0283".
+std::string figure(double value, int decimals = 4);
+
+}  // namespace kadr::gcode
