@@ -6,10 +6,10 @@
 #include <variant>
 #include <vector>
 
-#include "emulator/diff/diff_options.h"
-#include "emulator/export/export_options.h"
-#include "emulator/point_to_point/point_study.h"
-#include "emulator/teach/pulses.h"
+#include "emulator/log_tools/diff/diff_options.h"
+#include "emulator/log_tools/export/export_options.h"
+#include "emulator/studies/point_to_point/point_study.h"
+#include "emulator/studies/teach/pulses.h"
 #include "gcode/gcode.h"
 #include "machine/machine.h"
 #include "scenarios/generator/wind.h"

@@ -5,7 +5,7 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
-#include "emulator/report/text.h"
+#include "emulator/text/text.h"
 #include "gcode/gcode.h"
 
 namespace kadr::cli {

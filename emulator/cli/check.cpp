@@ -5,9 +5,9 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
-#include "emulator/report/check_report.h"
-#include "emulator/report/plan_table.h"
-#include "emulator/report/text.h"
+#include "emulator/answers/check_report.h"
+#include "emulator/answers/plan_table.h"
+#include "emulator/text/text.h"
 
 /// `kadr check` and `kadr plan`: everything up to the motion law, nothing that moves.
 namespace kadr::cli {

@@ -1,11 +1,11 @@
-#include "emulator/report/page/compare.h"
+#include "emulator/log_tools/report/compare.h"
 
 #include <fmt/format.h>
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/output_file.h"
-#include "emulator/report/text.h"
+#include "emulator/text/text.h"
 
 namespace kadr::cli {
 

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <tuple>
 
-#include "emulator/report/text.h"
+#include "emulator/text/text.h"
 
 namespace kadr::cli {
 namespace {

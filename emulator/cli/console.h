@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "emulator/cli/arguments.h"
-#include "emulator/report/json.h"
-#include "emulator/report/sarif.h"
+#include "emulator/text/json.h"
+#include "emulator/text/sarif.h"
 #include "machine/base/diagnostic.h"
 
 namespace kadr::cli {

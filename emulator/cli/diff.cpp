@@ -2,7 +2,7 @@
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
-#include "emulator/diff/diff_report.h"
+#include "emulator/log_tools/diff/diff_report.h"
 
 namespace kadr::cli {
 namespace {

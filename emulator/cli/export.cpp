@@ -5,8 +5,8 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/output_file.h"
-#include "emulator/export/export.h"
-#include "emulator/report/text.h"
+#include "emulator/log_tools/export/export.h"
+#include "emulator/text/text.h"
 
 /// `kadr export` and `kadr plot`: a log's signals for other tools and for a quick look.
 namespace kadr::cli {

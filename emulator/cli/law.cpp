@@ -3,8 +3,8 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/output_file.h"
-#include "emulator/report/point_page.h"
-#include "emulator/report/point_report.h"
+#include "emulator/studies/point_to_point/point_page.h"
+#include "emulator/studies/point_to_point/point_report.h"
 
 /// `kadr law`: laws from rest to rest, side by side.
 namespace kadr::cli {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "emulator/cli/commands.h"
-#include "emulator/time_law/law_study.h"
+#include "emulator/studies/time_law/law_study.h"
 #include "machine/base/parse_number.h"
 
 namespace kadr::cli {

@@ -6,8 +6,8 @@
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
 #include "emulator/cli/write_file.h"
-#include "emulator/report/text.h"
-#include "emulator/report/travel.h"
+#include "emulator/text/text.h"
+#include "emulator/answers/travel.h"
 
 namespace kadr::cli {
 namespace {

@@ -3,8 +3,8 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/output_file.h"
-#include "emulator/report/page/report_page.h"
-#include "emulator/report/text.h"
+#include "emulator/log_tools/report/report_page.h"
+#include "emulator/text/text.h"
 
 namespace kadr::cli {
 namespace {

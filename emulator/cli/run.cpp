@@ -10,10 +10,10 @@
 #include "emulator/cli/progress.h"
 #include "emulator/cli/run_header.h"
 #include "emulator/cli/signals.h"
-#include "emulator/report/alarm_list.h"
-#include "emulator/report/summary.h"
-#include "emulator/report/text.h"
-#include "emulator/report/travel.h"
+#include "emulator/log/alarm_list.h"
+#include "emulator/answers/summary.h"
+#include "emulator/text/text.h"
+#include "emulator/answers/travel.h"
 #include "emulator/scenario/scenario.h"
 
 namespace kadr::cli {

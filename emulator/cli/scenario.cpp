@@ -6,7 +6,7 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/write_file.h"
-#include "emulator/report/text.h"
+#include "emulator/text/text.h"
 #include "emulator/scenario/scenario.h"
 
 namespace kadr::cli {

@@ -3,11 +3,11 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/output_file.h"
-#include "emulator/report/bezier_report.h"
-#include "emulator/report/teach_report.h"
-#include "emulator/report/text.h"
-#include "emulator/teach/sweep.h"
-#include "emulator/teach/teach_page.h"
+#include "emulator/studies/teach/bezier_report.h"
+#include "emulator/studies/teach/teach_report.h"
+#include "emulator/text/text.h"
+#include "emulator/studies/teach/sweep.h"
+#include "emulator/studies/teach/teach_page.h"
 
 /// `kadr teach`: interpolators step by step.
 namespace kadr::cli {

@@ -8,9 +8,9 @@
 #include "emulator/cli/inputs.h"
 #include "emulator/cli/output_file.h"
 #include "emulator/cli/progress.h"
-#include "emulator/report/law_report.h"
-#include "emulator/report/sweep_report.h"
-#include "emulator/report/tube_page.h"
+#include "emulator/studies/time_law/law_report.h"
+#include "emulator/studies/time_law/sweep_report.h"
+#include "emulator/studies/time_law/tube_page.h"
 
 /// `kadr tube`: time laws of a stated path, by several methods side by side.
 namespace kadr::cli {

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "emulator/report/text.h"
+#include "emulator/text/text.h"
 #include "emulator/scenario/scenario.h"
 
 namespace kadr::emulator {

@@ -5,7 +5,7 @@
 #include <exception>
 #include <utility>
 
-#include "emulator/report/alarm_list.h"
+#include "emulator/log/alarm_list.h"
 #include "emulator/scenario/scenario.h"
 #include "emulator/scenario/signals.h"
 #include "machine/base/hash.h"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "emulator/report/law_report.h"
-#include "emulator/report/line_chart.h"
+#include "emulator/studies/time_law/law_report.h"
+#include "emulator/text/line_chart.h"
 
 using namespace kadr;
 using namespace kadr::emulator;

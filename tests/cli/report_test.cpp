@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "emulator/report/alarm_list.h"
-#include "emulator/report/json.h"
-#include "emulator/report/summary.h"
-#include "emulator/report/text.h"
-#include "emulator/report/travel.h"
+#include "emulator/log/alarm_list.h"
+#include "emulator/text/json.h"
+#include "emulator/answers/summary.h"
+#include "emulator/text/text.h"
+#include "emulator/answers/travel.h"
 #include "tests/cli/run_kadr.h"
 
 using namespace kadr;

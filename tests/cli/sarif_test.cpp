@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/report/sarif.h"
+#include "emulator/text/sarif.h"
 #include "machine/base/utf8.h"
 #include "tests/cli/programs.h"
 #include "tests/cli/run_kadr.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "emulator/export/envelope.h"
-#include "emulator/export/log_samples.h"
+#include "emulator/log_tools/export/envelope.h"
+#include "emulator/log_tools/export/log_samples.h"
 
 using namespace kadr::emulator;
 

@@ -4,8 +4,8 @@
 #include <bit>
 
 #include "diff_support.h"
-#include "emulator/diff/diff_report.h"
-#include "emulator/diff/log_diff.h"
+#include "emulator/log_tools/diff/diff_report.h"
+#include "emulator/log_tools/diff/log_diff.h"
 
 using namespace kadr;
 using namespace kadr::emulator;

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "emulator/report/page/encode.h"
-#include "emulator/report/page/page_data.h"
+#include "emulator/log_tools/report/encode.h"
+#include "emulator/log_tools/report/page_data.h"
 
 using namespace kadr::emulator;
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "emulator/report/page/page_data.h"
-#include "emulator/report/page/path_corners.h"
+#include "emulator/log_tools/report/page_data.h"
+#include "emulator/log_tools/report/path_corners.h"
 
 using namespace kadr::emulator;
 using kadr::Ticks;

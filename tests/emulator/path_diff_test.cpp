@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "diff_support.h"
-#include "emulator/diff/diff_report.h"
+#include "emulator/log_tools/diff/diff_report.h"
 
 using namespace kadr;
 using namespace kadr::emulator;

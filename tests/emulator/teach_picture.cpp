@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "emulator/teach/picture.h"
-#include "emulator/teach/sweep.h"
+#include "emulator/studies/teach/picture.h"
+#include "emulator/studies/teach/sweep.h"
 #include "tests/emulator/lattice_support.h"
 
 using namespace kadr::emulator;

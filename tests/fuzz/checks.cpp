@@ -1,7 +1,7 @@
 #include "checks.h"
 
-#include "emulator/report/json.h"
-#include "emulator/report/sarif.h"
+#include "emulator/text/json.h"
+#include "emulator/text/sarif.h"
 #include "machine/base/require.h"
 
 namespace kadr::fuzz {

@@ -1,0 +1,84 @@
+#include "emulator/answers/check_report.h"
+
+#include <fmt/format.h>
+
+#include "emulator/answers/summary.h"
+#include "emulator/text/text.h"
+
+namespace kadr::emulator {
+namespace {
+
+std::string limits_text(const machine::AxisModel& axis) {
+  const auto limit = [](double value_u) {
+    return value_u == machine::kInfinity || value_u == -machine::kInfinity ? std::string("none")
+                                                                           : fixed(value_u, 3);
+  };
+  if (axis.soft_min_u == -machine::kInfinity && axis.soft_max_u == machine::kInfinity) return "none";
+  return fmt::format("{} .. {} {}", limit(axis.soft_min_u), limit(axis.soft_max_u), axis_unit(axis));
+}
+
+bool outside(const AxisTravel& travel, const machine::AxisModel& axis) {
+  // the same slack as the soft-limit check: a limit reached but for rounding is inside
+  constexpr double kSlack_u = 1e-9;
+  return travel.min_u < axis.soft_min_u - kSlack_u || travel.max_u > axis.soft_max_u + kSlack_u;
+}
+
+}  // namespace
+
+CheckResult check_result(const Job& job) {
+  CheckResult r;
+  r.motion_s = job.motion_s;
+  r.dwell_s = job.dwell_s;
+  r.time_s = job.motion_s + job.dwell_s;
+  r.blocks = job.blocks;
+  r.travel = axis_travel(job.path);
+  r.path_unit = path_unit(job.path, job.machine.model);
+  r.limited_by = limit_shares(job);
+  for (std::size_t i = 0; i < job.path.size(); ++i) {
+    const planner::PathSegment& segment = job.path.segments[i];
+    const planner::SegmentPlan& plan = job.plan.segments[i];
+    r.path_u += segment.feed_length_u;
+    if (segment.rapid) {
+      r.rapid_s += plan.end_time_s - plan.begin_time_s;
+      r.rapid_path_u += segment.feed_length_u;
+    }
+    const double peak_u_s = plan.peak_u_s * segment.feed_length_u / segment.length_u;
+    if (peak_u_s > r.peak_u_s) {
+      r.peak_u_s = peak_u_s;
+      r.peak_line = segment.span.line;
+    }
+  }
+  return r;
+}
+
+std::string render_check(const CheckResult& r, const std::string& program, const std::string& machine_text,
+                         const machine::MachineModel& model) {
+  std::string out = fmt::format("{} on {}\n", one_line(program, 60), one_line(machine_text, 60));
+  out += fmt::format("  time         {}   ({} cutting, {} rapid, {} standing)   {} blocks\n",
+                     duration_text(r.time_s), duration_text(r.motion_s - r.rapid_s), duration_text(r.rapid_s),
+                     duration_text(r.dwell_s), grouped(r.blocks));
+  out += fmt::format("  path         {} {}   ({} rapid)", fixed(r.path_u, 3), r.path_unit,
+                     fixed(r.rapid_path_u, 3));
+  if (r.peak_u_s > 0)
+    out += fmt::format("   peak feed {} {} (line {})", fixed(r.peak_u_s, 3), speed_unit(r.path_unit),
+                       r.peak_line);
+  out += '\n';
+
+  using Align = TextTable::Align;
+  TextTable table(
+      {{"axis", Align::left}, {"from"}, {"to"}, {"", Align::left}, {"soft limits"}, {"", Align::left}});
+  for (std::size_t a = 0; a < r.travel.size(); ++a) {
+    const machine::AxisModel& axis = model.axis[a];
+    const AxisTravel& t = r.travel[a];
+    table.add({std::string("  ") + axis.letter, fixed(t.min_u, 3), fixed(t.max_u, 3), axis_unit(axis),
+               limits_text(axis),
+               outside(t, axis) ? "OUTSIDE"
+               : t.travel_u > 0 ? ""
+                                : "not moved"});
+  }
+  out += table.render("  ");
+  if (const std::string limits = render_limits(r.limited_by); !limits.empty()) out += "  " + limits;
+  return out;
+}
+
+}  // namespace kadr::emulator

@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "emulator/emulator.h"
+#include "emulator/answers/travel.h"
+
+namespace kadr::emulator {
+
+/// What `kadr check` finds out about a program that could be planned.
+struct CheckResult {
+  double time_s = 0;  ///< with acceleration, dwells included
+  double motion_s = 0;
+  double dwell_s = 0;
+  double rapid_s = 0;  ///< part of motion_s spent in rapids
+  double path_u = 0;
+  double rapid_path_u = 0;  ///< part of path_u that is rapid
+  std::string path_unit;
+  std::uint32_t blocks = 0;
+  double peak_u_s = 0;  ///< highest planned feed
+  std::uint32_t peak_line = 0;
+  std::vector<AxisTravel> travel;  ///< [axes]
+  std::vector<LimitShare> limited_by;
+};
+
+/// @pre prepare(job) returned true
+CheckResult check_result(const Job& job);
+/// The table for people.
+std::string render_check(const CheckResult& result, const std::string& program,
+                         const std::string& machine_text, const machine::MachineModel& model);
+
+}  // namespace kadr::emulator

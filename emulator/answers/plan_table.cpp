@@ -1,0 +1,210 @@
+#include "emulator/answers/plan_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "emulator/text/text.h"
+#include "emulator/answers/travel.h"
+#include "machine/base/numbers.h"
+#include "planner/positioning/positioning.h"
+
+namespace kadr::emulator {
+namespace {
+
+constexpr std::size_t kTextWidth = 34;
+
+std::string pause_name(const gcode::Block& block) {
+  return block.kind == gcode::BlockKind::dwell        ? "dwell"
+         : block.kind == gcode::BlockKind::wait_input ? "wait"
+                                                      : "tool change";
+}
+
+std::size_t width_of(double largest, int decimals, std::size_t least) {
+  return std::max(least, fixed(largest, decimals).size());
+}
+
+bool is_blockwise(const Job& job) {
+  return job.machine.model.planner.scheduler == machine::SchedulerKind::blockwise;
+}
+
+/// Rule, kl and jump of a block of one or more segments: what is furthest from none, 1 and 0.
+void add_ticks(const Job& job, std::size_t first, std::size_t end, PlanRow& row) {
+  row.blockwise = true;
+  auto rule = planner::TickRule::none;
+  for (std::size_t i = first; i < end; ++i) {
+    const planner::SegmentPlan& plan = job.plan.segments[i];
+    const planner::PathSegment& segment = job.path.segments[i];
+    rule = std::max(rule, plan.rule);
+    row.kl = std::min(row.kl, plan.kl);
+    const double jump_u_s = plan.end_jump_u_s * segment.feed_length_u / segment.length_u;
+    if (std::fabs(jump_u_s) > std::fabs(row.end_jump_u_s)) row.end_jump_u_s = jump_u_s;
+  }
+  row.rule = planner::tick_rule_name(rule);
+}
+
+void add_rapid(const Job& job, const planner::PositionedSegment& rapid, planner::PositioningPlanner& planner,
+               PlanRow& row) {
+  row.positioned = true;
+  row.rapid_law = planner::rapid_law_name(rapid.shape);
+  row.rapid_reason = rapid.reason;
+  row.rapid_loss_s = rapid.loss_s;
+  const std::vector<machine::AxisModel>& axis = job.machine.model.axis;
+  for (const planner::ExcitedMode& m : planner.excited(job.path, rapid.segment))
+    row.vibrations.push_back({axis[static_cast<std::size_t>(m.axis)].letter,
+                              m.driven.mode.omega_rad_s / (2 * kPi), m.driven.mode.zeta});
+  for (std::size_t c = 0; c < axis.size(); ++c)
+    if (axis[c].has_plant) row.residual_u.emplace_back(axis[c].letter, rapid.residual_u[c]);
+}
+
+/// "zv +0.025 s for X 45.00 Hz", and what it leaves where that is not nothing.
+std::string rapid_text(const PlanRow& row) {
+  constexpr double kNothing_u = 5e-7;
+  std::string out = fmt::format("; {} +{} s", row.rapid_law, fixed(row.rapid_loss_s, 3));
+  for (std::size_t i = 0; i < row.vibrations.size(); ++i)
+    out += fmt::format("{} {} {} Hz", i == 0 ? " for" : ",", row.vibrations[i].axis,
+                       fixed(row.vibrations[i].hz, 2));
+  for (const auto& [axis, residual_u] : row.residual_u)
+    if (residual_u > kNothing_u) out += fmt::format(", {} swings {} um", axis, fixed(1e3 * residual_u, 1));
+  return out;
+}
+
+}  // namespace
+
+void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>& sink) {
+  const machine::MachineModel& machine = job.machine.model;
+  std::size_t next_event = 0;
+  double time_s = 0;
+  auto rapid = job.plan.positioned.begin();
+  planner::PositioningPlanner rapids(machine);
+  const auto pauses_before = [&](std::size_t segment) {
+    for (; next_event < job.events.size() && job.events[next_event].after_segment <= segment; ++next_event) {
+      const gcode::Block& block = job.events[next_event].block;
+      PlanRow row;
+      row.time_s = hold_time_s(block, machine);
+      if (!(row.time_s > 0)) continue;
+      row.line = block.span.line;
+      row.text = job.sources[block.span.file].line(row.line);
+      row.motion = pause_name(block);
+      row.begin_s = time_s;
+      row.blockwise = is_blockwise(job);
+      time_s += row.time_s;
+      sink(row);
+    }
+  };
+  for (std::size_t i = 0; i < job.path.size();) {
+    pauses_before(i);
+    const planner::PathSegment& segment = job.path.segments[i];
+    const BlockSummary block = block_summary(job, i);
+    PlanRow row;
+    row.line = segment.span.line;
+    row.text = job.sources[segment.span.file].line(row.line);
+    row.motion = planner::motion_name(segment);
+    row.unit = segment_unit(job.path, i, machine);
+    row.length_u = block.length_u;
+    row.begin_s = block.begin_s;
+    row.time_s = block.time_s;
+    row.programmed_u_s = block.programmed_u_s;
+    row.peak_u_s = block.peak_u_s;
+    row.end_u_s = block.end_u_s;
+    row.limited_by = limited_by_text(block.limited_by, block.limiting_axis, machine);
+    if (is_blockwise(job)) add_ticks(job, i, block.end_segment, row);
+    if (rapid != job.plan.positioned.end() && rapid->segment == i) add_rapid(job, *rapid++, rapids, row);
+    time_s = block.begin_s + block.time_s;
+    sink(row);
+    i = block.end_segment;
+  }
+  pauses_before(job.path.size());
+}
+
+PlanTable::PlanTable(const Job& job)
+    : blockwise_(is_blockwise(job)), unit_(path_unit(job.path, job.machine.model)) {
+  double longest_u = 0, fastest_u_s = 0, slowest_s = 0;
+  std::uint32_t last_line = 1;
+  for_each_plan_row(job, [&](const PlanRow& row) {
+    longest_u = std::max(longest_u, row.length_u);
+    fastest_u_s = std::max({fastest_u_s, row.peak_u_s, row.programmed_u_s});
+    slowest_s = std::max(slowest_s, row.time_s);
+    last_line = std::max(last_line, row.line);
+  });
+  line_width_ = std::max<std::size_t>(4, std::to_string(last_line).size());
+  length_width_ = width_of(longest_u, 3, head("length").size());
+  time_width_ = width_of(slowest_s, 3, 6);
+  speed_width_ = width_of(fastest_u_s, 3, head("peak", "/s").size());
+}
+
+std::string PlanTable::head(std::string_view name, std::string_view per) const {
+  return mixed() ? std::string(name) : fmt::format("{} {}{}", name, unit_, per);
+}
+
+std::string PlanTable::title() const {
+  return fmt::format("{}  {}  {}  {}  {}  {}  {}{}{}  limited by\n", pad_left("line", line_width_),
+                     pad_right("text", kTextWidth), pad_left(head("length"), length_width_),
+                     pad_left("time s", time_width_), pad_left(head("F", "/s"), speed_width_),
+                     pad_left(head("peak", "/s"), speed_width_), pad_left(head("end", "/s"), speed_width_),
+                     blockwise_ ? "  rule      kl  " + pad_left(head("jump", "/s"), speed_width_) : "",
+                     mixed() ? "  unit    " : "");
+}
+
+std::string PlanTable::row(const PlanRow& r) const {
+  const bool pause = r.limited_by.empty();
+  const auto number = [&](double value, std::size_t width) {
+    return pause ? std::string(width, ' ') : pad_left(fixed(value, 3), width);
+  };
+  std::string out = fmt::format(
+      "{}  {}  {}  {}  {}  {}  {}", pad_left(std::to_string(r.line), line_width_),
+      pad_right(one_line(r.text, kTextWidth), kTextWidth), number(r.length_u, length_width_),
+      pad_left(fixed(r.time_s, 3), time_width_),
+      r.motion == "rapid" ? pad_left("rapid", speed_width_) : number(r.programmed_u_s, speed_width_),
+      number(r.peak_u_s, speed_width_), number(r.end_u_s, speed_width_));
+  if (blockwise_)
+    out += fmt::format("  {:<4}  {:>6}  {}", r.rule, pause ? "" : fixed(r.kl, 4),
+                       number(r.end_jump_u_s, speed_width_));
+  if (mixed()) out += pause ? "          " : fmt::format("  {:<8}", fmt::format("{0} {0}/s", r.unit));
+  out += "  " + (pause ? r.motion : r.limited_by);
+  if (r.positioned) out += rapid_text(r);
+  return out + '\n';
+}
+
+std::string PlanTable::footer(const Job& job, std::size_t rows) const {
+  const planner::Smoothing& smoothing = job.path.smoothing;
+  std::string out = fmt::format(
+      "{} rows, {}: {} in motion, {} standing\n", grouped(static_cast<std::int64_t>(rows)),
+      duration_text(job.motion_s + job.dwell_s), duration_text(job.motion_s), duration_text(job.dwell_s));
+  if (smoothing.corners > 0)
+    out += fmt::format("G64 P: {} corners rounded, at most {} {} from the program\n",
+                       grouped(static_cast<std::int64_t>(smoothing.corners)),
+                       fixed(smoothing.corner_deviation_u, 4), unit_);
+  if (smoothing.curves > 0)
+    out += fmt::format("G64 P: {} lines became curves through their points, at most {} {} from the program\n",
+                       grouped(static_cast<std::int64_t>(smoothing.curves)),
+                       fixed(smoothing.curve_deviation_u, 4), unit_);
+  return out;
+}
+
+std::string plan_csv_title(const machine::MachineModel& machine) {
+  const bool blockwise = machine.planner.scheduler == machine::SchedulerKind::blockwise;
+  const bool rapids = machine.planner.rapid_law != machine::RapidShape::scurve;
+  return fmt::format(
+      "line,motion,unit,length_u,begin_s,time_s,programmed_u_s,peak_u_s,end_u_s,limited_by,{}{}text\n",
+      blockwise ? "rule,kl,end_jump_u_s," : "", rapids ? "rapid_law,rapid_loss_s," : "");
+}
+
+std::string plan_csv_row(const PlanRow& row, const machine::MachineModel& machine) {
+  std::string quoted;
+  for (const char c : row.text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  const std::string ticks =
+      row.blockwise ? fmt::format("{},{},{},", row.rule, row.kl, row.end_jump_u_s) : std::string();
+  std::string rapid;
+  if (machine.planner.rapid_law != machine::RapidShape::scurve)
+    rapid = row.positioned ? fmt::format("{},{},", row.rapid_law, row.rapid_loss_s) : ",,";
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}{}\"{}\"\n", row.line, row.motion, row.unit,
+                     row.length_u, row.begin_s, row.time_s, row.programmed_u_s, row.peak_u_s, row.end_u_s,
+                     row.limited_by, ticks, rapid, quoted);
+}
+
+}  // namespace kadr::emulator

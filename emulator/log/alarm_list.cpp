@@ -1,0 +1,13 @@
+#include "emulator/log/alarm_list.h"
+
+namespace kadr::emulator {
+
+ForwardingLog::Written AlarmList::event(const EventRecord& record) {
+  if (record.kind == "alarm") {
+    ++counts_[record.code];
+    if (alarms_.size() < kKept) alarms_.push_back(record);
+  }
+  return ForwardingLog::event(record);
+}
+
+}  // namespace kadr::emulator

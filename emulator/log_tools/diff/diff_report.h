@@ -1,0 +1,36 @@
+#pragma once
+#include <string>
+
+#include "emulator/log_tools/diff/log_diff.h"
+#include "emulator/log_tools/diff/path_diff.h"
+#include "emulator/text/json.h"
+
+/// What `kadr diff` prints; lines end in '\n'.
+namespace kadr::emulator {
+
+/// "inputs differ:" with a line for each that does; empty if all are the same.
+std::string render_input_differences(const std::vector<InputDifference>& inputs);
+
+/// One line per field, for --all.
+std::string render_tick_difference(const TickDifference& difference, const LogDiff& logs);
+/// First difference with what is around it, inputs, totals.
+std::string render_log_diff(const LogDiff& diff);
+
+std::string render_block_difference(const BlockDifference& difference, const LogHeader& header);
+std::string render_feed_span(const FeedSpan& span, const PathDiff& diff);
+std::string render_path_diff(const PathDiff& diff);
+
+/// The same for programs; keys carry units, `_u` is mm or deg as "unit" beside it says.
+Json json_of(const std::vector<InputDifference>& inputs);
+Json json_of(const LogSide& side);
+Json json_of(const TickDifference& difference, const LogHeader& header);
+Json json_of(const BlockDifference& difference, const LogHeader& header);
+Json json_of(const FeedSpan& span, const LogHeader& header);
+/// "differ", "first", "totals" ...: all but the logs and their inputs.
+Json json_of(const LogDiff& diff);
+Json json_of(const PathDiff& diff);
+
+/// How a log ends, one line; empty if it is complete.
+std::string end_text(const LogSide& side);
+
+}  // namespace kadr::emulator

@@ -1,0 +1,40 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "emulator/log_tools/export/export.h"
+
+namespace kadr::emulator {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+}  // namespace
+
+void write_csv(LogSamples& log, CsvForm form, const Sink& sink) {
+  const bool excel = form == CsvForm::excel;
+  const char separator = excel ? ';' : ',';
+  std::string line(excel ? kByteOrderMark : std::string_view{});
+  line += "t_s";
+  for (const Signal& signal : log.chosen()) line += separator + signal.name;
+  line += '\n';
+  sink(line);
+  const auto number = [&](double value) {
+    const auto begin = static_cast<std::ptrdiff_t>(line.size());
+    fmt::format_to(std::back_inserter(line), "{}", value);
+    if (excel) std::replace(line.begin() + begin, line.end(), '.', ',');
+  };
+  for (Sample sample; log.next(sample);) {
+    line.clear();
+    number(sample.t_s);
+    for (const double value : sample.value) {
+      line += separator;
+      if (!std::isnan(value)) number(value);
+    }
+    line += '\n';
+    sink(line);
+  }
+}
+
+}  // namespace kadr::emulator

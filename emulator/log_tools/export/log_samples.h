@@ -1,0 +1,70 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "emulator/log_tools/diff/log_frames.h"
+#include "emulator/log_tools/export/export_options.h"
+
+/// A log as named signals over time: what exports, plots and the report page read (docs/report.md).
+namespace kadr::emulator {
+
+/// One column. Names are those of the viewer channels in lower case, the unit at the end:
+/// KADR_FEED.commanded is "feed.commanded_mm_s", KADR_AXIS_X.load is "axis.X.load_mm".
+struct Signal {
+  std::string name;
+  std::string unit;    ///< "mm/s"; empty: a count or a code
+  bool whole = false;  ///< a whole number
+};
+
+/// One control tick, at its end.
+struct Sample {
+  std::int64_t control_tick = 0;
+  Ticks end;
+  double t_s = 0;             ///< of `end`
+  std::vector<double> value;  ///< [chosen signals]; NaN: nothing to tell, e.g. the programmed feed of a rapid
+  const LogFrame* frame = nullptr;  ///< pulses, events and block of this control tick; until the next call
+};
+
+/// Reads one log from its beginning, a control tick a step; memory is that of one log block.
+class LogSamples {
+ public:
+  static tl::expected<LogSamples, LogReadError> open(const std::string& path);
+  LogSamples(LogSamples&&) noexcept;
+  ~LogSamples();
+
+  const LogHeader& header() const;
+  /// All that the log can tell: without plant nothing of the load, without an operator's steps nothing of
+  /// what was asked for.
+  const std::vector<Signal>& signals() const;
+  /// @return the sentence that says what of the choice the log does not have
+  tl::expected<void, std::string> choose(const SampleChoice& choice);
+  const std::vector<Signal>& chosen() const;
+  double control_tick_s() const;
+  double from_s() const;  ///< of the choice
+  /// Number of control ticks from one sample to the next.
+  std::int64_t every() const;
+
+  /// The next sample of the choice.
+  bool next(Sample& sample);
+  /// Is called for every control tick that is read, also for those that the choice leaves out.
+  void watch(std::function<void(const LogFrame&)> each);
+  /// How the log ends, once next() said no; null: it stopped at the window's end, the rest was not read.
+  const LogEnd* end() const;
+  const std::optional<LogSummary>& summary() const;
+
+ private:
+  struct Impl;
+  explicit LogSamples(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Fits a name to a pattern in which `*` stands for any text.
+bool matches_pattern(std::string_view name, std::string_view pattern);
+
+}  // namespace kadr::emulator

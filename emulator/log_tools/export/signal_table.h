@@ -1,0 +1,41 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "emulator/log_tools/diff/log_frames.h"
+#include "emulator/log_tools/export/log_samples.h"
+
+namespace kadr::emulator {
+
+/// How one axis moves, from the positions of successive control ticks: means over the tick that ended.
+struct AxisMotion {
+  double command_u = 0;
+  double speed_u_s = 0, accel_u_s2 = 0, jerk_u_s3 = 0;
+};
+
+/// What a signal is taken from.
+struct TickContext {
+  const LogHeader* header = nullptr;
+  const LogFrame* frame = nullptr;
+  std::vector<AxisMotion> axis;  ///< [axes]
+  double feed_jerk_u_s3 = 0;     ///< change of the path's acceleration over the tick
+  const TickBlock& ticks() const { return *frame->ticks; }
+  std::size_t at() const { return frame->tick_index; }
+};
+
+/// A signal with its way to a number.
+struct SignalSource {
+  Signal signal;
+  std::function<double(const TickContext&)> value;
+};
+
+/// All signals of a log.
+/// @param first  a control tick with exact data: what it holds, every tick of the log holds
+std::vector<SignalSource> signal_table(const LogHeader& header, const LogFrame& first);
+
+/// Moves a context on to the next control tick.
+/// @param tau_s  length of a control tick
+void advance(TickContext& context, const LogFrame& frame, double tau_s);
+
+}  // namespace kadr::emulator

@@ -1,0 +1,40 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "emulator/text/json.h"
+#include "emulator/log_tools/report/page_data.h"
+
+/// `kadr compare`: runs of one program side by side.
+namespace kadr::emulator {
+
+struct ComparedRun {
+  std::string path;
+  PageData data;
+};
+
+/// One quantity of every run; what a run does not have is not a number.
+struct ComparedQuantity {
+  std::string name;  ///< "vibration X, peak"
+  std::string key;   ///< "vibration_X_um"
+  std::string unit;
+  int decimals = 3;
+  std::vector<double> value;  ///< [runs]
+};
+
+/// Time, what it went into, feed, path error, vibration, following error and work of every run.
+std::vector<ComparedQuantity> compared_quantities(const std::vector<ComparedRun>& runs);
+
+/// What about the inputs is not the same in all runs: program, machine; empty: they are of one program.
+std::string compared_note(const std::vector<ComparedRun>& runs);
+
+std::string render_comparison(const std::vector<ComparedRun>& runs);
+Json json_of(const std::vector<ComparedRun>& runs);
+/// One HTML page: the table, and charts of all runs over time or path with one window and cursor. In a build
+/// without the interactive page, and without script: feed over time, feed and path error over the path.
+/// @param max_bytes  the page's size; longer runs are shown by extremes of several control ticks
+std::string render_compare_page(std::vector<ComparedRun> runs, std::size_t max_bytes);
+
+}  // namespace kadr::emulator

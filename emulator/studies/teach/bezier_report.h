@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+
+#include "emulator/text/json.h"
+#include "emulator/studies/teach/bezier_study.h"
+
+namespace kadr::emulator {
+
+/// What is asked of a chain of Beziers; 0: nothing.
+struct BezierDemand {
+  double feed_mm_s = 0;
+  double acceleration_mm_s2 = 0;
+};
+
+/// Whether the curves meet, and the feed is allowed on every curve and joint.
+bool allowed(const BezierStudy& study, const BezierDemand& demand);
+/// A paragraph a curve and a joint: polynomials, length, radius, allowed feed, jumps, repairs, errors of
+/// t(S).
+std::string render_beziers(const BezierStudy& study, const BezierDemand& demand);
+Json json_of(const BezierStudy& study, const BezierDemand& demand);
+
+}  // namespace kadr::emulator

@@ -1,0 +1,54 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "emulator/interpolator/lattice/lattice.h"
+#include "emulator/studies/teach/case_words.h"
+
+/// A case followed by a method. Shared by `kadr teach` and its page, so nothing here throws.
+namespace kadr::emulator {
+
+/// A row of a step table: the node, what is known of it, and what is done in the slot that follows.
+struct StepRow {
+  lattice::Point node{};
+  lattice::Slot slot;
+  double deviation_steps = 0;  ///< of the node from the curve; with a sign where the curve has two sides
+};
+
+/// A case followed by a method to its end.
+struct StepTable {
+  lattice::Method method = lattice::Method::half_step;
+  std::string value_name;   ///< what Slot::value is, empty: nothing
+  std::string tested_name;  ///< what Slot::tested is
+  std::string tested_y_name;
+  int axes = 2;
+  std::vector<StepRow> rows;  ///< one a slot; a node beyond the last slot is `last`
+  StepRow last;
+  lattice::Point end{};  ///< where the case ends
+  bool end_reached = false;
+  std::int64_t pulses = 0, diagonals = 0, forced = 0, idle = 0;
+  double worst_steps = 0;  ///< largest deviation, plain distance
+  double rms_steps = 0;
+  double worst_square_steps = -1;  ///< largest deviation in the larger axis; -1: not measured on this curve
+  std::uint64_t hash = 0;          ///< of the steps in order
+  double length_steps = 0;         ///< of the ideal path
+  /// Place on the ideal path at which each slot's axis crosses, [slots]; of half_step and crossing alone.
+  std::vector<double> crossings_steps;
+};
+
+struct TeachOptions {
+  lattice::MethodOptions method;
+  TeachMode mode = TeachMode::continuous;
+  std::int64_t most_slots = 100'000;
+};
+
+/// A step table, or why there is none.
+struct Followed {
+  StepTable table;
+  lattice::Refusal refusal = lattice::Refusal::none;
+  std::size_t leg = 0;    ///< that was refused
+  bool complete = false;  ///< false and no refusal: more slots than allowed
+};
+Followed follow(const TeachCase& subject, lattice::Method method, const TeachOptions& options);
+
+}  // namespace kadr::emulator

@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "emulator/studies/teach/case_words.h"
+
+/// `kadr teach`: interpolators step by step, for people who learn how they work.
+namespace kadr::emulator {
+
+/// Reads the words of a case (case_words.h).
+/// @param axes  of Beziers and polylines, whose words are taken in groups of so many
+/// @return the case, or what is wrong with its words
+tl::expected<TeachCase, std::string> read_teach_case(const std::vector<std::string>& words, int axes);
+
+}  // namespace kadr::emulator

@@ -1,0 +1,340 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "emulator/studies/time_law/path_table.h"
+#include "emulator/studies/time_law/problem_axis.h"
+#include "emulator/studies/time_law/problem_bounds.h"
+#include "emulator/studies/time_law/problem_machine.h"
+#include "emulator/studies/time_law/program_problem.h"
+#include "machine/file/table_reader.h"
+
+namespace kadr::emulator {
+namespace {
+
+namespace fs = std::filesystem;
+using machine::Bounds;
+using machine::kInfinity;
+using machine::Node;
+using machine::Reading;
+using machine::TableReader;
+
+constexpr Bounds kEndSpeed{0, 1e9};
+constexpr Bounds kPathAcceleration{1e-6, 1e12, true};
+constexpr Bounds kJerk{1e-6, 1e15};
+constexpr Bounds kNodes{3, kMostNodes, false, true};
+constexpr double kMostDerivatives = 2e7;  ///< nodes times axes
+
+class ProblemReader {
+ public:
+  ProblemReader(SourceSet& sources, std::uint32_t file, machine::ReadContext& context)
+      : sources_(sources), file_(file), context_(context), program_(sources, file, context) {}
+
+  void read(const Node& root) {
+    TableReader table(&root, "", Span{file_, 1, 1, 1}, context_);
+    const auto format = table.number("format", {1, 1e6, false, true});
+    if (format.valid && format.value != 1)
+      tell(Code::file_format, format.span,
+           fmt::format("is edition {:.0f}, this kadr reads edition 1", format.value));
+    out_.name = table.text("name", fs::path(sources_[file_].name()).stem().string()).value;
+    read_path(table.table("path"), Span{file_, 1, 1, 1});
+    for (const Node& axis : table.tables("axis")) read_axis(axis);
+    for (const Node& zone : table.tables("zone")) read_zone(zone);
+    read_penalty(table.table("penalty"));
+    read_tube(table.table("tube"));
+    read_classical(table.table("classical"));
+    if (const Node* jerk = table.table("jerk")) {
+      TableReader keys(jerk, "jerk", jerk->span, context_);
+      out_.jerk_mm_s3 = keys.number("max_mm_s3", kJerk).value;
+      keys.finish();
+    }
+    table.finish();
+    if (out_.axes.empty() && !by_program_ && context_.complete)
+      tell(Code::problem_path, Span{file_, 1, 1, 1}, "there is no [[axis]]", "begin each axis with [[axis]]");
+    if (!context_.diagnostics.has_errors()) place();
+  }
+
+  TimeLawProblem take() { return std::move(out_); }
+
+ private:
+  void tell(Code code, const Span& span, std::string label, std::string help = "") {
+    Diagnostic d = machine::file_diagnostic(code, span, std::move(label));
+    d.help = std::move(help);
+    context_.diagnostics.add(std::move(d));
+  }
+
+  /// Length and nodes, or a table; limits along the path.
+  void read_path(const Node* node, const Span& missing) {
+    TableReader keys(node, "path", missing, context_);
+    by_program_ = keys.has("program");
+    by_table_ = !by_program_ && keys.has("table");
+    table_ = keys.text("table", "");
+    if (by_program_ && keys.has("table"))
+      tell(Code::problem_path, table_.span, "the program gives the path already",
+           "keep one of table and program");
+    if (by_program_)
+      program_.read_path(keys);
+    else if (keys.has("machine"))
+      machine_ = open_problem_machine(sources_, file_, keys.text("machine"), context_);
+    const auto of_machine = [&](double machine::PathLimits::*limit) {
+      return by_program_ ? std::optional<double>(kInfinity)
+             : machine_ && machine_->model.path.*limit < kInfinity
+                 ? std::optional<double>(machine_->model.path.*limit)
+                 : std::nullopt;
+    };
+    if (by_table_) ends_ = read_spline_ends(keys);
+    const bool has_length = keys.has("length_mm"), has_nodes = keys.has("nodes");
+    if (node && !by_table_ && !by_program_ && !has_length && !has_nodes)
+      tell(Code::problem_path, node->span, "has neither length_mm and nodes nor a table or program",
+           "write table = \"FILE.csv\", program = \"FILE.ngc\", or length_mm and nodes and the axes' "
+           "formulas");
+    // what is not needed has a value that nobody reads, so that its key is known all the same
+    const bool needed = !by_table_ && !by_program_ && (has_length || has_nodes);
+    const auto otherwise = [&](double value) { return needed ? std::optional<double>() : value; };
+    const auto length = keys.number("length_mm", kLength, otherwise(1));
+    const auto nodes = keys.number("nodes", kNodes, otherwise(3));
+    if ((by_table_ || by_program_) && has_length) {
+      const char* other = by_table_ ? "table" : "program";
+      tell(Code::problem_path, length.span, fmt::format("the {} gives the length already", other),
+           fmt::format("keep one of {} and length_mm", other));
+    }
+    if (by_program_ && !program_.by_spline() && has_nodes)
+      tell(Code::problem_path, nodes.span, "a program's joints are nodes, and others lie between them",
+           "write node_mm, the longest way between nodes, or fit = \"spline\"");
+    length_mm_ = length.value;
+    if (needed || has_nodes) nodes_ = nodes;
+    out_.size_span = nodes_ ? nodes_->span : by_program_ ? program_.program_span() : table_.span;
+    planner::LawProblem& law = out_.law;
+    // a program says how fast, with its feeds and its machine
+    law.path_feed_u_s =
+        keys.number("max_mm_s", kSpeed, of_machine(&machine::PathLimits::max_feed_mm_s)).value;
+    law.path_accel_u_s2 = keys.number("max_acceleration_mm_s2", kPathAcceleration,
+                                      of_machine(&machine::PathLimits::max_accel_mm_s2).value_or(kInfinity))
+                              .value;
+    begin_ = keys.number("begin_mm_s", kEndSpeed, 0.0);
+    end_ = keys.number("end_mm_s", kEndSpeed, 0.0);
+    law.begin_u_s = begin_.value;
+    law.end_u_s = end_.value;
+    law.accel_test =
+        static_cast<planner::AccelTest>(keys.choice("accel_test", {"end_node", "both_nodes"}, 1).value);
+    keys.finish();
+    path_span_ = keys.header();
+  }
+
+  void read_axis(const Node& node) {
+    if (by_program_) return program_.read_axis(node);
+    read_problem_axis(node, by_table_, machine_ ? &machine_->model : nullptr, out_, context_);
+  }
+
+  void read_zone(const Node& node) {
+    TableReader keys(&node, "zone", node.span, context_);
+    planner::SpeedZone zone;
+    zone.speed_u_s = keys.number("max_mm_s", kSpeed).value;
+    Span begin, end;
+    std::optional<std::uint32_t> line;
+    if (by_program_ && keys.has("at_line")) {
+      const auto at = keys.number("at_line", {1, 4e9, false, true});
+      line = static_cast<std::uint32_t>(at.value);
+      begin = end = at.span;
+    } else if (keys.one_of("at_mm", "from_mm") == "at_mm") {
+      const auto at = keys.number("at_mm", kPlace);
+      zone.begin_u = zone.end_u = at.value;
+      begin = end = at.span;
+      if (keys.has("to_mm")) {
+        const auto to = keys.number("to_mm", kPlace);
+        tell(Code::problem_zone, to.span, "a zone at a place has no end", "write from_mm in place of at_mm");
+      }
+    } else {
+      const auto from = keys.number("from_mm", kPlace), to = keys.number("to_mm", kPlace);
+      zone.begin_u = from.value;
+      zone.end_u = to.value;
+      begin = from.span;
+      end = to.span;
+      if (from.valid && to.valid && to.value < from.value)
+        tell(Code::problem_zone, to.span,
+             fmt::format("ends at {:g} mm, before it begins at {:g} mm", to.value, from.value),
+             fmt::format("write from_mm = {:g} and to_mm = {:g}", to.value, from.value));
+    }
+    keys.finish();
+    zone_spans_.emplace_back(begin, end);
+    zone_lines_.push_back(line);
+    out_.law.zones.push_back(zone);
+  }
+
+  void read_penalty(const Node* node) {
+    if (!node) return;
+    TableReader keys(node, "penalty", node->span, context_);
+    // what is not given is as the path has it: by a program, as in a run of it
+    const planner::Penalty otherwise;
+    const double weight = keys.number("weight_s5_per_mm2", {0, 1e6}, otherwise.weight_s5_u2).value;
+    const bool per_length = keys.flag("per_length", otherwise.per_length).value;
+    if (!by_program_ || keys.has("weight_s5_per_mm2")) weight_s5_u2_ = weight;
+    if (!by_program_ || keys.has("per_length")) per_length_ = per_length;
+    keys.finish();
+  }
+
+  void read_tube(const Node* node) {
+    if (!node) return;
+    TableReader keys(node, "tube", node->span, context_);
+    planner::TubeOptions& tube = out_.tube;
+    tube.grid = static_cast<planner::TubeGrid>(keys.choice("grid", {"uniform", "nominal-kept"}, 0).value);
+    // two pieces that meet at a level have three
+    const double least = tube.grid == planner::TubeGrid::nominal_kept ? 3 : 2;
+    tube.levels =
+        static_cast<std::int32_t>(keys.number("levels", {least, 65'535, false, true}, tube.levels).value);
+    tube.relative_half_width = keys.number("relative_half_width", {1e-6, 1}, tube.relative_half_width).value;
+    tube.stop_percent = keys.number("stop_pct", {0, 100}, tube.stop_percent).value;
+    tube.least_half_width_u_s = keys.number("least_half_width_mm_s", {0, 1e9}, 0.0).value;
+    tube.most_passes = static_cast<std::uint32_t>(
+        keys.number("most_passes", {2, 1000, false, true}, tube.most_passes).value);
+    keys.finish();
+  }
+
+  void read_classical(const Node* node) {
+    if (!node) return;
+    TableReader keys(node, "classical", node->span, context_);
+    out_.classical_levels = static_cast<std::int32_t>(
+        keys.number("levels", {2, 65'535, false, true}, out_.classical_levels).value);
+    keys.finish();
+  }
+
+  /// Puts the path at its nodes, and looks whether a law can be thought of.
+  void place() {
+    if (by_program_ ? !place_program() : by_table_ ? !place_table() : !place_formulas()) return;
+    out_.law.penalty.weight_s5_u2 = weight_s5_u2_.value_or(out_.law.penalty.weight_s5_u2);
+    out_.law.penalty.per_length = per_length_.value_or(out_.law.penalty.per_length);
+    check_zones();
+    check_law();
+  }
+
+  bool small_enough(double nodes) {
+    const double derivatives = nodes * static_cast<double>(out_.axes.size());
+    if (derivatives <= kMostDerivatives) return true;
+    tell(Code::problem_too_large, out_.size_span,
+         fmt::format("{:.0f} nodes of {} axes, nodes times axes may be at most {:.0f}", nodes,
+                     out_.axes.size(), kMostDerivatives));
+    return false;
+  }
+
+  bool place_program() {
+    std::optional<double> nodes;
+    if (nodes_) nodes = nodes_->value;
+    if (!program_.place(nodes, out_)) return false;
+    for (std::size_t i = 0; i < zone_lines_.size(); ++i) {
+      if (!zone_lines_[i]) continue;
+      const auto at = ProgramProblem::line_s_mm(*out_.program, *zone_lines_[i], program_.program_file());
+      if (!at)
+        tell(Code::problem_zone, zone_spans_[i].first,
+             fmt::format("no motion of the path begins on line {}", *zone_lines_[i]),
+             fmt::format("the path has moves of lines {} to {}", out_.program->first_line,
+                         out_.program->last_line));
+      out_.law.zones[i].begin_u = out_.law.zones[i].end_u = at.value_or(0.0);
+    }
+    return !context_.diagnostics.has_errors() && small_enough(static_cast<double>(out_.law.nodes()));
+  }
+
+  bool place_formulas() {
+    if (!small_enough(nodes_->value)) return false;
+    planner::sample(out_.formulas, length_mm_, static_cast<std::size_t>(nodes_->value), out_.law);
+    return true;
+  }
+
+  bool place_table() {
+    const fs::path path = fs::path(sources_[file_].name()).parent_path() / table_.value;
+    if (!fs::is_regular_file(path)) {
+      tell(Code::problem_table, table_.span, fmt::format("there is no file {}", path.string()),
+           "the table lies beside the problem");
+      return false;
+    }
+    std::vector<std::string> names;
+    for (const PathAxis& axis : out_.axes) names.push_back(axis.name);
+    const std::uint32_t file = sources_.add(SourceText::open(path.string()));
+    auto rows = read_path_table(sources_, file, names, context_.diagnostics);
+    if (!rows || !small_enough(nodes_ ? nodes_->value : static_cast<double>(rows->s_u.size()))) return false;
+    out_.table.emplace(std::move(rows->s_u), std::move(rows->values), out_.axes.size(), ends_);
+    if (nodes_)
+      out_.table->sample(static_cast<std::size_t>(nodes_->value), out_.law);
+    else
+      out_.table->place_rows(out_.law);
+    return true;
+  }
+
+  void check_zones() {
+    const double first = out_.law.s_u.front(), last = out_.law.s_u.back();
+    // behind those of the file a program may have some of its own
+    for (std::size_t i = 0; i < zone_spans_.size(); ++i) {
+      const planner::SpeedZone& zone = out_.law.zones[i];
+      const bool before = zone.begin_u < first;
+      if (!before && zone.end_u <= last) continue;
+      tell(Code::problem_zone, before ? zone_spans_[i].first : zone_spans_[i].second,
+           fmt::format("is at {:g} mm, the path is from {:g} to {:g} mm", before ? zone.begin_u : zone.end_u,
+                       first, last));
+    }
+  }
+
+  void check_law() {
+    planner::LawProblem& law = out_.law;
+    std::swap(law.begin_u_s, begin_rest_);
+    std::swap(law.end_u_s, end_rest_);
+    const auto wrong = planner::check_problem(law);
+    std::swap(law.begin_u_s, begin_rest_);
+    std::swap(law.end_u_s, end_rest_);
+    if (wrong)
+      return tell(Code::problem_no_motion, path_span_,
+                  fmt::format("node {}, s = {:g} mm: {}", wrong->node, wrong->s_u, wrong->reason));
+    const std::vector<planner::NodeCap> caps = planner::node_caps(law);
+    check_end(begin_, caps.front());
+    check_end(end_, caps.back());
+  }
+
+  void check_end(const Reading<double>& speed, const planner::NodeCap& cap) {
+    if (speed.value <= cap.speed_u_s) return;
+    const std::string by = cap.reason >= 0 ? "axis " + out_.axes[static_cast<std::size_t>(cap.reason)].name
+                           : cap.reason == planner::NodeCap::kZone  ? std::string("a zone")
+                           : cap.reason == planner::NodeCap::kGiven ? std::string("the program")
+                                                                    : std::string("path.max_mm_s");
+    tell(Code::problem_no_motion, speed.span,
+         fmt::format("is {:g} mm/s, {} allows {:.6g} mm/s there", speed.value, by, cap.speed_u_s));
+  }
+
+  SourceSet& sources_;
+  std::uint32_t file_;
+  machine::ReadContext& context_;
+  ProgramProblem program_;
+  std::optional<machine::MachineFile> machine_;  ///< of a path by formula or table
+  TimeLawProblem out_;
+  bool by_table_ = false, by_program_ = false;
+  planner::SplineEnds ends_ = planner::SplineEnds::not_a_knot;
+  std::optional<double> weight_s5_u2_;
+  std::optional<bool> per_length_;
+  Reading<std::string> table_;
+  std::optional<Reading<double>> nodes_;
+  double length_mm_ = 0;
+  double begin_rest_ = 0, end_rest_ = 0;
+  Reading<double> begin_, end_;
+  Span path_span_;
+  std::vector<std::pair<Span, Span>> zone_spans_;         // [zones], where begin and end are written
+  std::vector<std::optional<std::uint32_t>> zone_lines_;  // [zones], at_line
+};
+
+}  // namespace
+
+double TimeLawProblem::scale_mm_s() const {
+  if (law.path_feed_u_s < kInfinity) return law.path_feed_u_s;
+  double highest = 0;
+  for (const planner::NodeCap& cap : planner::node_caps(law)) highest = std::max(highest, cap.speed_u_s);
+  return highest;
+}
+
+tl::expected<TimeLawProblem, Diagnostics> read_time_law_problem(SourceSet& sources, std::uint32_t file) {
+  Diagnostics diagnostics;
+  const machine::ParsedTree tree = machine::parse_toml(sources, file, diagnostics);
+  machine::ReadContext context{diagnostics, sources, tree.complete, {}};
+  ProblemReader reader(sources, file, context);
+  reader.read(tree.root);
+  if (diagnostics.has_errors()) return tl::unexpected(std::move(diagnostics));
+  return reader.take();
+}
+
+}  // namespace kadr::emulator

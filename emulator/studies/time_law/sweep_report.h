@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "emulator/text/json.h"
+#include "emulator/studies/time_law/level_sweep.h"
+
+/// What `kadr tube --sweep-levels` tells.
+namespace kadr::emulator {
+
+/// A row a number of levels: T, J, gap to the bound, passes, and by what the loop ended.
+std::string render_sweep_table(const LevelSweep& sweep);
+/// {"lower_bound_s", "sweep": [{"levels", "time_s", "cost_s", "passes", "capped"}, ...]}
+Json json_of(const LevelSweep& sweep);
+/// "levels,time_s,cost_s,gap_pct,passes,capped": a row a number of levels; empty cells where no law was
+/// found.
+std::string sweep_csv(const LevelSweep& sweep);
+/// Time and passes over levels as one HTML file without script.
+std::string render_sweep_page(const LevelSweep& sweep, const TimeLawProblem& problem, std::string_view file);
+
+}  // namespace kadr::emulator
