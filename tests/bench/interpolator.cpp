@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "tests/emulator/interpolator_paths.h"
+#include "tests/emulator/interpolator/interpolator_paths.h"
 
 using namespace kadr;
 using namespace kadr::test;

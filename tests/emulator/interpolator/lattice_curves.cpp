@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "tests/emulator/lattice_support.h"
+#include "tests/emulator/interpolator/lattice_support.h"
 
 using namespace kadr;
 using namespace kadr::test;

@@ -4,7 +4,7 @@
 #include <map>
 #include <random>
 
-#include "tests/emulator/lattice_support.h"
+#include "tests/emulator/interpolator/lattice_support.h"
 
 using namespace kadr;
 using namespace kadr::test;

@@ -4,7 +4,7 @@
 
 #include "emulator/studies/teach/picture.h"
 #include "emulator/studies/teach/sweep.h"
-#include "tests/emulator/lattice_support.h"
+#include "tests/emulator/interpolator/lattice_support.h"
 
 using namespace kadr::emulator;
 using kadr::test::Curve;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <random>
 
-#include "tests/emulator/interpolator_paths.h"
-#include "tests/emulator/lattice_support.h"
+#include "tests/emulator/interpolator/interpolator_paths.h"
+#include "tests/emulator/interpolator/lattice_support.h"
 
 using namespace kadr;
 using namespace kadr::test;

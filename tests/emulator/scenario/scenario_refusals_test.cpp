@@ -28,6 +28,6 @@ TEST_CASE("each bad scenario file is refused with its golden text") {
   const std::filesystem::path bad = std::filesystem::path(KADR_SOURCE_DIR) / "tests/bad/scenario";
   for (const std::string name :
        {"K3201_file_missing", "K3201_tools_outside", "K3202_program", "K3203_step", "K3204_value"})
-    test::check_golden((bad / (name + ".txt")).string(), "tests/emulator/scenario_refusals_test.cpp",
+    test::check_golden((bad / (name + ".txt")).string(), "tests/emulator/scenario/scenario_refusals_test.cpp",
                        refuse(bad / (name + ".toml")));
 }

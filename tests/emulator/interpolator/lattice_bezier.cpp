@@ -4,8 +4,8 @@
 #include <cstring>
 #include <random>
 
-#include "tests/emulator/interpolator_paths.h"
-#include "tests/emulator/lattice_support.h"
+#include "tests/emulator/interpolator/interpolator_paths.h"
+#include "tests/emulator/interpolator/lattice_support.h"
 
 using namespace kadr;
 using namespace kadr::test;
