@@ -7,11 +7,8 @@
 #include "machine/base/require.h"
 #include "planner/planner.h"
 #include "planner/positioning/positioning.h"
-#include "planner/scheduler/block_writer.h"
-#include "planner/scheduler/blockwise.h"
 #include "planner/limits/limits.h"
-#include "planner/scheduler/pieces.h"
-#include "planner/scheduler/run_planner.h"
+#include "planner/scheduler/scheduler.h"
 #include "planner/time_law/jerk_plan.h"
 #include "planner/time_law/path_law.h"
 
@@ -182,11 +179,6 @@ std::string_view limited_by_name(LimitedBy reason) {
       return "limiter";
   }
   return "unknown";
-}
-
-std::string_view rapid_law_name(machine::RapidShape shape) {
-  constexpr std::string_view kNames[] = {"scurve", "t-zero", "zv", "zvd", "auto"};
-  return kNames[static_cast<std::size_t>(shape)];
 }
 
 tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineModel& machine) {

@@ -47,4 +47,9 @@ MotionState MotionLaw::eval(double time_s, std::size_t& hint) const {
   return state;
 }
 
+std::string_view rapid_law_name(machine::RapidShape shape) {
+  constexpr std::string_view kNames[] = {"scurve", "t-zero", "zv", "zvd", "auto"};
+  return kNames[static_cast<std::size_t>(shape)];
+}
+
 }  // namespace kadr::planner

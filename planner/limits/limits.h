@@ -6,7 +6,7 @@
 
 #include "planner/laws/feed_plan.h"
 #include "planner/path/path.h"
-#include "planner/planner.h"
+#include "planner/limits/plan_error.h"
 
 /// What geometry and machine allow on each place of a path, before any ramp is thought of.
 namespace kadr::planner {

@@ -12,10 +12,6 @@
 
 namespace kadr::planner {
 
-/// Whether a segment is a rapid that planner.rapid_law takes care of: a G0 of an axis with a flexible link.
-/// It begins and ends at rest.
-bool is_positioning(const Path& path, std::size_t segment, const machine::MachineModel& machine);
-
 /// A vibration that a motion along the path excites.
 struct ExcitedMode {
   DrivenMode driven;
