@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "machine/base/require.h"
+#include "planner/limits/limits.h"
 #include "planner/planner.h"
 #include "planner/positioning/positioning.h"
-#include "planner/limits/limits.h"
 #include "planner/scheduler/scheduler.h"
 #include "planner/time_law/jerk_plan.h"
 #include "planner/time_law/path_law.h"
@@ -152,34 +152,6 @@ class RunMaker {
 };
 
 }  // namespace
-
-std::string_view limited_by_name(LimitedBy reason) {
-  switch (reason) {
-    case LimitedBy::program:
-      return "program";
-    case LimitedBy::rapid:
-      return "rapid";
-    case LimitedBy::path_feed:
-      return "path feed";
-    case LimitedBy::axis_speed:
-      return "axis speed";
-    case LimitedBy::centripetal:
-      return "centripetal";
-    case LimitedBy::junction:
-      return "junction";
-    case LimitedBy::length:
-      return "length";
-    case LimitedBy::stop:
-      return "stop";
-    case LimitedBy::override_percent:
-      return "override";
-    case LimitedBy::hold:
-      return "hold";
-    case LimitedBy::limiter:
-      return "limiter";
-  }
-  return "unknown";
-}
 
 tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineModel& machine) {
   require(path.axes() == static_cast<int>(machine.axis.size()), "path and machine have the same axes");

@@ -7,10 +7,10 @@
 
 #include "planner/laws/feed_plan.h"
 #include "planner/laws/motion_source.h"
-#include "planner/path/path.h"
-#include "planner/path/path_builder.h"
 #include "planner/limits/plan_error.h"
 #include "planner/override/override.h"
+#include "planner/path/path.h"
+#include "planner/path/path_builder.h"
 #include "planner/path/path_cut.h"
 #include "planner/verify/verify.h"
 

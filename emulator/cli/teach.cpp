@@ -4,10 +4,10 @@
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/output_file.h"
 #include "emulator/studies/teach/bezier_report.h"
-#include "emulator/studies/teach/teach_report.h"
-#include "emulator/text/text.h"
 #include "emulator/studies/teach/sweep.h"
 #include "emulator/studies/teach/teach_page.h"
+#include "emulator/studies/teach/teach_report.h"
+#include "emulator/text/text.h"
 
 /// `kadr teach`: interpolators step by step.
 namespace kadr::cli {

@@ -4,8 +4,9 @@
 #include "planner/laws/feed_plan.h"
 #include "planner/laws/motion_source.h"
 
-/// A plan under the operator's percent: which feed it allows from tick to tick (feed_terrain.h), how the motion
-/// follows it without breaking a limit (feed_tracker.h), and what the axis limiter takes off (axis_limiter.h).
+/// A plan under the operator's percent: which feed it allows from tick to tick (feed_terrain.h), how the
+/// motion follows it without breaking a limit (feed_tracker.h), and what the axis limiter takes off
+/// (axis_limiter.h).
 namespace kadr::planner {
 
 /// Plays a plan under an operator's percent (OverrideSource, override_source.h). `path`, `plan` and `machine`

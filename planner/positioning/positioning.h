@@ -6,9 +6,9 @@
 
 #include "machine/machine.h"
 #include "planner/laws/feed_plan.h"
+#include "planner/limits/limits.h"
 #include "planner/point_to_point/law.h"
 #include "planner/point_to_point/mode.h"
-#include "planner/limits/limits.h"
 
 namespace kadr::planner {
 

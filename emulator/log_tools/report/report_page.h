@@ -8,8 +8,8 @@
 
 namespace kadr::emulator {
 
-/// The page's frame with script and style, made from emulator/report/web at build time; empty in a build with
-/// KADR_WEB=OFF.
+/// The page's frame with script and style, made from emulator/pages/report at build time; empty in a build
+/// with KADR_WEB=OFF.
 std::string_view report_template();
 
 /// Reads stretches of the run's log once more (read_full_rate); empty: there is none to read.

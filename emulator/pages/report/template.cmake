@@ -16,8 +16,8 @@ find_program(NPM npm)
 if(NOT NODE OR NOT NPM)
   message(FATAL_ERROR "the report page needs nodejs and npm; -DKADR_WEB=OFF builds kadr without it")
 endif()
-set(web ${CMAKE_CURRENT_SOURCE_DIR}/report/web)
-set(work ${PROJECT_BINARY_DIR}/web/report/web)
+set(web ${CMAKE_CURRENT_SOURCE_DIR}/pages/report)
+set(work ${PROJECT_BINARY_DIR}/pages/report)
 file(GLOB web_sources CONFIGURE_DEPENDS ${web}/src/*)
 add_custom_command(OUTPUT ${work}/packages
   COMMAND ${CMAKE_COMMAND} -E make_directory ${work}
