@@ -1,4 +1,4 @@
-# Shared by the scripts in tools/: where the project is, and a few lines of output. Sourced, not run.
+# Shared by the scripts in tools/: where the project is, a few lines of output, and times. Sourced, not run.
 set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$project"
@@ -8,14 +8,51 @@ export LC_ALL=C
 say() { printf '== %s\n' "$*" >&2; }
 fail() { printf '%s: %s\n' "${0##*/}" "$*" >&2; exit 2; }
 
-# build_preset PRESET [NINJA ARGUMENTS]: configures where needed and builds build/PRESET; quiet unless it fails
+times=$project/build/times.tsv
+times_before=$(wc -l 2>/dev/null <"$times" || echo 0)
+
+# timed NAME COMMAND...: runs a step and adds its seconds to build/times.tsv, whatever its outcome
+timed() {
+  local name=$1 begin=${EPOCHREALTIME/./} status=0
+  shift
+  "$@" || status=$?
+  mkdir -p "$project/build"
+  printf '%s\t%d\n' "$name" $(((${EPOCHREALTIME/./} - begin + 500000) / 1000000)) >>"$times"
+  return $status
+}
+
+# print_times: the steps that this tool and the ones it called took, and their sum
+print_times() {
+  [[ -f $times ]] || return 0
+  tail -n "+$((times_before + 1))" "$times" | awk -F '\t' -v cores="$(nproc)" '
+    { printf "%6d s  %s\n", $2, $1; sum += $2 } END { printf "%6d s  in all, on %d cores\n", sum, cores }'
+}
+
+# build_preset PRESET [-DNAME=VALUE ...] [NINJA ARGUMENTS]: configures where needed and builds build/PRESET; quiet
+# unless it fails. Values of earlier calls stay as they are.
 build_preset() {
-  local preset=$1; shift
-  if [[ ! -f build/$preset/build.ninja ]]; then
-    say "configure $preset"
-    mkdir -p "build/$preset"
-    cmake --preset "$preset" >"build/$preset/configure.log" 2>&1 || { cat "build/$preset/configure.log" >&2; return 1; }
+  local preset=$1 options=() option stale=no
+  shift
+  [[ -f build/$preset/build.ninja ]] || stale=yes
+  while [[ ${1-} == -D* ]]; do
+    option=${1#-D}
+    grep -qE "^${option%%=*}:[A-Z]+=${option#*=}\$" "build/$preset/CMakeCache.txt" 2>/dev/null || stale=yes
+    options+=("$1")
+    shift
+  done
+  mkdir -p "build/$preset"
+  if [[ $stale == yes ]]; then
+    timed "configure $preset" configure_preset "$preset" "${options[@]}" || return 1
   fi
-  say "build $preset"
-  ninja -C "build/$preset" --quiet "$@" >&2
+  say "build $preset${*:+: $*}"
+  timed "build $preset${*:+: $*}" ninja -C "build/$preset" --quiet "$@" >&2
+}
+
+# configure_preset PRESET [CMAKE ARGUMENTS]: what CMake has to say of missing or left out parts is shown, no more
+configure_preset() {
+  local preset=$1 log=build/$1/configure.log
+  shift
+  say "configure $preset"
+  cmake --preset "$preset" "$@" >"$log" 2>&1 || { cat "$log" >&2; return 1; }
+  sed -nE 's/^-- (kadr: )/\1/p' "$log" >&2
 }

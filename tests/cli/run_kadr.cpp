@@ -14,6 +14,7 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace kadr::test {
 namespace {
@@ -62,18 +63,37 @@ bool drain(int fd, std::string& text) {
   return true;
 }
 
+/// Opens a pseudo-terminal; both ends are -1 if there is none.
+struct Terminal {
+  int own = -1, child = -1;
+};
+Terminal open_terminal() {
+  Terminal t;
+  t.own = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (t.own >= 0 && ::grantpt(t.own) == 0 && ::unlockpt(t.own) == 0)
+    t.child = ::open(::ptsname(t.own), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (t.child < 0 && t.own >= 0) ::close(std::exchange(t.own, -1));
+  return t;
+}
+
 }  // namespace
+
+bool lacks_terminals() {
+  const Terminal t = open_terminal();
+  for (const int fd : {t.own, t.child})
+    if (fd >= 0) ::close(fd);
+  if (t.own < 0) MESSAGE("skipped: this system has no pseudo-terminals (/dev/pts is not mounted)");
+  return t.own < 0;
+}
 
 Finished run_kadr(const Launch& launch) {
   Pipe in, out, err;
   int terminal = -1, child_terminal = -1;
   if (launch.terminal) {
-    terminal = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
-    REQUIRE(terminal >= 0);
-    REQUIRE(::grantpt(terminal) == 0);
-    REQUIRE(::unlockpt(terminal) == 0);
-    child_terminal = ::open(::ptsname(terminal), O_RDWR | O_NOCTTY | O_CLOEXEC);
-    REQUIRE(child_terminal >= 0);
+    const Terminal t = open_terminal();
+    REQUIRE(t.own >= 0);
+    terminal = t.own;
+    child_terminal = t.child;
   }
   int file = -1;
   if (!launch.stdout_path.empty()) {

@@ -60,6 +60,7 @@ TEST_CASE("the locale changes no byte of any output") {
 }
 
 TEST_CASE("a terminal gets the same data as a file; colours only in messages, a bar only while it runs") {
+  if (test::lacks_terminals()) return;
   const Scratch scratch;
   scratch.write("square.ngc", test::kSquare);
   Launch launch;
@@ -74,6 +75,7 @@ TEST_CASE("a terminal gets the same data as a file; colours only in messages, a 
 
 TEST_CASE(
     "a long run draws a bar on a terminal and erases it; plain progress and a dumb terminal have no codes") {
+  if (test::lacks_terminals()) return;
   const Scratch scratch;
   // some hours of machine time: more than 0.3 s of wall time on any computer
   scratch.write("long.ngc", test::back_and_forth(20'000));
@@ -97,6 +99,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a long problem of kadr tube tells on a terminal how far it is, and nothing anywhere else") {
+  if (test::lacks_terminals()) return;
   const Scratch scratch;
   // 8000 levels at 400 nodes: 2e10 pairs of levels a pass, seconds on any computer
   scratch.write(
@@ -124,6 +127,7 @@ TEST_CASE("a long problem of kadr tube tells on a terminal how far it is, and no
 
 TEST_CASE(
     "colour: auto for messages on a terminal, always and never by flag, NO_COLOR and CLICOLOR_FORCE kept") {
+  if (test::lacks_terminals()) return;
   const Scratch scratch;
   scratch.write("six.ngc", test::kSixMistakes);
   const std::string& folder = scratch.path();

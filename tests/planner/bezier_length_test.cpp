@@ -5,6 +5,7 @@
 #include <random>
 
 #include "planner/bezier/bezier.h"
+#include "tests/support/seed.h"
 
 using namespace kadr::planner;
 
@@ -118,7 +119,7 @@ TEST_CASE("bezier: the quintic table keeps the feed to 1e-6 and the place to 1e-
 }
 
 TEST_CASE("bezier: t(S) of random curves keeps the feed as well, unless they come near a cusp") {
-  std::mt19937 random(6);
+  std::mt19937 random(static_cast<unsigned>(kadr::test::property_seed(6)));
   const auto draw = [&] { return static_cast<double>(random() % 2001) / 100 - 10; };
   for (int i = 0; i < 60; ++i) {
     std::vector<BezierVector> control(i % 3 == 0 ? 3 : 4);

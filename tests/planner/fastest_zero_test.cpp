@@ -5,6 +5,7 @@
 
 #include "machine/base/numbers.h"
 #include "planner/point_to_point/point_to_point.h"
+#include "tests/support/seed.h"
 
 // The fastest T law that leaves nothing swinging.
 namespace kadr::planner {
@@ -19,7 +20,7 @@ class Draw {
   double decades(double low, double high) { return low * std::exp(between(0, std::log(high / low))); }
 
  private:
-  std::mt19937_64 random_{7};
+  std::mt19937_64 random_{kadr::test::property_seed(7)};
 };
 
 /// The shortest time with a zero, by trying all ramps up to the time of `known` on a grid: ta = n T with any

@@ -7,6 +7,7 @@
 #include "machine/base/numbers.h"
 #include "machine/base/require.h"
 #include "planner/point_to_point/point_to_point.h"
+#include "tests/support/seed.h"
 
 // Laws of paper 001. Reference values: 40 digits, closed form, of the paper's Table 1 (3.5 m in 4 s, a <= 1
 // m/s2, v <= 3 m/s, omega = 100 pi/3 rad/s, so T = 0.06 s). u is the metre.
@@ -119,7 +120,7 @@ TEST_CASE("largest values after a law: with damping less than the envelope, 0.05
 }
 
 TEST_CASE("a law by its jumps and by its pieces leaves the same vibration: 500 random shapes and modes") {
-  std::mt19937_64 random(20260);
+  std::mt19937_64 random(kadr::test::property_seed(20260));
   const auto draw = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
   };

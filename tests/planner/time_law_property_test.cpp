@@ -12,6 +12,7 @@
 #include "planner/time_law/tube.h"
 #include "planner_support.h"
 #include "reference_law.h"
+#include "tests/support/seed.h"
 
 using namespace kadr;
 using namespace kadr::planner;
@@ -226,7 +227,7 @@ TEST_CASE("a bound by any multipliers is a bound, and that of the optimum is the
   const LawResult best = optimum.solve(law.problem);
   REQUIRE(best);
   Certificate c = optimum.certificate();
-  std::mt19937 draw(1);
+  std::mt19937 draw(static_cast<unsigned>(kadr::test::property_seed(1)));
   for (int round = 0; round < 50; ++round) {
     Certificate changed = c;
     for (auto* side : {&changed.upper, &changed.lower})
