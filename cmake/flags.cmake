@@ -48,22 +48,41 @@ function(kadr_batches target most)
   endif()
 endfunction()
 
-# kadr_folder(NAME DEPENDS ... [EXCLUDE PATTERN ...] [PRECOMPILE HEADER ...]): the static library of one folder.
+# headers of the standard library and of outside libraries that half of a build would be spent reading; the matrix builds
+# do without, so that every file includes what it uses
+set(kadr_precompiled <fmt/format.h> <algorithm> <array> <cmath> <functional> <map> <memory> <optional> <string>
+  <tl/expected.hpp> <vector>)
+
+# kadr_folder(NAME DEPENDS ... [PRECOMPILE HEADER ...]): the static library of one folder.
 function(kadr_folder name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;EXCLUDE;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "DEPENDS;PRECOMPILE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  foreach(pattern ${ARG_EXCLUDE})
-    list(FILTER sources EXCLUDE REGEX ${pattern})
-  endforeach()
-  if(sources)
-    add_library(kadr_${name} STATIC ${sources})
-    target_link_libraries(kadr_${name} PUBLIC kadr_flags ${ARG_DEPENDS})
-    # half of a build is reading these; the matrix builds do without, so that every file includes what it uses
-    kadr_batches(kadr_${name} 8)
-    target_precompile_headers(kadr_${name} PRIVATE <fmt/format.h> <algorithm> <array> <cmath> <functional> <map>
-      <memory> <optional> <string> <tl/expected.hpp> <vector> ${ARG_PRECOMPILE})
+  add_library(kadr_${name} STATIC ${sources})
+  target_link_libraries(kadr_${name} PUBLIC kadr_flags ${ARG_DEPENDS})
+  kadr_batches(kadr_${name} 8)
+  target_precompile_headers(kadr_${name} PRIVATE ${kadr_precompiled} ${ARG_PRECOMPILE})
+endfunction()
+
+# kadr_room(NAME FOLDER DEPENDS ... [PRIVATE ...] [SOURCES ...]): the static library of a room, a folder below this one,
+# or of the door above them, the files of this folder itself (FOLDER "").
+#   PRIVATE  libraries that only its .cpp files see     SOURCES  besides the folder's own: generated ones
+# All rooms use one precompiled header.
+function(kadr_room name folder)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE;SOURCES" ${ARGN})
+  if(folder)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
   else()
-    add_library(kadr_${name} INTERFACE)
-    target_link_libraries(kadr_${name} INTERFACE kadr_flags ${ARG_DEPENDS})
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   endif()
+  add_library(kadr_${name} STATIC ${sources} ${ARG_SOURCES})
+  target_link_libraries(kadr_${name} PUBLIC kadr_flags ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE})
+  kadr_batches(kadr_${name} 8)
+  if(NOT TARGET kadr_headers)
+    set(empty ${PROJECT_BINARY_DIR}/generated/headers.cpp)
+    file(CONFIGURE OUTPUT ${empty} CONTENT "// Generated: holds the precompiled header of kadr's rooms.\n")
+    add_library(kadr_headers OBJECT ${empty})
+    target_link_libraries(kadr_headers PRIVATE kadr_flags fmt::fmt tl::expected nlohmann_json::nlohmann_json)
+    target_precompile_headers(kadr_headers PRIVATE ${kadr_precompiled} <nlohmann/json.hpp>)
+  endif()
+  target_precompile_headers(kadr_${name} REUSE_FROM kadr_headers)
 endfunction()

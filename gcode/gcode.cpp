@@ -1,7 +1,8 @@
 #include "gcode/gcode.h"
 
 #include "gcode/flow/flow.h"
-#include "gcode/interpret/interpreter.h"
+#include "gcode/interpret/interpret.h"
+#include "gcode/read/read.h"
 
 namespace kadr::gcode {
 

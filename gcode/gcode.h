@@ -74,8 +74,8 @@ void interpret(SourceSet& sources, std::uint32_t file, const InterpretOptions& o
 /// @name:12"
 void append_canon(std::string& out, const Block& block, std::string_view called_file = {});
 
-/// Adds a program in its normal form (gcode/format/format.h) to `out`: line for line, with the same meaning. A line
-/// that can't be read stays as it is, and its mistake is told.
+/// Adds a program in its normal form (gcode/format/format.h) to `out`: line for line, with the same meaning.
+/// A line that can't be read stays as it is, and its mistake is told.
 /// @return false if there was a mistake
 bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics, std::string& out);
 

@@ -6,6 +6,10 @@
 
 namespace kadr {
 
+/// Lattice node of a position: floor(x/step + 1/2), so that every axis counts consistently from block to
+/// block. Positions beyond 2^52 steps break a promise: doubles count no further.
+std::int64_t lattice_node(double position_u, double step_u);
+
 /// Motion of one axis that the interpolator followed in this control tick, before the lattice; axis units (mm
 /// or deg).
 struct AxisCommand {

@@ -5,13 +5,10 @@
 #include <optional>
 
 #include "machine/base/require.h"
+#include "planner/limits/limits.h"
 #include "planner/planner.h"
 #include "planner/positioning/positioning.h"
-#include "planner/scheduler/block_writer.h"
-#include "planner/scheduler/blockwise.h"
-#include "planner/limits/limits.h"
-#include "planner/scheduler/pieces.h"
-#include "planner/scheduler/run_planner.h"
+#include "planner/scheduler/scheduler.h"
 #include "planner/time_law/jerk_plan.h"
 #include "planner/time_law/path_law.h"
 
@@ -155,39 +152,6 @@ class RunMaker {
 };
 
 }  // namespace
-
-std::string_view limited_by_name(LimitedBy reason) {
-  switch (reason) {
-    case LimitedBy::program:
-      return "program";
-    case LimitedBy::rapid:
-      return "rapid";
-    case LimitedBy::path_feed:
-      return "path feed";
-    case LimitedBy::axis_speed:
-      return "axis speed";
-    case LimitedBy::centripetal:
-      return "centripetal";
-    case LimitedBy::junction:
-      return "junction";
-    case LimitedBy::length:
-      return "length";
-    case LimitedBy::stop:
-      return "stop";
-    case LimitedBy::override_percent:
-      return "override";
-    case LimitedBy::hold:
-      return "hold";
-    case LimitedBy::limiter:
-      return "limiter";
-  }
-  return "unknown";
-}
-
-std::string_view rapid_law_name(machine::RapidShape shape) {
-  constexpr std::string_view kNames[] = {"scurve", "t-zero", "zv", "zvd", "auto"};
-  return kNames[static_cast<std::size_t>(shape)];
-}
 
 tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineModel& machine) {
   require(path.axes() == static_cast<int>(machine.axis.size()), "path and machine have the same axes");

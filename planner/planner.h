@@ -7,6 +7,8 @@
 
 #include "planner/laws/feed_plan.h"
 #include "planner/laws/motion_source.h"
+#include "planner/limits/plan_error.h"
+#include "planner/override/override.h"
 #include "planner/path/path.h"
 #include "planner/path/path_builder.h"
 #include "planner/path/path_cut.h"
@@ -14,11 +16,6 @@
 
 /// Blocks -> path -> feed plan -> motion law. One door to the cycle: MotionSource.
 namespace kadr::planner {
-
-/// A wish that can't be planned; carries the place.
-struct PlanError {
-  Diagnostic diagnostic;
-};
 
 /// Plans a whole path, rest to rest between the segments that stop, with look-ahead over the whole path.
 ///
@@ -39,11 +36,5 @@ tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineM
 /// `first` begins at rest. Runs are planned one by one, so the times of parts add up to that of the whole.
 tl::expected<double, PlanError> motion_time_s(const Path& path, const machine::MachineModel& machine,
                                               std::size_t first);
-
-/// Plays a plan under an operator's percent (override/override_source.h). `path`, `plan` and `machine`
-/// outlive it.
-/// @param most_percent  highest ratio that it will be asked for, >= 1
-std::unique_ptr<MotionSource> override_source(const Path& path, const FeedPlan& plan,
-                                              const machine::MachineModel& machine, double most_percent);
 
 }  // namespace kadr::planner

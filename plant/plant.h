@@ -5,6 +5,7 @@
 
 #include <tl/expected.hpp>
 
+#include "machine/axis_state.h"
 #include "machine/machine.h"
 #include "machine/step_batch.h"
 
@@ -18,14 +19,7 @@
 ///   rigid: x0 follows the command (StepBatch's AxisCommand, cubic between the tick's ends) exactly
 namespace kadr::plant {
 
-/// State of one axis at the end of a control tick, in axis units (mm or deg).
-struct AxisState {
-  double base_u = 0;       ///< x0, absolute machine position
-  double base_u_s = 0;     ///< v0
-  double link_u = 0;       ///< x1, link relative to base
-  double link_u_s = 0;     ///< v1
-  double motor_force = 0;  ///< N, or N m for a rotary axis
-};
+using kadr::AxisState;
 
 /// A numerical fault: the run ends, the log stays readable.
 struct PlantError {

@@ -1,7 +1,8 @@
-#include "emulator/text/json.h"
+#include "emulator/answers/answers_json.h"
 
 #include <algorithm>
 
+#include "emulator/text/units.h"
 #include "machine/base/hash.h"
 
 namespace kadr::emulator {

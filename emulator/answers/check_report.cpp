@@ -4,6 +4,7 @@
 
 #include "emulator/answers/summary.h"
 #include "emulator/text/text.h"
+#include "emulator/text/units.h"
 
 namespace kadr::emulator {
 namespace {

@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "emulator/emulator.h"
 #include "emulator/answers/travel.h"
+#include "emulator/emulator.h"
 
 namespace kadr::emulator {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/text/text.h"
 #include "emulator/answers/travel.h"
+#include "emulator/text/text.h"
 #include "machine/base/numbers.h"
 #include "planner/positioning/positioning.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "emulator/text/text.h"
-#include "emulator/answers/travel.h"
+#include "emulator/text/units.h"
 #include "machine/base/hash.h"
 
 namespace kadr::emulator {

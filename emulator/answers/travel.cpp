@@ -61,10 +61,6 @@ std::int64_t estimate_pulses(const std::vector<AxisTravel>& travel, const machin
   return static_cast<std::int64_t>(std::min(pulses, 9e18));
 }
 
-const char* axis_unit(const machine::AxisModel& axis) {
-  return axis.kind == machine::AxisKind::rotary ? "deg" : "mm";
-}
-
 const char* segment_unit(const planner::Path& path, std::size_t segment,
                          const machine::MachineModel& machine) {
   if (path.segments[segment].kind == planner::SegmentKind::arc) return "mm";
@@ -79,10 +75,6 @@ std::string path_unit(const planner::Path& path, const machine::MachineModel& ma
   for (std::size_t i = 0; i < path.size() && !(linear && rotary); ++i)
     (segment_unit(path, i, machine)[0] == 'm' ? linear : rotary) = true;
   return !rotary ? "mm" : !linear ? "deg" : "mm+deg";
-}
-
-std::string speed_unit(const std::string& path_unit) {
-  return path_unit == "mm+deg" ? "mm/s or deg/s" : path_unit + "/s";
 }
 
 }  // namespace kadr::emulator

@@ -20,15 +20,10 @@ std::vector<AxisTravel> axis_travel(const planner::Path& path);
 /// Step pulses that the travel takes, all axes together; an estimate within about 1 %.
 std::int64_t estimate_pulses(const std::vector<AxisTravel>& travel, const machine::MachineModel& machine);
 
-/// "mm" or "deg"
-const char* axis_unit(const machine::AxisModel& axis);
 /// What F measures on a segment (NIST rule): "mm" as soon as a linear axis moves, else "deg".
 const char* segment_unit(const planner::Path& path, std::size_t segment,
                          const machine::MachineModel& machine);
 /// Unit of a program's path: "mm", "deg", or "mm+deg" if it has segments of both kinds.
 std::string path_unit(const planner::Path& path, const machine::MachineModel& machine);
-
-/// "mm/s", "deg/s", or "mm/s or deg/s" for speeds along such a path.
-std::string speed_unit(const std::string& path_unit);
 
 }  // namespace kadr::emulator

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "emulator/answers/answers_json.h"
+#include "emulator/answers/check_report.h"
+#include "emulator/answers/plan_table.h"
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
-#include "emulator/answers/check_report.h"
-#include "emulator/answers/plan_table.h"
 #include "emulator/text/text.h"
 
 /// `kadr check` and `kadr plan`: everything up to the motion law, nothing that moves.

@@ -5,7 +5,7 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/log/log_types.h"
-#include "emulator/report/page/built_pages.h"
+#include "emulator/log_tools/report/built_pages.h"
 #include "emulator/text/text.h"
 #include "machine/base/codes.h"
 #include "machine/base/utf8.h"

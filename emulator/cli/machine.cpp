@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "emulator/answers/travel.h"
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
 #include "emulator/cli/write_file.h"
 #include "emulator/text/text.h"
-#include "emulator/answers/travel.h"
 
 namespace kadr::cli {
 namespace {

@@ -4,6 +4,9 @@
 #include <optional>
 #include <system_error>
 
+#include "emulator/answers/answers_json.h"
+#include "emulator/answers/summary.h"
+#include "emulator/answers/travel.h"
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
@@ -11,10 +14,8 @@
 #include "emulator/cli/run_header.h"
 #include "emulator/cli/signals.h"
 #include "emulator/log/alarm_list.h"
-#include "emulator/answers/summary.h"
-#include "emulator/text/text.h"
-#include "emulator/answers/travel.h"
 #include "emulator/scenario/scenario.h"
+#include "emulator/text/text.h"
 
 namespace kadr::cli {
 namespace {

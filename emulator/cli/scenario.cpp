@@ -6,8 +6,8 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/write_file.h"
-#include "emulator/text/text.h"
 #include "emulator/scenario/scenario.h"
+#include "emulator/text/text.h"
 
 namespace kadr::cli {
 namespace {

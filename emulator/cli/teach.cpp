@@ -3,12 +3,12 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/output_file.h"
+#include "emulator/log_tools/report/built_pages.h"
 #include "emulator/studies/teach/bezier_report.h"
-#include "emulator/report/page/built_pages.h"
-#include "emulator/studies/teach/teach_report.h"
-#include "emulator/text/text.h"
 #include "emulator/studies/teach/sweep.h"
 #include "emulator/studies/teach/teach_page.h"
+#include "emulator/studies/teach/teach_report.h"
+#include "emulator/text/text.h"
 
 /// `kadr teach`: interpolators step by step.
 namespace kadr::cli {

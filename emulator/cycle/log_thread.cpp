@@ -15,9 +15,9 @@ namespace {
 /// A tick record with everything it points to.
 struct OwnedTick {
   TickRecord record;
-  planner::TickMotion motion;
+  TickMotion motion;
   std::vector<std::int64_t> position_steps;
-  std::vector<plant::AxisState> axis;
+  std::vector<AxisState> axis;
   bool has_plant = false;
   StepBatch batch;
 };

@@ -15,7 +15,6 @@ namespace kadr::emulator {
 
 namespace {
 
-constexpr double kMostSteps = 4503599627370496.0;  // 2^52
 // a law's end may miss its joint and its rest by rounding
 constexpr double kSameJoint_u = 1e-9;
 constexpr double kRest_u_s = 1e-6;
@@ -34,12 +33,6 @@ struct AxisTrack {
 };
 
 }  // namespace
-
-std::int64_t lattice_node(double position_u, double step_u) {
-  const double node = std::floor(position_u / step_u + 0.5);
-  require(std::fabs(node) < kMostSteps, "an axis position is below 2^52 steps");
-  return static_cast<std::int64_t>(node);
-}
 
 struct CrossingInterpolator::Impl {
   Impl(const planner::Path& the_path, const machine::MachineModel& the_machine);

@@ -5,6 +5,7 @@
 
 #include "machine/machine.h"
 #include "machine/step_batch.h"
+#include "machine/step_hash.h"
 #include "planner/laws/motion_source.h"
 #include "planner/path/path.h"
 
@@ -12,9 +13,8 @@
 /// alone; the motion law only says when each fires.
 namespace kadr::emulator {
 
-/// Lattice node of a position: floor(x/step + 1/2), so that every axis counts consistently from block to
-/// block. Positions beyond 2^52 steps break a promise: doubles count no further.
-std::int64_t lattice_node(double position_u, double step_u);
+using kadr::lattice_node;
+using kadr::StepHash;
 
 /// One pulse with its place: what a drawing, a study or the self-check needs beyond the batch.
 struct StepEvent {
@@ -52,20 +52,6 @@ class CrossingInterpolator {
   /// is on. Slow.
   void set_trace(bool on);
   const std::vector<StepEvent>& trace() const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
-
-/// Running hash over the step stream: per tick and axis the offsets and signs (integers only). Ticks without
-/// pulses add nothing, every other tick adds its number, so equal digests mean equal pulses at equal times.
-class StepHash {
- public:
-  StepHash();
-  ~StepHash();
-  void add(const StepBatch& batch);
-  std::uint64_t digest() const;
 
  private:
   struct Impl;

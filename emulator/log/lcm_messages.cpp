@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "emulator/interpolator/interpolator.h"
 #include "emulator/log/log_types.h"
 #include "machine/base/hash.h"
 #include "machine/base/require.h"
@@ -281,7 +280,7 @@ void BlockBuilder::add(const TickRecord& record, const StepBatch& batch) {
   if (empty()) begin_block(record);
   const auto i = static_cast<std::size_t>(ticks_.n++);
   ticks_.n_override = has_override_ ? ticks_.n : 0;
-  const planner::TickMotion& motion = *record.motion;
+  const TickMotion& motion = *record.motion;
   ticks_.feed_u_s[i] = motion.speed_end_u_s;
   ticks_.accel_u_s2[i] = motion.accel_end_u_s2;
   ticks_.path_u[i] = motion.s_end_u;
@@ -302,7 +301,7 @@ void BlockBuilder::add(const TickRecord& record, const StepBatch& batch) {
     ticks_.steps[a][i] = static_cast<std::int32_t>(node_[a] - ticks_.steps_base[a]);
     ticks_.command_u[a][i] = batch.axis[a].command.position_end_u;
     if (record.axis) {
-      const plant::AxisState& state = (*record.axis)[a];
+      const AxisState& state = (*record.axis)[a];
       ticks_.base_u[a][i] = state.base_u;
       ticks_.base_u_s[a][i] = state.base_u_s;
       ticks_.link_u[a][i] = state.link_u;
@@ -336,7 +335,7 @@ Ticks BlockBuilder::end() const { return tick_end({ticks_.first_control_tick + t
 double BlockBuilder::seconds(Ticks ticks) const { return emulator::seconds(ticks, machine_.clock); }
 
 feed_t BlockBuilder::feed_message(const TickRecord& record) const {
-  const planner::TickMotion& motion = *record.motion;
+  const TickMotion& motion = *record.motion;
   feed_t m{};
   m.tick = tick_end(record.tick).value;
   m.t_s = seconds(tick_end(record.tick));
@@ -365,7 +364,7 @@ axis_t BlockBuilder::axis_message(const TickRecord& record, const StepBatch& bat
   m.load = command.position_end_u;
   m.load_rate = command.speed_end_u_s;
   if (record.axis) {
-    const plant::AxisState& state = (*record.axis)[a];
+    const AxisState& state = (*record.axis)[a];
     m.motor = state.base_u;
     m.load = state.base_u + state.link_u;
     m.load_rate = state.base_u_s + state.link_u_s;

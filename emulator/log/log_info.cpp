@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "emulator/interpolator/interpolator.h"
 #include "machine/base/hash.h"
+#include "machine/step_hash.h"
 
 namespace kadr::emulator {
 namespace {

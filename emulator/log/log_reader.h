@@ -59,8 +59,8 @@ struct TickBlock {
   ControlTicks first;
   std::vector<double> feed_u_s, accel_u_s2, path_u;                ///< [ticks]
   std::vector<double> override_requested, override_used, limiter;  ///< [ticks] ratios
-  std::vector<std::int8_t> override_note;                          ///< [ticks] planner::OverrideNote
-  std::vector<std::int8_t> limited_by, limiting_axis;              ///< [ticks] planner::LimitedBy; axis or -1
+  std::vector<std::int8_t> override_note;                          ///< [ticks] OverrideNote
+  std::vector<std::int8_t> limited_by, limiting_axis;              ///< [ticks] LimitedBy; axis or -1
   std::vector<std::uint32_t> block;                                ///< [ticks]
   std::vector<AxisTicks> axis;                                     ///< [axes]
   bool has_plant = false;

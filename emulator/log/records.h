@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "machine/axis_state.h"
 #include "machine/machine.h"
 #include "machine/step_batch.h"
-#include "planner/laws/motion_source.h"
-#include "plant/plant.h"
+#include "machine/tick_motion.h"
 
 /// What the cycle tells the log, in tick order; a pure function of the inputs: no clock, address, locale or
 /// thread.
@@ -58,9 +58,9 @@ struct BlockEndRecord {
 struct TickRecord {
   ControlTicks tick;        ///< the tick that ended
   std::uint32_t block = 0;  ///< running number of the block at the tick's end
-  const planner::TickMotion* motion = nullptr;
+  const TickMotion* motion = nullptr;
   const std::vector<std::int64_t>* position_steps = nullptr;  ///< [axes]
-  const std::vector<plant::AxisState>* axis = nullptr;        ///< [axes]; null without plant
+  const std::vector<AxisState>* axis = nullptr;               ///< [axes]; null without plant
   bool has_override = false;  ///< the run has steps of operator or spindle: what they ask for is kept
 };
 

@@ -4,8 +4,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "emulator/text/text.h"
 #include "emulator/scenario/scenario.h"
+#include "emulator/text/text.h"
 
 namespace kadr::emulator {
 namespace {

@@ -2,9 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "emulator/answers/check_report.h"
-#include "emulator/answers/plan_table.h"
-#include "emulator/answers/summary.h"
+#include "machine/base/diagnostic.h"
 
 /// What the tables say, for programs: English keys in a fixed order, each real number with its unit in the
 /// key. `_u` is the unit that "unit" beside it names (mm or deg). No wall clock, so equal runs give equal
@@ -18,10 +16,6 @@ using Json = nlohmann::ordered_json;
 /// places of the calls that led here, innermost first; the ones left out stand between its two halves.
 Json json_of(const Diagnostic& d, const SourceSet& sources);
 Json json_of(const Diagnostics& diagnostics, const SourceSet& sources);
-Json json_of(const std::vector<LimitShare>& shares);
-Json json_of(const RunSummary& summary, const SummaryContext& context);
-Json json_of(const CheckResult& result, const machine::MachineModel& model);
-Json json_of(const PlanRow& row);
 /// Indented by two; bytes that are not UTF-8 become U+FFFD.
 std::string json_text(const Json& json);
 /// The same on one line, without line end.

@@ -3,8 +3,8 @@
 #include <set>
 #include <vector>
 
-#include "gcode/read/report.h"
 #include "gcode/interpret/state.h"
+#include "gcode/read/report.h"
 #include "gcode/read/tree.h"
 
 namespace kadr::gcode {

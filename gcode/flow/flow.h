@@ -2,9 +2,9 @@
 #include <memory>
 #include <vector>
 
+#include "gcode/flow/structure.h"
 #include "gcode/interpret/interpreter.h"
 #include "gcode/read/program.h"
-#include "gcode/flow/structure.h"
 
 namespace kadr::gcode {
 

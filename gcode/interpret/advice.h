@@ -3,8 +3,8 @@
 
 #include "gcode/block.h"
 #include "gcode/gcode.h"
-#include "gcode/read/report.h"
 #include "gcode/interpret/state.h"
+#include "gcode/read/report.h"
 
 namespace kadr::gcode {
 

@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "gcode/interpret/advice.h"
 #include "gcode/arc.h"
 #include "gcode/compensation/compensation.h"
 #include "gcode/gcode.h"
-#include "gcode/read/report.h"
+#include "gcode/interpret/advice.h"
 #include "gcode/interpret/state.h"
 #include "gcode/interpret/words.h"
+#include "gcode/read/report.h"
 
 namespace kadr::gcode {
 

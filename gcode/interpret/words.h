@@ -9,8 +9,8 @@
 #include "gcode/dialect/codes.h"
 #include "gcode/dialect/dialect.h"
 #include "gcode/flow/evaluate.h"
-#include "gcode/read/report.h"
 #include "gcode/interpret/state.h"
+#include "gcode/read/report.h"
 #include "gcode/read/tree.h"
 
 namespace kadr::gcode {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <utility>
 
-#include "gcode/read/parser.h"
 #include "gcode/interpret/words.h"
+#include "gcode/read/parser.h"
 
 namespace kadr::gcode {
 namespace {

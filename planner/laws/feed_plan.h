@@ -4,25 +4,13 @@
 #include <string_view>
 #include <vector>
 
+#include "machine/tick_motion.h"
 #include "planner/path/path.h"
 
 namespace kadr::planner {
 
-/// What held the feed at a place: our signature column.
-enum class LimitedBy : std::uint8_t {
-  program,           ///< programmed feed reached
-  rapid,             ///< axis speed during a rapid
-  path_feed,         ///< machine's path.max_feed_mm_s
-  axis_speed,        ///< an axis' max feed
-  centripetal,       ///< curvature
-  junction,          ///< corner ahead or behind
-  length,            ///< accelerating or braking: the path is too short for more
-  stop,              ///< at rest
-  override_percent,  ///< programmed feed times the operator's percent
-  hold,              ///< feed hold, or a percent of 0
-  limiter,           ///< the axis limiter
-};
-std::string_view limited_by_name(LimitedBy reason);
+using kadr::limited_by_name;
+using kadr::LimitedBy;
 
 /// How the blockwise scheduler gave a block its whole control ticks (fill_block_ticks).
 enum class TickRule : std::uint8_t {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/laws/tick_shape.h"
 #include "planner/laws/motion_source.h"
+#include "planner/laws/tick_shape.h"
 
 namespace kadr::planner {
 namespace {

@@ -47,4 +47,14 @@ MotionState MotionLaw::eval(double time_s, std::size_t& hint) const {
   return state;
 }
 
+std::string_view tick_rule_name(TickRule rule) {
+  static constexpr std::string_view kNames[] = {"", "a", "b", "c", "d"};
+  return kNames[static_cast<std::size_t>(rule)];
+}
+
+std::string_view rapid_law_name(machine::RapidShape shape) {
+  constexpr std::string_view kNames[] = {"scurve", "t-zero", "zv", "zvd", "auto"};
+  return kNames[static_cast<std::size_t>(shape)];
+}
+
 }  // namespace kadr::planner

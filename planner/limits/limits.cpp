@@ -8,7 +8,6 @@
 
 #include "machine/base/numbers.h"
 #include "planner/bezier/curve_bounds.h"
-#include "planner/positioning/positioning.h"
 
 namespace kadr::planner {
 namespace {

@@ -5,8 +5,8 @@
 #include <tl/expected.hpp>
 
 #include "planner/laws/feed_plan.h"
+#include "planner/limits/plan_error.h"
 #include "planner/path/path.h"
-#include "planner/planner.h"
 
 /// What geometry and machine allow on each place of a path, before any ramp is thought of.
 namespace kadr::planner {

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/path/path.h"
 #include "planner/limits/limits.h"
 #include "planner/limits/ramp.h"
 #include "planner/limits/range_min.h"
+#include "planner/path/path.h"
 
 namespace kadr::planner {
 

@@ -6,6 +6,7 @@
 #include "planner/override/axis_limiter.h"
 #include "planner/override/feed_terrain.h"
 #include "planner/override/feed_tracker.h"
+#include "planner/override/override.h"
 #include "planner/positioning/positioning.h"
 
 namespace kadr::planner {

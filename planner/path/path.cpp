@@ -174,4 +174,11 @@ std::pair<double, double> axis_extent(const Path& path, std::size_t segment, int
   return {low, high};
 }
 
+bool is_positioning(const Path& path, std::size_t segment, const machine::MachineModel& machine) {
+  if (machine.planner.rapid_law == machine::RapidShape::scurve || !path.segments[segment].rapid) return false;
+  for (std::size_t c = 0; c < machine.axis.size(); ++c)
+    if (machine.axis[c].has_plant && path.node(segment)[c] != path.node(segment + 1)[c]) return true;
+  return false;
+}
+
 }  // namespace kadr::planner

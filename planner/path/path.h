@@ -130,4 +130,8 @@ constexpr bool is_motion(gcode::BlockKind kind) {
          kind == gcode::BlockKind::probe || kind == gcode::BlockKind::rigid_tap;
 }
 
+/// Whether a segment is a rapid that planner.rapid_law takes care of: a G0 of an axis with a flexible link.
+/// It begins and ends at rest.
+bool is_positioning(const Path& path, std::size_t segment, const machine::MachineModel& machine);
+
 }  // namespace kadr::planner

@@ -246,13 +246,6 @@ class Maker {
 
 }  // namespace
 
-bool is_positioning(const Path& path, std::size_t segment, const machine::MachineModel& machine) {
-  if (machine.planner.rapid_law == RapidShape::scurve || !path.segments[segment].rapid) return false;
-  for (std::size_t c = 0; c < machine.axis.size(); ++c)
-    if (machine.axis[c].has_plant && path.node(segment)[c] != path.node(segment + 1)[c]) return true;
-  return false;
-}
-
 void append_pieces(const PointLaw& law, double s_u, const Signature& why, std::vector<JerkPiece>& out) {
   for (const PointPiece& p : law.pieces()) {
     const bool cruises = p.accel_u_s2 == 0.0 && p.jerk_u_s3 == 0.0;

@@ -6,15 +6,11 @@
 
 #include "machine/machine.h"
 #include "planner/laws/feed_plan.h"
+#include "planner/limits/limits.h"
 #include "planner/point_to_point/law.h"
 #include "planner/point_to_point/mode.h"
-#include "planner/limits/limits.h"
 
 namespace kadr::planner {
-
-/// Whether a segment is a rapid that planner.rapid_law takes care of: a G0 of an axis with a flexible link.
-/// It begins and ends at rest.
-bool is_positioning(const Path& path, std::size_t segment, const machine::MachineModel& machine);
 
 /// A vibration that a motion along the path excites.
 struct ExcitedMode {

@@ -2,11 +2,6 @@
 
 namespace kadr::planner {
 
-std::string_view tick_rule_name(TickRule rule) {
-  static constexpr std::string_view kNames[] = {"", "a", "b", "c", "d"};
-  return kNames[static_cast<std::size_t>(rule)];
-}
-
 BlockWriter::BlockWriter(const Path& path, double tau_s, FeedPlan& plan)
     : path_(path), tau_s_(tau_s), plan_(plan), pieces_(plan.law) {
   plan.segments.reserve(path.size());

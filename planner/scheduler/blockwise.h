@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/scheduler/block_diagram.h"
 #include "planner/limits/limits.h"
+#include "planner/scheduler/block_diagram.h"
 
 namespace kadr::planner {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <tl/expected.hpp>
 
-#include "planner/scheduler/run_planner.h"
+#include "planner/limits/ramp.h"
 #include "planner/time_law/path_law.h"
 
 namespace kadr::planner {

@@ -1,7 +1,7 @@
 #pragma once
 #include <tl/expected.hpp>
 
-#include "planner/scheduler/run_planner.h"
+#include "planner/limits/ramp.h"
 #include "planner/time_law/solver.h"
 
 namespace kadr::planner {

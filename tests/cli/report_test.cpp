@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "emulator/log/alarm_list.h"
-#include "emulator/text/json.h"
+#include "emulator/answers/answers_json.h"
 #include "emulator/answers/summary.h"
-#include "emulator/text/text.h"
 #include "emulator/answers/travel.h"
+#include "emulator/log/alarm_list.h"
+#include "emulator/text/text.h"
 #include "tests/cli/run_kadr.h"
 
 using namespace kadr;

@@ -4,10 +4,10 @@
 #include <array>
 #include <bit>
 
-#include "emulator/answers/travel.h"
+#include "emulator/text/units.h"
 #include "machine/base/codes.h"
 #include "machine/base/parse_number.h"
-#include "planner/planner.h"
+#include "machine/tick_motion.h"
 
 namespace kadr::emulator {
 namespace {
@@ -18,8 +18,8 @@ using Key = ToleranceKey;
 std::int64_t whole(std::int64_t v) { return v; }
 
 std::string_view limit_word(std::int64_t number) {
-  if (number < 0 || number > static_cast<std::int64_t>(planner::LimitedBy::limiter)) return "unknown";
-  return planner::limited_by_name(static_cast<planner::LimitedBy>(number));
+  if (number < 0 || number > static_cast<std::int64_t>(LimitedBy::limiter)) return "unknown";
+  return limited_by_name(static_cast<LimitedBy>(number));
 }
 
 // a new field of KADR_TICKS is one line here, in tick_fields or in axis_fields

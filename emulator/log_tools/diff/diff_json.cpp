@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/log_tools/diff/diff_report.h"
 #include "emulator/log/log_info.h"
+#include "emulator/log_tools/diff/diff_report.h"
 #include "machine/base/hash.h"
 
 namespace kadr::emulator {

@@ -8,10 +8,10 @@
 
 #include <tl/expected.hpp>
 
+#include "emulator/log/log_reader.h"
 #include "emulator/log_tools/diff/diff_inputs.h"
 #include "emulator/log_tools/diff/diff_options.h"
 #include "emulator/log_tools/diff/frame_compare.h"
-#include "emulator/log/log_reader.h"
 
 /// `kadr diff`: two logs side by side, control tick by control tick (docs/diff.md). Memory does not grow with
 /// the logs.

@@ -4,8 +4,9 @@
 
 #include "emulator/log_tools/diff/diff_report.h"
 #include "emulator/text/text.h"
+#include "emulator/text/units.h"
 #include "machine/base/parse_number.h"
-#include "planner/planner.h"
+#include "machine/tick_motion.h"
 
 namespace kadr::emulator {
 namespace {
@@ -14,10 +15,9 @@ constexpr std::size_t kTextWidth = 64;
 constexpr int kPathDecimals = 3;
 
 std::string reason(const FeedPoint& p) {
-  const bool known = p.limited_by >= 0 && p.limited_by <= static_cast<int>(planner::LimitedBy::stop);
-  return fmt::format(
-      "override {:.4g} %, limited by {}", 100 * p.override_used,
-      known ? planner::limited_by_name(static_cast<planner::LimitedBy>(p.limited_by)) : "unknown");
+  const bool known = p.limited_by >= 0 && p.limited_by <= static_cast<int>(LimitedBy::stop);
+  return fmt::format("override {:.4g} %, limited by {}", 100 * p.override_used,
+                     known ? limited_by_name(static_cast<LimitedBy>(p.limited_by)) : "unknown");
 }
 
 std::string place_text(const std::shared_ptr<const BlockRecord>& block, const LogHeader& header) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "emulator/log_tools/export/export.h"
-#include "planner/planner.h"
+#include "machine/tick_motion.h"
 
 namespace kadr::emulator {
 namespace {
@@ -142,7 +142,7 @@ class Dump {
     set(at, moving, ticks.feed_u_s[i] > 0);
     set(at, accelerating, ticks.accel_u_s2[i] > 0);
     set(at, braking, ticks.accel_u_s2[i] < 0);
-    set(at, hold, ticks.limited_by[i] == static_cast<std::int8_t>(planner::LimitedBy::hold));
+    set(at, hold, ticks.limited_by[i] == static_cast<std::int8_t>(LimitedBy::hold));
     for (const LogItem& item : sample.frame->items)
       if (const auto* event = std::get_if<EventRecord>(&item); event != nullptr && event->kind == "alarm")
         set(at, alarm, true);

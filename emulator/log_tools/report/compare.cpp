@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "emulator/log_tools/diff/diff_fields.h"
-#include "emulator/text/line_chart.h"
-#include "emulator/report/page/built_pages.h"
+#include "emulator/log_tools/report/built_pages.h"
 #include "emulator/log_tools/report/page_style.h"
 #include "emulator/log_tools/report/report_page.h"
 #include "emulator/log_tools/report/run_data.h"
+#include "emulator/text/line_chart.h"
 #include "emulator/text/text.h"
 #include "machine/base/hash.h"
 

@@ -4,8 +4,8 @@
 
 #include <tl/expected.hpp>
 
-#include "emulator/text/json.h"
 #include "emulator/log_tools/report/page_data.h"
+#include "emulator/text/json.h"
 
 /// `kadr compare`: runs of one program side by side.
 namespace kadr::emulator {

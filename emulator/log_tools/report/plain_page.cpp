@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "emulator/report/page/built_pages.h"
+#include "emulator/log_tools/report/built_pages.h"
 #include "emulator/log_tools/report/page_style.h"
 #include "emulator/log_tools/report/report_page.h"
 #include "emulator/log_tools/report/summary_html.h"

@@ -8,7 +8,7 @@
 
 namespace kadr::emulator {
 
-/// The page's frame with script and style, made from emulator/report/web at build time; empty where
+/// The page's frame with script and style, made from emulator/pages/report at build time; empty where
 /// page_missing("report") says why.
 std::string_view report_template();
 

@@ -5,11 +5,11 @@
 #include <map>
 
 #include "emulator/log_tools/diff/diff_fields.h"
-#include "emulator/text/json.h"
 #include "emulator/log_tools/report/encode.h"
 #include "emulator/log_tools/report/summary_html.h"
+#include "emulator/text/json.h"
 #include "emulator/text/text.h"
-#include "planner/planner.h"
+#include "machine/tick_motion.h"
 
 namespace kadr::emulator {
 namespace {
@@ -36,8 +36,8 @@ namespace {
 
 Json limited_by_names() {
   Json names = Json::array();
-  for (int reason = 0; reason <= static_cast<int>(planner::LimitedBy::limiter); ++reason)
-    names.push_back(planner::limited_by_name(static_cast<planner::LimitedBy>(reason)));
+  for (int reason = 0; reason <= static_cast<int>(LimitedBy::limiter); ++reason)
+    names.push_back(limited_by_name(static_cast<LimitedBy>(reason)));
   return names;
 }
 

@@ -7,7 +7,7 @@
 
 #include "emulator/log_tools/diff/diff_fields.h"
 #include "emulator/log_tools/export/charts.h"
-#include "emulator/report/page/path_svg.h"
+#include "emulator/log_tools/report/path_svg.h"
 #include "emulator/text/text.h"
 #include "machine/base/hash.h"
 

@@ -11,7 +11,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const [htmlPath, cppPath, pageName = 'report', corePath] = process.argv.slice(2);
 const nodeModules = process.env.KADR_NODE_MODULES ?? join(here, 'node_modules');
 const base = join(here, 'src/base.css');
-const teach = join(here, '../../teach/web/src');
+const teach = join(here, '../teach/src');
 // sources, style sheets in order, and the C++ accessor of the template
 const { root, styles, header, accessor } = {
   report: { root: join(here, 'src'), styles: [join(nodeModules, 'uplot/dist/uPlot.min.css'), base, join(here, 'src/style.css')], header: 'emulator/log_tools/report/report_page.h', accessor: 'report_template' },

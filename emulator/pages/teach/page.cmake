@@ -14,12 +14,12 @@ endif()
 
 set(core ${wasm_folder}/core.wasm)
 file(GLOB core_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/interpolator/lattice/*.cpp)
-list(APPEND core_sources ${CMAKE_CURRENT_SOURCE_DIR}/teach/web/core.cpp)
+list(APPEND core_sources ${CMAKE_CURRENT_SOURCE_DIR}/pages/teach/core.cpp)
 foreach(name arc_length bezier_curve joint paper_table)
   list(APPEND core_sources ${PROJECT_SOURCE_DIR}/planner/bezier/${name}.cpp)
 endforeach()
 foreach(name case_words deviation follow picture pulse_timing sweep)
-  list(APPEND core_sources ${CMAKE_CURRENT_SOURCE_DIR}/teach/${name}.cpp)
+  list(APPEND core_sources ${CMAKE_CURRENT_SOURCE_DIR}/studies/teach/${name}.cpp)
 endforeach()
 set(core_objects)
 foreach(source ${core_sources})
@@ -36,9 +36,9 @@ add_custom_command(OUTPUT ${core}
   COMMAND ${WASM_CXX} --target=wasm32-wasi -mexec-model=reactor -Wl,--strip-all -Wl,--gc-sections ${core_objects} -o ${core}
   DEPENDS ${core_objects} COMMENT "core of the teaching page" VERBATIM)
 
-# report/web lies beside, as in the source tree: style, words and packages are shared
-set(teach_web ${CMAKE_CURRENT_SOURCE_DIR}/teach/web)
-set(teach_work ${PROJECT_BINARY_DIR}/web/teach/web)
+# pages/report lies beside, as in the source tree: style, words and packages are shared
+set(teach_web ${CMAKE_CURRENT_SOURCE_DIR}/pages/teach)
+set(teach_work ${PROJECT_BINARY_DIR}/pages/teach)
 file(GLOB teach_web_sources CONFIGURE_DEPENDS ${teach_web}/src/*)
 add_custom_command(OUTPUT ${teach_template}
   COMMAND ${CMAKE_COMMAND} -E make_directory ${teach_work}

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/studies/point_to_point/point_report.h"
 #include "emulator/text/chart_page.h"
 #include "emulator/text/line_chart.h"
-#include "emulator/studies/point_to_point/point_report.h"
 #include "emulator/text/text.h"
 
 namespace kadr::emulator {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "emulator/text/text.h"
 #include "emulator/studies/teach/pulses.h"
+#include "emulator/text/text.h"
 
 namespace kadr::emulator {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "emulator/text/json.h"
 #include "emulator/studies/teach/bezier_study.h"
+#include "emulator/text/json.h"
 
 namespace kadr::emulator {
 

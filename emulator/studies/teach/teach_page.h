@@ -5,7 +5,7 @@
 
 namespace kadr::emulator {
 
-/// The teaching page with script, style and the core in WebAssembly, made from emulator/teach/web at build
+/// The teaching page with script, style and the core in WebAssembly, made from emulator/pages/teach at build
 /// time; empty where page_missing("teaching") says why.
 std::string_view teach_template();
 

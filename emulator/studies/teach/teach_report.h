@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "emulator/text/json.h"
 #include "emulator/studies/teach/pulses.h"
 #include "emulator/studies/teach/step_table.h"
+#include "emulator/text/json.h"
 
 /// What `kadr teach` shows.
 namespace kadr::emulator {

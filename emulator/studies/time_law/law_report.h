@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "emulator/text/json.h"
 #include "emulator/studies/time_law/law_study.h"
+#include "emulator/text/json.h"
 
 /// What `kadr tube` tells of the laws of a problem.
 namespace kadr::emulator {

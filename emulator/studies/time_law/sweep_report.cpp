@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "emulator/studies/time_law/law_report.h"
+#include "emulator/studies/time_law/tube_page.h"
 #include "emulator/text/line_chart.h"
 #include "emulator/text/text.h"
-#include "emulator/studies/time_law/tube_page.h"
 
 namespace kadr::emulator {
 namespace {

@@ -2,8 +2,8 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/text/json.h"
 #include "emulator/studies/time_law/level_sweep.h"
+#include "emulator/text/json.h"
 
 /// What `kadr tube --sweep-levels` tells.
 namespace kadr::emulator {

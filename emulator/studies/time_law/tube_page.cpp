@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/text/chart_page.h"
 #include "emulator/studies/time_law/law_report.h"
+#include "emulator/text/chart_page.h"
 #include "emulator/text/line_chart.h"
 #include "emulator/text/text.h"
 

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <random>
 
+#include "emulator/answers/answers.h"
+#include "emulator/cycle/cycle.h"
 #include "machine/base/numbers.h"
 #include "tests/support/run_program.h"
 #include "tests/support/test_machine.h"

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "interpolator_paths.h"
 #include "planner/planner.h"
+#include "tests/emulator/interpolator/interpolator_paths.h"
 
 using namespace kadr;
 using namespace kadr::test;

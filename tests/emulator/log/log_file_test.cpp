@@ -14,9 +14,10 @@
 #include <lcm/lcm-cpp.hpp>
 #include <map>
 
-#include "emulator/interpolator/interpolator.h"
+#include "emulator/log/log.h"
 #include "emulator/log/log_info.h"
 #include "log_support.h"
+#include "machine/step_hash.h"
 
 using namespace kadr;
 using namespace kadr::emulator;
@@ -92,7 +93,7 @@ TEST_CASE("every control tick comes back from a log bit by bit: 1000 ticks, 3 ax
              b->limiting_axis[i] == r.motion->limiting_axis && b->block[i] == r.block;
       for (std::size_t a = 0; a < 3; ++a) {
         const AxisTicks& x = b->axis[a];
-        const plant::AxisState& s = run.states()[a];
+        const AxisState& s = run.states()[a];
         same = same && x.steps[i] == run.nodes()[a] &&
                x.command_u[i] == run.batch().axis[a].command.position_end_u && x.base_u[i] == s.base_u &&
                x.base_u_s[i] == s.base_u_s && x.link_u[i] == s.link_u && x.link_u_s[i] == s.link_u_s &&

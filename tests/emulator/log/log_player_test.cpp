@@ -14,8 +14,8 @@
 #include <cstring>
 #include <lcm/lcm-cpp.hpp>
 
-#include "emulator/interpolator/interpolator.h"
 #include "log_support.h"
+#include "machine/step_hash.h"
 
 /// The real lcm-logplayer plays a written log over UDP multicast that stays on this host (ttl=0), and every
 /// message that arrives is compared with the file; the same for what `publish_url` sends. On this host's own

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "emulator/interpolator/interpolator.h"
+#include "machine/step_hash.h"
 
 namespace kadr::test {
 
@@ -47,7 +47,7 @@ FakeRun::FakeRun(const machine::MachineModel& machine, FakeRunOptions options)
   batch_.axis.resize(machine.axis.size());
   for (const machine::AxisModel& axis : machine.axis) {
     position_steps_.push_back(axis.home_u / axis.step_u);
-    steps_.push_back(emulator::lattice_node(axis.home_u, axis.step_u));
+    steps_.push_back(lattice_node(axis.home_u, axis.step_u));
   }
 }
 
@@ -96,8 +96,8 @@ const emulator::TickRecord& FakeRun::advance() {
   motion_.override_used = 1 - 0.001 * static_cast<double>(tick_ % 50);
   motion_.override_requested = motion_.override_used + 0.25;
   motion_.limiter = 1 - 0.002 * static_cast<double>(tick_ % 7);
-  motion_.note = static_cast<planner::OverrideNote>(tick_ / 30 % 4);
-  motion_.limited_by = static_cast<planner::LimitedBy>(tick_ / 100 % 11);
+  motion_.note = static_cast<OverrideNote>(tick_ / 30 % 4);
+  motion_.limited_by = static_cast<LimitedBy>(tick_ / 100 % 11);
   motion_.limiting_axis = static_cast<std::int8_t>(tick_ / 100 % 4 - 1);
   for (std::size_t a = 0; a < batch_.axis.size(); ++a) {
     const double share = 1 - 0.07 * static_cast<double>(a), begin = position_steps_[a];
@@ -217,7 +217,7 @@ std::int64_t write_log(const std::string& path, const machine::MachineModel& mac
   warning.code = all_codes().front().code;
   check((*log)->diagnostic(warning, Ticks{-1}));
   FakeRun run(machine, options);
-  emulator::StepHash hash;
+  StepHash hash;
   const std::int64_t tau = machine.clock.control_tick.value;
   for (std::int64_t k = 0; k < control_ticks; ++k) {
     const auto number = static_cast<std::uint32_t>(k / 100);

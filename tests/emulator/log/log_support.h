@@ -47,7 +47,7 @@ class FakeRun {
   /// The next control tick; the record points into this object.
   const emulator::TickRecord& advance();
   const StepBatch& batch() const { return batch_; }
-  const std::vector<plant::AxisState>& states() const { return states_; }
+  const std::vector<AxisState>& states() const { return states_; }
   const std::vector<std::int64_t>& nodes() const { return steps_; }
   std::int64_t pulses() const { return pulses_; }
 
@@ -60,11 +60,11 @@ class FakeRun {
   std::int64_t tick_ = 0;
   double path_steps_ = 0;
   std::int64_t pulses_ = 0;
-  planner::TickMotion motion_;
+  TickMotion motion_;
   StepBatch batch_;
   std::vector<double> position_steps_;  // of the motion, before the lattice
   std::vector<std::int64_t> steps_;     // lattice node
-  std::vector<plant::AxisState> states_;
+  std::vector<AxisState> states_;
   emulator::TickRecord record_;
 };
 

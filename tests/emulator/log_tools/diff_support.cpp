@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "emulator/interpolator/interpolator.h"
+#include "machine/step_hash.h"
 
 namespace kadr::test {
 namespace {
@@ -38,7 +38,7 @@ void write_changed(const std::string& path, const emulator::RunHeader& header, s
   const auto log = open(path);
   check(log->begin(header));
   FakeRun run(machine);
-  emulator::StepHash hash;
+  StepHash hash;
   const std::int64_t tau = machine.clock.control_tick.value;
   for (std::int64_t k = 0; k < control_ticks; ++k) {
     emulator::TickRecord record = run.advance();
@@ -90,7 +90,7 @@ void write_path_log(const std::string& path, const machine::MachineModel& machin
     return static_cast<std::int64_t>(std::floor(tau_ticks * (at_mm - from_mm) / (to_mm - from_mm)));
   };
   for (; s_mm < run.end_mm; ++k) {
-    planner::TickMotion motion;
+    TickMotion motion;
     motion.tick = batch.tick = ControlTicks{k};
     const double feed_mm_s = k < run.rest_ticks ? 0 : run.feed_mm_s(s_mm);
     const double to_mm = std::min(s_mm + feed_mm_s * tau_s, run.end_mm);

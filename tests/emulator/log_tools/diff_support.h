@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "log_support.h"
+#include "tests/emulator/log/log_support.h"
 
 /// Logs that differ in a known place, for the tests of the comparison.
 namespace kadr::test {
@@ -12,9 +12,9 @@ namespace kadr::test {
 /// One control tick before it is written; everything in it may be changed.
 struct ChangeableTick {
   std::int64_t number = 0;
-  planner::TickMotion motion;
+  TickMotion motion;
   StepBatch batch;
-  std::vector<plant::AxisState> states;
+  std::vector<AxisState> states;
   std::vector<emulator::EventRecord> events;
 };
 using ChangeTick = std::function<void(ChangeableTick&)>;

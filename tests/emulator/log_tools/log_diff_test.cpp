@@ -6,6 +6,7 @@
 #include "diff_support.h"
 #include "emulator/log_tools/diff/diff_report.h"
 #include "emulator/log_tools/diff/log_diff.h"
+#include "emulator/log_tools/log_tools.h"
 
 using namespace kadr;
 using namespace kadr::emulator;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "emulator/studies/studies.h"
 #include "emulator/studies/teach/picture.h"
 #include "emulator/studies/teach/sweep.h"
 #include "tests/emulator/interpolator/lattice_support.h"

@@ -1,6 +1,6 @@
 // Words of the teaching page in Russian; numbers and the language itself are the report page's (text.ts).
-import { isRussian, learn } from '../../../report/web/src/text';
-export { fixed, isRussian, made, say, setRussian } from '../../../report/web/src/text';
+import { isRussian, learn } from '../../report/src/text';
+export { fixed, isRussian, made, say, setRussian } from '../../report/src/text';
 
 learn({
   'Interpolators, step by step': 'Интерполяторы, шаг за шагом', 'Step by step': 'По шагам', 'Compare': 'Сравнение', 'Eight cases': 'Восемь случаев', 'Speed rose': 'Роза скоростей',

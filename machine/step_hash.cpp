@@ -1,10 +1,12 @@
+#include "machine/step_hash.h"
+
 #include <bit>
 #include <span>
+#include <vector>
 
-#include "emulator/interpolator/interpolator.h"
 #include "machine/base/hash.h"
 
-namespace kadr::emulator {
+namespace kadr {
 
 /// Canonical form, little-endian: for each control tick with pulses its number and count of axes that pulse;
 /// for each of these: axis, direction of the first pulse, counts of pulses and reversals, then the offsets
@@ -48,4 +50,4 @@ void StepHash::add(const StepBatch& batch) {
 
 std::uint64_t StepHash::digest() const { return impl_->hash.digest(); }
 
-}  // namespace kadr::emulator
+}  // namespace kadr

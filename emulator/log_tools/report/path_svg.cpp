@@ -1,4 +1,4 @@
-#include "emulator/report/page/path_svg.h"
+#include "emulator/log_tools/report/path_svg.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "emulator/report/page/built_pages.h"
+#include "emulator/log_tools/report/built_pages.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,18 @@
+#pragma once
+#include <vector>
+
+#include "emulator/answers/check_report.h"
+#include "emulator/answers/plan_table.h"
+#include "emulator/answers/summary.h"
+#include "emulator/text/json.h"
+
+/// What the tables of a check, a plan and a run say, for programs. `_u` is the unit that "unit" beside it
+/// names (mm or deg).
+namespace kadr::emulator {
+
+Json json_of(const std::vector<LimitShare>& shares);
+Json json_of(const RunSummary& summary, const SummaryContext& context);
+Json json_of(const CheckResult& result, const machine::MachineModel& model);
+Json json_of(const PlanRow& row);
+
+}  // namespace kadr::emulator

@@ -1,0 +1,11 @@
+#pragma once
+#include "gcode/read/parser.h"
+#include "gcode/read/program.h"
+#include "gcode/read/report.h"
+#include "gcode/read/tool_table.h"
+#include "gcode/read/tree.h"
+
+/// Text to tree, nothing interpreted: Parser (over the letters and numbers of scanner.h) makes lines of
+/// words, comments and expressions (tree.h), each with its span. Program reads a text piece by piece,
+/// find_sub_file() the files that it calls, ToolTable is a tool.tbl. What is wrong goes to a Report, and
+/// reading goes on.

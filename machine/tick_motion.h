@@ -1,0 +1,59 @@
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+#include "machine/base/count.h"
+
+/// How the path moves in a control tick: made by a planner's MotionSource, read by interpolator and log.
+namespace kadr {
+
+/// What held the feed at a place: our signature column.
+enum class LimitedBy : std::uint8_t {
+  program,           ///< programmed feed reached
+  rapid,             ///< axis speed during a rapid
+  path_feed,         ///< machine's path.max_feed_mm_s
+  axis_speed,        ///< an axis' max feed
+  centripetal,       ///< curvature
+  junction,          ///< corner ahead or behind
+  length,            ///< accelerating or braking: the path is too short for more
+  stop,              ///< at rest
+  override_percent,  ///< programmed feed times the operator's percent
+  hold,              ///< feed hold, or a percent of 0
+  limiter,           ///< the axis limiter
+};
+std::string_view limited_by_name(LimitedBy reason);
+
+/// Why a percent that was asked for is not in force in a control tick.
+enum class OverrideNote : std::uint8_t {
+  none,
+  deferred,  ///< the motion brakes for a place ahead
+  locked,    ///< thread, tap, M49
+  limited,   ///< the axis limiter lowers the feed
+};
+
+/// How s moves in one control tick. Exact at both ends of the tick; between them the feed runs linearly over
+/// [move_begin, move_end] (base ticks within the tick, fractions allowed) and the path rests outside of it,
+/// so that s never runs back, also where a motion starts or ends inside the tick:
+///   s(t) = s_begin + ramp_begin * (t - t_b) + (ramp_end - ramp_begin) * (t - t_b)^2 / (2 (t_e - t_b))
+struct TickMotion {
+  ControlTicks tick;
+  double s_begin_u = 0;  ///< path length, as Path::start_s_u counts
+  double s_end_u = 0;
+  double speed_begin_u_s = 0;  ///< the law's speed at the tick's beginning and end
+  double speed_end_u_s = 0;
+  double move_begin_ticks = 0;
+  double move_end_ticks = 0;
+  double ramp_begin_u_s =
+      0;  ///< speed at move_begin and move_end of the linear feed; (sum / 2) * (t_e - t_b) = s_end - s_begin
+  double ramp_end_u_s = 0;
+  double accel_end_u_s2 = 0;        ///< of the law at the tick's end, for the log
+  double override_requested = 1.0;  ///< ratio
+  double override_used = 1.0;       ///< in force at the tick's end
+  OverrideNote note = OverrideNote::none;
+  double limiter = 1.0;  ///< K_max of the axis limiter, 1 where it does nothing
+  LimitedBy limited_by = LimitedBy::program;
+  std::int8_t limiting_axis = -1;
+  double held_error_u = 0;  ///< tick_feed = constant: largest distance from the law inside the tick
+};
+
+}  // namespace kadr
