@@ -115,8 +115,10 @@ void read_range(TableReader& r, AxisModel& axis, double& home2_u, const AxisKeys
   if (r.has(keys.of("home2"))) check(home2, "second reference position", keys.of("home2"));
 }
 
-TwoMassModel read_plant(const Node& table, const std::string& path, const AxisModel& axis,
-                        const AxisKeys& keys, ReadContext& context) {
+/// The plant of an axis; nothing for a rigid motor that carries no flexible link: the axis then follows its
+/// steps exactly, and neither mass nor spring is needed.
+std::optional<TwoMassModel> read_plant(const Node& table, const std::string& path, const AxisModel& axis,
+                                       const AxisKeys& keys, ReadContext& context) {
   const PlantUnits& units = axis.kind == AxisKind::rotary ? kRotary : kLinear;
   const auto key = [](std::string_view stem, std::string_view unit) {
     return fmt::format("{}_{}", stem, unit);
@@ -124,13 +126,19 @@ TwoMassModel read_plant(const Node& table, const std::string& path, const AxisMo
   TableReader r(&table, path, table.span, context);
   TwoMassModel m;
   m.motor = static_cast<MotorModel>(r.choice("model", {"rigid", "spring", "stepper"}).value);
-  m.base_mass = r.number(key("base_mass", units.mass), kMassBounds).value;
-  m.link_mass = r.number(key("link_mass", units.mass), kMassBounds).value;
-  m.link_stiffness = r.number(key("link_stiffness", units.stiffness), kStiffnessBounds).value;
-  m.link_damping = r.number(key("link_damping", units.damping), kDampingBounds).value;
+  const std::string base_mass = key("base_mass", units.mass), link_mass = key("link_mass", units.mass),
+                    stiffness = key("link_stiffness", units.stiffness),
+                    damping = key("link_damping", units.damping);
+  const bool link = m.motor != MotorModel::rigid || r.has(base_mass) || r.has(link_mass) ||
+                    r.has(stiffness) || r.has(damping);
+  const std::optional<double> otherwise = link ? std::optional<double>() : 0.0;
+  m.base_mass = r.number(base_mass, kMassBounds, otherwise).value;
+  m.link_mass = r.number(link_mass, kMassBounds, otherwise).value;
+  m.link_stiffness = r.number(stiffness, kStiffnessBounds, otherwise).value;
+  m.link_damping = r.number(damping, kDampingBounds, otherwise).value;
   m.base_friction = r.number(key("base_friction", units.damping), kDampingBounds, 0.0).value;
 
-  // the numbers of the other motor models may stand beside, so that `model` alone chooses
+  // keys of other motor models are allowed and ignored, so that switching `model` is a one-line edit
   const auto needed = [&](const std::string& name, const Bounds& bounds, bool by_model) {
     const bool read = by_model || r.has(name);
     return r.number(name, bounds, read ? std::optional<double>() : std::optional<double>(0.0)).value;
@@ -141,7 +149,7 @@ TwoMassModel read_plant(const Node& table, const std::string& path, const AxisMo
   m.holding_force = needed(key("holding_force", units.force), kForceBounds, stepper);
   m.tooth_pitch_u = needed(keys.of("tooth_pitch"), kPitchBounds, stepper);
   r.finish();
-  return m;
+  return link ? std::optional(m) : std::nullopt;
 }
 
 }  // namespace
@@ -171,8 +179,9 @@ AxisModel read_axis(const Node& table, std::size_t index, const ClockModel& cloc
   check_step_rate(axis, step, feed, clock, keys, context);
 
   if (const Node* plant = r.table("plant")) {
-    axis.has_plant = true;
-    axis.plant = read_plant(*plant, r.path() + ".plant", axis, keys, context);
+    const auto model = read_plant(*plant, r.path() + ".plant", axis, keys, context);
+    axis.has_plant = model.has_value();
+    axis.plant = model.value_or(TwoMassModel{});
   }
   r.finish();
   return axis;
