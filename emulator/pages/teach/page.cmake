@@ -35,8 +35,8 @@ foreach(source ${core_sources})
   list(APPEND core_objects ${object})
   add_custom_command(OUTPUT ${object}
     COMMAND ${WASM_CXX} --target=wasm32-wasi -std=c++20 -Os -fno-exceptions -fno-rtti -ffp-contract=off -fno-fast-math
-      -Wall -Wextra -Wpedantic -Wshadow -Werror -I${PROJECT_SOURCE_DIR} -MD -MF ${object}.d -c ${source} -o ${object}
-    DEPENDS ${source} DEPFILE ${object}.d COMMENT "WebAssembly: ${name}" VERBATIM)
+      -Wall -Wextra -Wpedantic -Wshadow $<$<BOOL:${KADR_WERROR}>:-Werror> -I${PROJECT_SOURCE_DIR} -MD -MF ${object}.d -c ${source} -o ${object}
+    DEPENDS ${source} DEPFILE ${object}.d COMMENT "WebAssembly: ${name}" COMMAND_EXPAND_LISTS VERBATIM)
 endforeach()
 file(MAKE_DIRECTORY ${core_folder})
 add_custom_command(OUTPUT ${core}
