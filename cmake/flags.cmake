@@ -20,6 +20,15 @@ if(KADR_SANITIZE OR KADR_FUZZ)
   target_link_options(kadr_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
+# ccache reads a precompiled header's content, not its time, and so needs to be allowed what is below
+find_program(CCACHE ccache)
+if(KADR_CCACHE AND CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE} sloppiness=pch_defines,time_macros,include_file_mtime,include_file_ctime)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(kadr_flags INTERFACE -fpch-preprocess)
+  endif()
+endif()
+
 # kadr_batches(TARGET MOST): compiles the sources of one folder together, at most MOST at a time: a build reads headers
 # a tenth as often. Names of a file's own (anonymous namespaces) differ from those of its neighbours. For work on
 # single files -DKADR_BATCHES=OFF; the matrix builds do without, so that every file stands alone.
