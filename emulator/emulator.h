@@ -10,7 +10,7 @@
 #include "emulator/log/records.h"
 #include "emulator/log/run_log.h"
 #include "gcode/gcode.h"
-#include "machine/machine.h"
+#include "machine/machine_file.h"
 #include "planner/planner.h"
 
 /// The cycle: program -> path -> law -> step pulses -> plant -> log, event to event.

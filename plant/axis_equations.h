@@ -1,7 +1,8 @@
 #pragma once
 #include <cstdint>
 
-#include "machine/machine.h"
+#include "machine/axis.h"
+#include "machine/clock.h"
 #include "plant/matrix.h"
 #include "plant/plant.h"
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "machine/base/require.h"
+#include "machine/machine.h"
 #include "plant/integrator.h"
 #include "plant/taylor.h"
 

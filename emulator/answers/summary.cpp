@@ -8,6 +8,7 @@
 #include "emulator/text/text.h"
 #include "emulator/text/units.h"
 #include "machine/base/hash.h"
+#include "machine/machine.h"
 
 namespace kadr::emulator {
 namespace {

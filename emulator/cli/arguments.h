@@ -11,7 +11,7 @@
 #include "emulator/studies/point_to_point/point_study.h"
 #include "emulator/studies/teach/pulses.h"
 #include "gcode/gcode.h"
-#include "machine/machine.h"
+#include "machine/infinity.h"
 #include "scenarios/generator/wind.h"
 
 namespace kadr::cli {

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/machine.h"
+#include "planner/path/path.h"
+
 namespace kadr::emulator {
 namespace {
 

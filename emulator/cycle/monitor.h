@@ -2,10 +2,16 @@
 #include <vector>
 
 #include "emulator/log/records.h"
-#include "machine/machine.h"
 #include "planner/laws/motion_source.h"
-#include "planner/path/path.h"
 #include "plant/plant.h"
+
+namespace kadr::planner {
+class Path;
+}
+
+namespace kadr::machine {
+struct MachineModel;
+}
 
 namespace kadr::emulator {
 

@@ -10,6 +10,7 @@
 #include "emulator/interpolator/slot_track.h"
 #include "emulator/interpolator/tick_clock.h"
 #include "machine/base/require.h"
+#include "machine/machine.h"
 
 namespace kadr::emulator {
 

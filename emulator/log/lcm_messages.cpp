@@ -5,6 +5,7 @@
 #include "emulator/log/log_types.h"
 #include "machine/base/hash.h"
 #include "machine/base/require.h"
+#include "machine/machine.h"
 
 namespace kadr::emulator {
 namespace {

@@ -4,9 +4,13 @@
 #include <vector>
 
 #include "machine/axis_state.h"
-#include "machine/machine.h"
+#include "machine/base/diagnostic.h"
 #include "machine/step_batch.h"
 #include "machine/tick_motion.h"
+
+namespace kadr::machine {
+struct MachineModel;
+}
 
 /// What the cycle tells the log, in tick order; a pure function of the inputs: no clock, address, locale or
 /// thread.

@@ -6,7 +6,7 @@
 
 #include "machine/base/parse_number.h"
 #include "machine/file/technology.h"
-#include "machine/machine.h"
+#include "machine/machine_file.h"
 
 namespace kadr::machine {
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/machine.h"
 #include "planner/laws/motion_source.h"
 #include "planner/laws/tick_shape.h"
 

@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "machine/base/numbers.h"
+#include "machine/machine.h"
 #include "planner/bezier/curve_bounds.h"
+#include "planner/path/path.h"
 
 namespace kadr::planner {
 namespace {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "machine/axis.h"
 #include "machine/base/numbers.h"
 
 namespace kadr::planner {

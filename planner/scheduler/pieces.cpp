@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/infinity.h"
+#include "planner/path/path.h"
+
 namespace kadr::planner {
 namespace {
 

@@ -2,7 +2,9 @@
 #include <cmath>
 
 #include "machine/base/require.h"
+#include "machine/infinity.h"
 #include "planner/limits/range_min.h"
+#include "planner/path/path.h"
 #include "planner/scheduler/run_planner.h"
 
 namespace kadr::planner {

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "machine/base/numbers.h"
+#include "machine/machine.h"
+#include "planner/path/path.h"
 #include "planner/verify/verify_blocks.h"
 
 namespace kadr::planner {

@@ -7,6 +7,7 @@
 
 #include "emulator/log/pulse_code.h"
 #include "emulator/log/run_log.h"
+#include "machine/machine.h"
 
 /// Encoding and writing of the log: nanoseconds a pulse and a control tick, bytes a pulse and a tick, MB/s.
 namespace {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "machine/machine.h"
+
 // Plant alone: three axes, control tick 1 ms. "machine_s_per_s" is machine seconds per wall second.
 
 namespace {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "machine/machine.h"
+#include "machine/machine_file.h"
 
 using namespace kadr;
 using namespace kadr::machine;

@@ -5,6 +5,7 @@
 
 #include "machine/base/numbers.h"
 #include "machine/machine.h"
+#include "machine/machine_file.h"
 
 using namespace kadr;
 using namespace kadr::machine;

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <string>
 
+#include "machine/axis.h"
 #include "machine/base/numbers.h"
 #include "planner/planner.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 
+#include "machine/machine.h"
 #include "planner/point_to_point/residual.h"
 #include "planner/positioning/link_modes.h"
 #include "planner/positioning/positioning.h"

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "machine/machine.h"
 #include "plant/matrix.h"
 #include "plant/plant.h"
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/machine_file.h"
+
 namespace kadr::emulator {
 namespace {
 

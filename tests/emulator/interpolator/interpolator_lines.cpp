@@ -5,6 +5,8 @@
 #include "emulator/interpolator/tick_clock.h"
 #include "interpolator_paths.h"
 #include "machine/base/require.h"
+#include "machine/machine.h"
+#include "planner/path/path.h"
 
 using namespace kadr;
 using namespace kadr::test;

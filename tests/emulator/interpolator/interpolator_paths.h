@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/interpolator/interpolator.h"
+#include "machine/axis.h"
 #include "machine/base/numbers.h"
 
 /// Paths and tick motions made by hand, without planner, for the interpolator's tests.

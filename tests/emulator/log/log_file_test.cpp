@@ -17,6 +17,7 @@
 #include "emulator/log/log.h"
 #include "emulator/log/log_info.h"
 #include "log_support.h"
+#include "machine/machine.h"
 #include "machine/step_hash.h"
 
 using namespace kadr;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "machine/machine.h"
 #include "machine/step_hash.h"
 
 namespace kadr::test {

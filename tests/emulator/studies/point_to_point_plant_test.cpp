@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "machine/base/numbers.h"
+#include "machine/machine.h"
 #include "planner/point_to_point/point_to_point.h"
 #include "plant/plant.h"
 
