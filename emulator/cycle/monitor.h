@@ -48,6 +48,7 @@ class Monitor {
 
  private:
   enum Overrun : std::uint8_t { soft_limit, speed, acceleration, jerk, kOverruns };
+  static const Code kOverrunCodes[kOverruns];
   struct Excursion {
     bool open = false;
     double worst = 0;
@@ -73,8 +74,6 @@ class Monitor {
   void watch_plant(std::size_t a, const TickView& view);
   void watch_path_error(const TickView& view);
   void watch_stop(const TickView& view, std::vector<EventRecord>& events);
-  void watch_lost_steps(const std::vector<plant::LostSteps>& lost, Ticks tick,
-                        std::vector<EventRecord>& events);
   void end_slips(std::int64_t after_ticks, Ticks now, std::vector<EventRecord>& events);
   void end_stop(Ticks now, std::vector<EventRecord>& events);
   void end_block(Ticks tick, std::vector<BlockEndRecord>& block_ends);

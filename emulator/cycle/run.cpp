@@ -368,7 +368,8 @@ class Cycle {
     summary.planned_s = job_.motion_s;
     if (has_operator()) summary.lost_by = lost_.shares();
     summary.alarms += plant_alarms_ + operator_alarms_;
-    summary.exit_code = summary.alarms > 0 ? 3 : 0;
+    summary.warnings = options_.warnings;
+    if (options_.exit_code) summary.exit_code = options_.exit_code(summary);
     if (log_)
       if (auto failure = keep(log_->end(summary))) return tl::unexpected(*failure);
     return summary;

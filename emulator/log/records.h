@@ -110,7 +110,8 @@ struct LimitShare {
 
 /// Last message; a log without it was cut off.
 struct RunSummary {
-  std::string outcome = "complete";  ///< "complete", "alarm", "interrupted", "plant error"
+  std::string outcome = "complete";  ///< "complete", "alarm", "emergency stop", "held", "stopped by --until",
+                                     ///< "interrupted", "plant error"
   Ticks ticks;                       ///< length of the run
   ControlTicks control_ticks;
   std::uint32_t blocks = 0;
@@ -126,8 +127,9 @@ struct RunSummary {
   std::vector<LimitShare> limited_by;  ///< descending time
   double planned_s = 0;                ///< motion at 100 %
   std::vector<LimitShare> lost_by;     ///< time lost against that, by reason; < 0: gained
-  std::size_t alarms = 0, warnings = 0;
-  int exit_code = 0;  ///< 0, or 3 with alarms
+  std::size_t alarms = 0;
+  std::size_t warnings = 0;  ///< of the program, from RunOptions
+  int exit_code = 0;         ///< of the command that ran it, by RunOptions
 };
 
 }  // namespace kadr::emulator

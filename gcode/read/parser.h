@@ -29,7 +29,6 @@ class Parser {
   bool parse_o_word();
   bool parse_label(FlowStatement& flow);
   bool parse_arguments(FlowStatement& flow);
-  bool may_follow_o_word(char c) const;
   bool parse_comment();
   bool parse_line_comment();
   bool parse_percent();

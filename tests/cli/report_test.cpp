@@ -7,6 +7,9 @@
 #include "emulator/answers/travel.h"
 #include "emulator/log/alarm_list.h"
 #include "emulator/text/text.h"
+#include "gcode/block.h"
+#include "machine/machine.h"
+#include "planner/path/path_builder.h"
 #include "tests/cli/run_kadr.h"
 
 using namespace kadr;

@@ -108,6 +108,12 @@ constexpr std::array kBlockFields = {
                           [](const BlockRecord& b) -> FieldValue { return b.planned_s; }},
     LogField<BlockRecord>{"limited_by", Unit::none,
                           [](const BlockRecord& b) -> FieldValue { return b.limited_by; }},
+    LogField<BlockRecord>{"entry_u_s", Unit::path_speed,
+                          [](const BlockRecord& b) -> FieldValue { return b.entry_u_s; }},
+    LogField<BlockRecord>{"planned_entry_u_s", Unit::path_speed,
+                          [](const BlockRecord& b) -> FieldValue { return b.planned_entry_u_s; }},
+    LogField<BlockRecord>{"deferred_ticks", Unit::none,
+                          [](const BlockRecord& b) -> FieldValue { return b.deferred_ticks; }},
 };
 
 constexpr std::array kDiagnosticFields = {
