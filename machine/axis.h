@@ -10,15 +10,15 @@ namespace kadr::machine {
 /// s/rad.
 struct TwoMassModel {
   MotorModel motor = MotorModel::rigid;
-  double base_mass = 0;        ///< m0: motor and carriage, > 0
-  double link_mass = 0;        ///< m1: flexible part, > 0
-  double link_stiffness = 0;   ///< k, > 0
-  double link_damping = 0;     ///< c, >= 0
-  double base_friction = 0;    ///< b0, viscous, >= 0
-  double motor_stiffness = 0;  ///< Km of `spring`, > 0
-  double motor_damping = 0;    ///< bm, >= 0
-  double holding_force = 0;    ///< F_hold of `stepper`, > 0
-  double tooth_pitch_u = 0;    ///< `stepper`: motion per electrical period (four full steps), mm or deg, > 0
+  double base_mass_kg = 0;             ///< m0: motor and carriage, > 0
+  double link_mass_kg = 0;             ///< m1: flexible part, > 0
+  double link_stiffness_N_per_m = 0;   ///< k, > 0
+  double link_damping_Ns_per_m = 0;    ///< c, >= 0
+  double base_friction_Ns_per_m = 0;   ///< b0, viscous, >= 0
+  double motor_stiffness_N_per_m = 0;  ///< Km of `spring`, > 0
+  double motor_damping_Ns_per_m = 0;   ///< bm, >= 0
+  double holding_force_N = 0;          ///< F_hold of `stepper`, > 0
+  double tooth_pitch_u = 0;  ///< `stepper`: motion per electrical period (four full steps), mm or deg, > 0
   bool operator==(const TwoMassModel&) const = default;
 };
 

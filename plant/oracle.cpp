@@ -24,7 +24,7 @@ class Oracle final : public Integrator {
     });
     axis_.z = propagator_.apply(control_tick_ - now, axis_.z);
     axis_.move_node(pulses.net_steps());
-    axis_.motor_force = axis_.equations.motor_force(axis_.z);
+    axis_.motor_force_N = axis_.equations.motor_force_N(axis_.z);
     return {};
   }
   void reset() override {}

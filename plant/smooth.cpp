@@ -183,7 +183,7 @@ class Smooth final : public Integrator {
     } else {
       motion.z[kLag] += from_node(s, motion.node, step_m);
     }
-    motion.motor_force = motion.equations.motor_force(motion.z);
+    motion.motor_force_N = motion.equations.motor_force_N(motion.z);
   }
 
   // response to s alone; x0 is counted from frame_node

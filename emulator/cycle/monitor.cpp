@@ -25,8 +25,8 @@ constexpr double kSlipPause_s = 0.1;
 void set_link(const machine::AxisModel& axis, double& omega_rad_s, double& damped_rad_s, double& zeta) {
   if (!axis.has_plant) return;
   const machine::TwoMassModel& m = axis.plant;
-  omega_rad_s = std::sqrt(m.link_stiffness / m.link_mass);
-  zeta = m.link_damping / (2 * std::sqrt(m.link_stiffness * m.link_mass));
+  omega_rad_s = std::sqrt(m.link_stiffness_N_per_m / m.link_mass_kg);
+  zeta = m.link_damping_Ns_per_m / (2 * std::sqrt(m.link_stiffness_N_per_m * m.link_mass_kg));
   damped_rad_s = zeta < 1 ? omega_rad_s * std::sqrt(1 - zeta * zeta) : 0.0;
 }
 

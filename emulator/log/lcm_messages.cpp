@@ -307,7 +307,7 @@ void BlockBuilder::add(const TickRecord& record, const StepBatch& batch) {
       ticks_.base_u_s[a][i] = state.base_u_s;
       ticks_.link_u[a][i] = state.link_u;
       ticks_.link_u_s[a][i] = state.link_u_s;
-      ticks_.motor_force[a][i] = state.motor_force;
+      ticks_.motor_force[a][i] = state.motor_force_N;
     }
     if (machine_.log.steps) pulses_[a].add(batch.axis[a], begin_ticks);
   }
@@ -369,7 +369,7 @@ axis_t BlockBuilder::axis_message(const TickRecord& record, const StepBatch& bat
     m.motor = state.base_u;
     m.load = state.base_u + state.link_u;
     m.load_rate = state.base_u_s + state.link_u_s;
-    m.motor_force_N = state.motor_force;
+    m.motor_force_N = state.motor_force_N;
   }
   constexpr double kMicro = 1000;  // um in a mm, millidegrees in a degree
   m.load_minus_ideal_um = kMicro * (m.load - m.ideal);

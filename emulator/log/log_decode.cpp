@@ -110,7 +110,7 @@ Decoded<TickBlock> decode_ticks(WireReader in, const LogHeader& header) {
   decode_steps_columns(in, b, ticks, base);
   for (AxisTicks& axis : b.axis) axis.command_u = in.f64s(ticks);
   for (auto column : {&AxisTicks::base_u, &AxisTicks::base_u_s, &AxisTicks::link_u, &AxisTicks::link_u_s,
-                      &AxisTicks::motor_force})
+                      &AxisTicks::motor_force_N})
     for (std::int32_t a = 0; a < plant_axes; ++a)
       b.axis[static_cast<std::size_t>(a)].*column = in.f64s(ticks);
   b.override_requested = in.f64s(override_ticks);
@@ -183,7 +183,7 @@ Decoded<AxisSample> decode_axis(WireReader in, std::string_view channel, const L
   s.t_s = in.f64();
   s.steps = in.i64();
   for (double* field :
-       {&s.ideal, &s.commanded, &s.motor, &s.load, &s.load_rate, &s.load_minus_ideal_um, &s.motor_force})
+       {&s.ideal, &s.commanded, &s.motor, &s.load, &s.load_rate, &s.load_minus_ideal_um, &s.motor_force_N})
     *field = in.f64();
   return finished(in, s);
 }

@@ -124,11 +124,11 @@ TwoMassModel read_plant(const Node& table, const std::string& path, const AxisMo
   TableReader r(&table, path, table.span, context);
   TwoMassModel m;
   m.motor = static_cast<MotorModel>(r.choice("model", {"rigid", "spring", "stepper"}).value);
-  m.base_mass = r.number(key("base_mass", units.mass), kMassBounds).value;
-  m.link_mass = r.number(key("link_mass", units.mass), kMassBounds).value;
-  m.link_stiffness = r.number(key("link_stiffness", units.stiffness), kStiffnessBounds).value;
-  m.link_damping = r.number(key("link_damping", units.damping), kDampingBounds).value;
-  m.base_friction = r.number(key("base_friction", units.damping), kDampingBounds, 0.0).value;
+  m.base_mass_kg = r.number(key("base_mass", units.mass), kMassBounds).value;
+  m.link_mass_kg = r.number(key("link_mass", units.mass), kMassBounds).value;
+  m.link_stiffness_N_per_m = r.number(key("link_stiffness", units.stiffness), kStiffnessBounds).value;
+  m.link_damping_Ns_per_m = r.number(key("link_damping", units.damping), kDampingBounds).value;
+  m.base_friction_Ns_per_m = r.number(key("base_friction", units.damping), kDampingBounds, 0.0).value;
 
   // the numbers of the other motor models may stand beside, so that `model` alone chooses
   const auto needed = [&](const std::string& name, const Bounds& bounds, bool by_model) {
@@ -136,9 +136,9 @@ TwoMassModel read_plant(const Node& table, const std::string& path, const AxisMo
     return r.number(name, bounds, read ? std::optional<double>() : std::optional<double>(0.0)).value;
   };
   const bool spring = m.motor == MotorModel::spring, stepper = m.motor == MotorModel::stepper;
-  m.motor_stiffness = needed(key("motor_stiffness", units.stiffness), kStiffnessBounds, spring);
-  m.motor_damping = needed(key("motor_damping", units.damping), kDampingBounds, spring || stepper);
-  m.holding_force = needed(key("holding_force", units.force), kForceBounds, stepper);
+  m.motor_stiffness_N_per_m = needed(key("motor_stiffness", units.stiffness), kStiffnessBounds, spring);
+  m.motor_damping_Ns_per_m = needed(key("motor_damping", units.damping), kDampingBounds, spring || stepper);
+  m.holding_force_N = needed(key("holding_force", units.force), kForceBounds, stepper);
   m.tooth_pitch_u = needed(keys.of("tooth_pitch"), kPitchBounds, stepper);
   r.finish();
   return m;

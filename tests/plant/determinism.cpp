@@ -65,7 +65,7 @@ std::string states_hash(MotorModel motor, IntegratorKind kind) {
     const auto moved = plant.advance(batch);
     if (!moved) FAIL(std::string(moved.error().flag + " " + moved.error().detail));
     for (const AxisState& s : plant.state()) {
-      const double values[] = {s.base_u, s.base_u_s, s.link_u, s.link_u_s, s.motor_force};
+      const double values[] = {s.base_u, s.base_u_s, s.link_u, s.link_u_s, s.motor_force_N};
       hash.bytes(values, sizeof values);
     }
   }

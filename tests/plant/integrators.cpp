@@ -219,7 +219,7 @@ TEST_CASE("an axis at rest stays exactly at rest, however long") {
     CHECK(s.base_u == 7.3);
     CHECK(s.base_u_s == 0);
     CHECK(s.link_u == 0);
-    CHECK(s.motor_force == 0);
+    CHECK(s.motor_force_N == 0);
   }
 }
 

@@ -137,7 +137,7 @@ TEST_CASE(
         // after 4 s it rests in the tooth where it settled
         CHECK(plant.state()[0].base_u ==
               doctest::Approx(static_cast<double>(node + lost) * 0.0015625).epsilon(1e-9));
-        CHECK(std::fabs(plant.state()[0].motor_force) < 1e-6);
+        CHECK(std::fabs(plant.state()[0].motor_force_N) < 1e-6);
       }
     }
   }
@@ -148,8 +148,8 @@ TEST_CASE("nothing is lost while the lag stays below half a tooth, and a lag jus
   // degrees. Its motor pulls forward below 180 degrees and back above.
   for (int steps : {31, 33}) {
     auto model = make_machine({stepper()});
-    model.axis[0].plant.motor_damping =
-        40 * model.axis[0].plant.motor_damping;  // no swing past the next tooth
+    model.axis[0].plant.motor_damping_Ns_per_m =
+        40 * model.axis[0].plant.motor_damping_Ns_per_m;  // no swing past the next tooth
     Plant plant(model);
     StepBatch batch;
     batch.axis.resize(1);

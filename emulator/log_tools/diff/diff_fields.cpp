@@ -61,7 +61,7 @@ constexpr std::array kAxisFields = {
     LogField<AxisAt>{"link_u_s", Unit::axis_speed,
                      [](const AxisAt& t) -> FieldValue { return t.axis.link_u_s[t.index]; }, Key::link_rate},
     LogField<AxisAt>{"motor_force", Unit::force,
-                     [](const AxisAt& t) -> FieldValue { return t.axis.motor_force[t.index]; }, Key::force},
+                     [](const AxisAt& t) -> FieldValue { return t.axis.motor_force_N[t.index]; }, Key::force},
 };
 
 constexpr std::array kEventFields = {

@@ -115,7 +115,7 @@ void add_axis(Table& table, const LogHeader& header, std::size_t a, bool plant, 
   table.real(name + "vibration", small,
              [a](const TickContext& c) { return 1000 * c.ticks().axis[a].link_u[c.at()]; });
   table.real(name + "motor_force", unit == "deg" ? "N m" : "N",
-             [a](const TickContext& c) { return c.ticks().axis[a].motor_force[c.at()]; });
+             [a](const TickContext& c) { return c.ticks().axis[a].motor_force_N[c.at()]; });
 }
 
 }  // namespace

@@ -185,7 +185,7 @@ TEST_CASE("residual vibration of a rectangular law on a rigid base is the closed
   x.max_accel_u_s2 = 1000;
   x.max_jerk_u_s3 = machine::kInfinity;
   x.plant.motor = machine::MotorModel::rigid;
-  x.plant.link_damping = 0;
+  x.plant.link_damping_Ns_per_m = 0;
   m.path = machine::PathLimits{};
   m.planner.whole_ticks = false;
   RunResult r;
@@ -283,8 +283,8 @@ TEST_CASE("a motor too weak for its load is one alarm, and its end tells all ste
   // 5.5 kg at 2 m/s2 need 11 N; 5 N of holding force fall behind by electrical periods of 0.4 mm = 200 steps
   machine::MachineModel m = test_machine(1);
   m.axis[0].plant.motor = machine::MotorModel::stepper;
-  m.axis[0].plant.holding_force = 5;
-  m.axis[0].plant.motor_damping = 1;
+  m.axis[0].plant.holding_force_N = 5;
+  m.axis[0].plant.motor_damping_Ns_per_m = 1;
   RunResult r;
   run_program(r, "G1 X50 F6000\nG4 P0.5\nM2\n", m);
   const auto alarms = r.log.of_kind("alarm");
@@ -299,7 +299,7 @@ TEST_CASE("a motor too weak for its load is one alarm, and its end tells all ste
   CHECK(r.summary.axis[0].lost_steps % 200 == 0);
   CHECK(r.summary.axis[0].lost_steps < 0);
   // the same motor with enough force keeps every step
-  m.axis[0].plant.holding_force = 200;
+  m.axis[0].plant.holding_force_N = 200;
   RunResult strong;
   run_program(strong, "G1 X50 F6000\nG4 P0.5\nM2\n", m);
   CHECK(strong.summary.alarms == 0);

@@ -222,7 +222,7 @@ TEST_CASE("at one tick events come before feed, feed before pulses, pulses befor
     tick.events[0].value = 2;
     tick.motion.override_used = 0.5;
     ++tick.batch.axis[0].offset_ticks[0];
-    tick.states[0].motor_force += 1;
+    tick.states[0].motor_force_N += 1;
   });
   const LogDiff diff = compare(two.a, two.b);
   REQUIRE(diff.first);
