@@ -74,7 +74,7 @@ struct Arguments {
   std::vector<std::string> settings;  ///< --set key=value
   std::string tools;                  ///< tool table; empty: none
   std::optional<gcode::Dialect> dialect;
-  gcode::Bounds bounds;                  ///< --limit
+  gcode::ReadingBounds bounds;           ///< --limit
   std::vector<std::string> sub_folders;  ///< --subs
   std::string scenario;
   std::string log_path;

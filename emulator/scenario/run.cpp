@@ -36,7 +36,7 @@ void compare_count(std::vector<ScenarioCheck>& checks, std::string what, std::in
 }
 
 void compare_bounds(std::vector<ScenarioCheck>& checks, const std::string& what, char letter,
-                    const Bounds& bounds, double measured_u) {
+                    const ValueRange& bounds, double measured_u) {
   const char* unit = small_unit(letter);
   checks.push_back({fmt::format("{} {}", what, letter),
                     fmt::format("{:.4f} to {:.4f} {}", bounds.least_u * 1000, bounds.most_u * 1000, unit),
