@@ -20,10 +20,11 @@ if(KADR_SANITIZE OR KADR_FUZZ)
   target_link_options(kadr_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
-# ccache reads a precompiled header's content, not its time, and so needs to be allowed what is below
+# A precompiled header is known to ccache by its content alone, with these allowances
 find_program(CCACHE ccache)
 if(KADR_CCACHE AND CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE} sloppiness=pch_defines,time_macros,include_file_mtime,include_file_ctime)
+  set(CMAKE_CXX_COMPILER_LAUNCHER env
+    CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CCACHE})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(kadr_flags INTERFACE -fpch-preprocess)
   endif()

@@ -48,7 +48,7 @@ class Rigid final : public Integrator {
     if (energy_) add_work(before_m, base);
     const Vector4 link = whole_tick_ * Vector4{z[kLink], z[kLinkSpeed], base.a0, base.a1};
     z = {0, end_m, link[0], link[1]};
-    axis_.node += pulses.net_steps();
+    axis_.node += pulses.net_steps().value;
     axis_.equilibrium_u = command.position_end_u;
     axis_.motor_force_N = force(base.a0 + base.a1, end_m, link[0], link[1]);
     return {};

@@ -252,8 +252,8 @@ void Monitor::lost_steps(const std::vector<plant::LostSteps>& lost, Ticks tick,
   for (const plant::LostSteps& l : lost) {
     const auto a = static_cast<std::size_t>(l.axis);
     Axis& axis = axes_[a];
-    axis.summary.lost_steps += l.steps.value;
-    axis.slip_steps += l.steps.value;
+    axis.summary.lost_steps += l.steps;
+    axis.slip_steps += l.steps;
     if (axis.slip_ticks_ago < 0) {
       ++alarms_;
       EventRecord e = event_here(tick, "alarm", a, static_cast<double>(l.steps.value), 0.0);
@@ -270,11 +270,11 @@ void Monitor::end_slips(std::int64_t after_ticks, Ticks now, std::vector<EventRe
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     Axis& axis = axes_[a];
     if (axis.slip_ticks_ago < after_ticks || axis.slip_ticks_ago < 0) continue;
-    EventRecord e = event_here(now, "alarm end", a, static_cast<double>(axis.slip_steps), 0.0);
+    EventRecord e = event_here(now, "alarm end", a, static_cast<double>(axis.slip_steps.value), 0.0);
     e.code = Code::lost_steps;
-    e.text = fmt::format("axis {} lost {} steps in all", machine_.axis[a].letter, axis.slip_steps);
+    e.text = fmt::format("axis {} lost {} steps in all", machine_.axis[a].letter, axis.slip_steps.value);
     events.push_back(std::move(e));
-    axis.slip_steps = 0;
+    axis.slip_steps = Steps{};
     axis.slip_ticks_ago = -1;
   }
 }

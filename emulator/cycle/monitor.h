@@ -61,7 +61,7 @@ class Monitor {
     double omega_rad_s = 0, damped_rad_s = 0, zeta = 0;  // of the link, 0 without one
     double vibration_squares_u2 = 0, following_squares_u2 = 0;
     double stop_residual_u = 0;
-    std::int64_t slip_steps = 0;       // lost in the slip under way
+    Steps slip_steps;                  // lost in the slip under way
     std::int64_t slip_ticks_ago = -1;  // control ticks since its last loss; -1: no slip
     double block_link_u = 0, block_following_u = 0;
     double block_positive_J = 0, block_recuperated_J = 0;  // of the run, where the block began

@@ -59,7 +59,7 @@ Decoded<BlockRecord> decode_block(WireReader in) {
   r.limited_by = in.string();
   r.entry_u_s = in.f64();
   r.planned_entry_u_s = in.f64();
-  r.deferred_ticks = in.i32();
+  r.deferred_ticks = ControlTicks{in.i32()};
   return finished(in, std::move(r));
 }
 
@@ -239,8 +239,8 @@ void decode_axis_summaries(WireReader& in, std::vector<AxisSummary>& axis) {
     for (AxisSummary& a : axis) a.*field = in.f64();
   };
   integers([](AxisSummary& a, std::int64_t v) { a.pulses = v; });
-  integers([](AxisSummary& a, std::int64_t v) { a.net_steps = v; });
-  integers([](AxisSummary& a, std::int64_t v) { a.end_steps = v; });
+  integers([](AxisSummary& a, std::int64_t v) { a.net_steps = Steps{v}; });
+  integers([](AxisSummary& a, std::int64_t v) { a.end_steps = Steps{v}; });
   reals(&AxisSummary::end_u);
   reals(&AxisSummary::min_u);
   reals(&AxisSummary::max_u);
@@ -255,7 +255,7 @@ void decode_axis_summaries(WireReader& in, std::vector<AxisSummary>& axis) {
   reals(&AxisSummary::residual_u);
   reals(&AxisSummary::peak_following_u);
   reals(&AxisSummary::rms_following_u);
-  integers([](AxisSummary& a, std::int64_t v) { a.lost_steps = v; });
+  integers([](AxisSummary& a, std::int64_t v) { a.lost_steps = Steps{v}; });
   reals(&AxisSummary::positive_J);
   reals(&AxisSummary::recuperated_J);
 }

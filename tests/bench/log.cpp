@@ -115,7 +115,7 @@ void write_log(benchmark::State& state) {
     record.axis = state.range(1) ? &states : nullptr;
     for (const StepBatch& batch : batches) {
       record.tick = motion.tick = batch.tick;
-      for (std::size_t a = 0; a < 3; ++a) position[a] += batch.axis[a].net_steps();
+      for (std::size_t a = 0; a < 3; ++a) position[a] += batch.axis[a].net_steps().value;
       good = good && (*log)->tick(record, batch).has_value();
     }
     RunSummary summary;

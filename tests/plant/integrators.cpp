@@ -30,7 +30,7 @@ double largest_error_um(machine::MachineModel model, IntegratorKind kind,
     }
     for (std::size_t a = 0; a < model.axis.size(); ++a) {
       const machine::AxisModel& axis = model.axis[a];
-      node[a] += batches[k].axis[a].net_steps();
+      node[a] += batches[k].axis[a].net_steps().value;
       const double milli_per_m =
           axis.kind == machine::AxisKind::rotary ? 180e3 / 3.14159265358979323846 : 1e6;
       const AxisState& state = plant.state()[a];

@@ -113,7 +113,7 @@ constexpr std::array kBlockFields = {
     LogField<BlockRecord>{"planned_entry_u_s", Unit::path_speed,
                           [](const BlockRecord& b) -> FieldValue { return b.planned_entry_u_s; }},
     LogField<BlockRecord>{"deferred_ticks", Unit::none,
-                          [](const BlockRecord& b) -> FieldValue { return b.deferred_ticks; }},
+                          [](const BlockRecord& b) -> FieldValue { return b.deferred_ticks.value; }},
 };
 
 constexpr std::array kDiagnosticFields = {
@@ -156,12 +156,12 @@ constexpr std::array kAxisSummaryFields = {
     LogField<AxisSummary>{"axis_pulses", Unit::none,
                           [](const AxisSummary& a) -> FieldValue { return a.pulses; }},
     LogField<AxisSummary>{"net_steps", Unit::none,
-                          [](const AxisSummary& a) -> FieldValue { return a.net_steps; }},
+                          [](const AxisSummary& a) -> FieldValue { return a.net_steps.value; }},
     LogField<AxisSummary>{"end_steps", Unit::none,
-                          [](const AxisSummary& a) -> FieldValue { return a.end_steps; }},
+                          [](const AxisSummary& a) -> FieldValue { return a.end_steps.value; }},
     LogField<AxisSummary>{"end_u", Unit::axis, [](const AxisSummary& a) -> FieldValue { return a.end_u; }},
     LogField<AxisSummary>{"lost_steps", Unit::none,
-                          [](const AxisSummary& a) -> FieldValue { return a.lost_steps; }},
+                          [](const AxisSummary& a) -> FieldValue { return a.lost_steps.value; }},
 };
 
 constexpr std::array<std::string_view, 3> kStepFields = {"pulses", "offset_ticks", "sign"};

@@ -21,7 +21,7 @@ TEST_CASE("a line of 100 mm at 100 mm/s takes 1100 control ticks and 50000 pulse
   CHECK(r.summary.outcome == "complete");
   CHECK(r.summary.control_ticks.value == 1100);
   CHECK(r.summary.axis[0].pulses == 50000);
-  CHECK(r.summary.axis[0].end_steps == 50000);
+  CHECK(r.summary.axis[0].end_steps == Steps{50000});
   CHECK(r.summary.axis[0].end_u == 100.0);
   CHECK(r.summary.peak_feed_u_s == doctest::Approx(100.0).epsilon(1e-12));
   CHECK(r.summary.axis[0].peak_accel_u_s2 <= 2000.0 * (1 + 1e-6));
@@ -275,7 +275,8 @@ TEST_CASE("random programs under enforced limits raise no alarm and end on the e
     CHECK(r.summary.alarms == 0);
     const auto last = r.job.path.node(r.job.path.size());
     for (std::size_t a = 0; a < 3; ++a)
-      CHECK(r.summary.axis[a].end_steps == static_cast<std::int64_t>(std::floor(last[a] / 0.002 + 0.5)));
+      CHECK(r.summary.axis[a].end_steps.value ==
+            static_cast<std::int64_t>(std::floor(last[a] / 0.002 + 0.5)));
   }
 }
 
@@ -295,15 +296,15 @@ TEST_CASE("a motor too weak for its load is one alarm, and its end tells all ste
   CHECK(alarms.size() <= 3);
   double lost = 0;
   for (const auto& e : ends) lost += e.value;
-  CHECK(static_cast<std::int64_t>(lost) == r.summary.axis[0].lost_steps);
-  CHECK(r.summary.axis[0].lost_steps % 200 == 0);
-  CHECK(r.summary.axis[0].lost_steps < 0);
+  CHECK(static_cast<std::int64_t>(lost) == r.summary.axis[0].lost_steps.value);
+  CHECK(r.summary.axis[0].lost_steps.value % 200 == 0);
+  CHECK(r.summary.axis[0].lost_steps.value < 0);
   // the same motor with enough force keeps every step
   m.axis[0].plant.holding_force_N = 200;
   RunResult strong;
   run_program(strong, "G1 X50 F6000\nG4 P0.5\nM2\n", m);
   CHECK(strong.summary.alarms == 0);
-  CHECK(strong.summary.axis[0].lost_steps == 0);
+  CHECK(strong.summary.axis[0].lost_steps.value == 0);
 }
 
 TEST_CASE("a run that ends early has gone only the path it has gone") {

@@ -106,7 +106,7 @@ TEST_CASE("feeds at a block's beginning and the wait of an override before it ar
   const std::pair<const char*, void (*)(BlockRecord&)> changes[] = {
       {"entry_u_s", [](BlockRecord& b) { b.entry_u_s += 1e-12; }},
       {"planned_entry_u_s", [](BlockRecord& b) { b.planned_entry_u_s += 1e-12; }},
-      {"deferred_ticks", [](BlockRecord& b) { b.deferred_ticks += 1; }},
+      {"deferred_ticks", [](BlockRecord& b) { ++b.deferred_ticks; }},
   };
   for (const auto& [field, change] : changes) {
     const Two two([&, change = change](ChangeableTick& tick) {
