@@ -60,7 +60,7 @@ ForwardingLog::Written SignalRecorder::block(const BlockRecord& record) {
 }
 
 ForwardingLog::Written SignalRecorder::tick(const TickRecord& record, const StepBatch& batch) {
-  const planner::TickMotion& m = *record.motion;
+  const TickMotion& m = *record.motion;
   const double tau_s = machine_.clock.tau_s();
   const double accel = (m.speed_end_u_s - m.speed_begin_u_s) / tau_s;
   const double before = columns_[kAcceleration].empty() ? 0.0 : columns_[kAcceleration].back();

@@ -102,13 +102,13 @@ void write_log(benchmark::State& state) {
   const std::string path = "bench-log-" + std::to_string(::getpid()) + ".lcmlog";
   RunHeader header;
   header.machine = &machine;
-  const std::vector<plant::AxisState> states(3, {1.5, 2.5, 3.5, 4.5, 5.5});
+  const std::vector<AxisState> states(3, {1.5, 2.5, 3.5, 4.5, 5.5});
   std::int64_t bytes = 0;
   for (auto _ : state) {
     auto log = open_lcm_log({path, ""});
     bool good = log.has_value() && (*log)->begin(header).has_value();
     std::vector<std::int64_t> position(3);
-    planner::TickMotion motion;
+    TickMotion motion;
     TickRecord record;
     record.motion = &motion;
     record.position_steps = &position;
