@@ -22,6 +22,16 @@ if(KADR_SANITIZE OR KADR_FUZZ)
   target_link_options(kadr_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
+# A precompiled header is known to ccache by its content alone, with these allowances
+find_program(CCACHE ccache)
+if(KADR_CCACHE AND CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER env
+    CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CCACHE})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(kadr_flags INTERFACE -fpch-preprocess)
+  endif()
+endif()
+
 # kadr_batches(TARGET MOST): compiles the sources of one folder together, at most MOST at a time: a build reads headers
 # a tenth as often. Names of a file's own (anonymous namespaces) differ from those of its neighbours. For work on
 # single files -DKADR_BATCHES=OFF; the matrix builds do without, so that every file stands alone.

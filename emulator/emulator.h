@@ -10,8 +10,9 @@
 #include "emulator/log/records.h"
 #include "emulator/log/run_log.h"
 #include "gcode/gcode.h"
-#include "machine/machine.h"
-#include "planner/planner.h"
+#include "machine/machine_file.h"
+#include "planner/laws/feed_plan.h"
+#include "planner/path/path.h"
 
 /// The cycle: program -> path -> law -> step pulses -> plant -> log, event to event.
 namespace kadr::emulator {
@@ -135,6 +136,9 @@ struct RunOptions {
   bool plant = true;
   int threads = 1;                      ///< 1, or 2: the second encodes and writes; same bytes
   double until_s = machine::kInfinity;  ///< stop after that much machine time
+  std::size_t warnings = 0;             ///< of the program: RunSummary::warnings
+  /// What the run's command will answer to the shell: RunSummary::exit_code. None: 0.
+  std::function<int(const RunSummary&)> exit_code;
   std::function<void(double done_fraction, std::uint32_t line, double sim_s)>
       progress;                                  ///< called about every 1000 ticks
   const std::atomic<bool>* interrupt = nullptr;  ///< set by a signal handler

@@ -8,8 +8,6 @@ namespace kadr::gcode {
 inline constexpr double kSecondsPerMinute = 60.0;
 inline constexpr double kFullTurn_deg = 360.0;
 inline constexpr double kRadiansPerDegree = kPi / 180.0;
-/// Positions nearer than this are the same but for the rounding of offsets.
-inline constexpr double kSamePoint_u = 1e-9;
 
 // of AxisValues
 inline constexpr std::size_t kX = 0, kY = 1, kZ = 2;

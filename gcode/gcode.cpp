@@ -6,7 +6,7 @@
 
 namespace kadr::gcode {
 
-bool set_bound(Bounds& bounds, std::string_view name, std::uint64_t value) {
+bool set_bound(ReadingBounds& bounds, std::string_view name, std::uint64_t value) {
   const auto narrow = [&](std::uint32_t& bound) {
     if (value > UINT32_MAX) return false;
     bound = static_cast<std::uint32_t>(value);

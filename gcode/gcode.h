@@ -16,7 +16,7 @@
 namespace kadr::gcode {
 
 /// Bounds that a program may not exceed; each message names the setting. 0: no bound.
-struct Bounds {
+struct ReadingBounds {
   std::uint64_t blocks = 0;
   std::uint32_t call_depth = 100;          ///< subroutines within each other
   std::uint64_t loop_passes = 10'000'000;  ///< passes of all loops together
@@ -26,7 +26,7 @@ struct Bounds {
 
 inline constexpr std::string_view kBoundNames = "blocks call_depth loop_passes file_bytes line_bytes";
 /// Sets a bound by its name. @return false if there is no such bound or the value is beyond its type
-bool set_bound(Bounds& bounds, std::string_view name, std::uint64_t value);
+bool set_bound(ReadingBounds& bounds, std::string_view name, std::uint64_t value);
 
 /// Material that a probe meets: the half space below (or above) a plane across one axis, machine coordinates.
 struct StockPlane {
@@ -45,7 +45,7 @@ struct InputReading {
 struct Reading {
   Dialect dialect = Dialect::linuxcnc;
   bool block_delete = false;  ///< leave out lines that begin with '/'
-  Bounds bounds;
+  ReadingBounds bounds;
   std::vector<std::string> sub_folders;  ///< where called files are looked for after the program's own folder
   std::optional<ToolTable> tools;        ///< none: tools have no length and no radius
 };

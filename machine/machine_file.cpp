@@ -3,7 +3,7 @@
 
 #include "machine/file/machine_reader.h"
 #include "machine/file/tree.h"
-#include "machine/machine.h"
+#include "machine/machine_file.h"
 
 namespace kadr::machine {
 

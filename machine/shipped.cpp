@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "machine/machine.h"
+#include "machine/machine_file.h"
 #include "machine/shipped_texts.h"
 
 namespace kadr::machine {

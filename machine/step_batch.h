@@ -43,11 +43,11 @@ struct AxisPulses {
     }
   }
   /// Sum of the signs: the steps the axis moved in this tick.
-  std::int64_t net_steps() const {
+  Steps net_steps() const {
     const auto n = static_cast<std::int64_t>(offset_ticks.size());
-    if (reversals.empty()) return first_sign * n;
-    std::int64_t net = 0;
-    for_each([&](std::uint16_t, int sign) { net += sign; });
+    if (reversals.empty()) return {first_sign * n};
+    Steps net;
+    for_each([&](std::uint16_t, int sign) { net.value += sign; });
     return net;
   }
   void clear() {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "machine/base/require.h"
+#include "machine/machine.h"
 #include "planner/limits/limits.h"
 #include "planner/planner.h"
 #include "planner/positioning/positioning.h"

@@ -1,7 +1,8 @@
 #pragma once
 #include <cstdint>
 
-#include "machine/machine.h"
+#include "machine/axis.h"
+#include "machine/clock.h"
 #include "plant/matrix.h"
 #include "plant/plant.h"
 
@@ -40,7 +41,7 @@ struct AxisEquations {
   /// Motor acceleration f(lag) and the whole derivative for any motor.
   Vector4 derivative(const Vector4& z) const;
   /// Motor force [N, N m] at a state.
-  double motor_force(const Vector4& z) const;
+  double motor_force_N(const Vector4& z) const;
   /// Fastest rate of the equations [1/tick], an upper estimate: sqrt of the stiffnesses plus the dampings.
   double rate() const;
   /// False if a mass, stiffness or clock makes the equations meaningless.

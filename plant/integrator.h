@@ -34,7 +34,7 @@ struct AxisMotion {
   std::int64_t node = 0;     ///< steps since the reset
   std::int64_t slipped = 0;  ///< teeth, since the reset
   double equilibrium_u = 0;  ///< absolute
-  double motor_force = 0;
+  double motor_force_N = 0;
   AxisWork work;  ///< kept only if asked for
 
   /// Takes a tick's net steps into node and equilibrium.

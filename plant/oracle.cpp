@@ -23,8 +23,8 @@ class Oracle final : public Integrator {
       axis_.z[kLag] -= sign * axis_.equations.step_m;
     });
     axis_.z = propagator_.apply(control_tick_ - now, axis_.z);
-    axis_.move_node(pulses.net_steps());
-    axis_.motor_force = axis_.equations.motor_force(axis_.z);
+    axis_.move_node(pulses.net_steps().value);
+    axis_.motor_force_N = axis_.equations.motor_force_N(axis_.z);
     return {};
   }
   void reset() override {}

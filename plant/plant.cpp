@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "machine/base/require.h"
+#include "machine/machine.h"
 #include "plant/integrator.h"
 #include "plant/taylor.h"
 
@@ -28,7 +29,7 @@ void check_pulses(const AxisPulses& pulses, std::int64_t control_tick) {
 
 bool finite(const AxisState& s) {
   return std::isfinite(s.base_u) && std::isfinite(s.base_u_s) && std::isfinite(s.link_u) &&
-         std::isfinite(s.link_u_s) && std::isfinite(s.motor_force);
+         std::isfinite(s.link_u_s) && std::isfinite(s.motor_force_N);
 }
 
 bool finite(const AxisCommand& c) {
@@ -112,7 +113,7 @@ Outcome Plant::Impl::finish(const StepBatch& batch) {
   for (std::size_t a = 0; a < motion.size(); ++a) {
     if (const AxisMotion* axis = motion[a].get()) {
       state[a] = axis_state(axis->equations, axis->z, axis->equilibrium_u);
-      state[a].motor_force = axis->motor_force;
+      state[a].motor_force_N = axis->motor_force_N;
     } else {
       const AxisCommand& command = batch.axis[a].command;
       state[a] = {.base_u = command.position_end_u, .base_u_s = command.speed_end_u_s};
@@ -210,7 +211,7 @@ void Plant::reset(const std::vector<double>& position_u) {
       axis->z = {};
       axis->node = 0;
       axis->slipped = 0;
-      axis->motor_force = 0;
+      axis->motor_force_N = 0;
       axis->work = {};
       axis->move_node(0);
     }

@@ -6,8 +6,11 @@
 #include <tl/expected.hpp>
 
 #include "machine/axis_state.h"
-#include "machine/machine.h"
 #include "machine/step_batch.h"
+
+namespace kadr::machine {
+struct MachineModel;
+}
 
 /// The flexible machine: two masses per axis, driven by the step pulses of each control tick (paper 001, eq.
 /// 5-6).

@@ -29,8 +29,8 @@ class Reference final : public Integrator {
     if (outcome)
       outcome = integrate((axis_.equations.control_ticks - static_cast<double>(now)) * tick_per_base);
     if (!outcome) return outcome;
-    axis_.move_node(pulses.net_steps());
-    axis_.motor_force = axis_.equations.motor_force(axis_.z);
+    axis_.move_node(pulses.net_steps().value);
+    axis_.motor_force_N = axis_.equations.motor_force_N(axis_.z);
     return {};
   }
   void reset() override {}

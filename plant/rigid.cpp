@@ -48,9 +48,9 @@ class Rigid final : public Integrator {
     if (energy_) add_work(before_m, base);
     const Vector4 link = whole_tick_ * Vector4{z[kLink], z[kLinkSpeed], base.a0, base.a1};
     z = {0, end_m, link[0], link[1]};
-    axis_.node += pulses.net_steps();
+    axis_.node += pulses.net_steps().value;
     axis_.equilibrium_u = command.position_end_u;
-    axis_.motor_force = force(base.a0 + base.a1, end_m, link[0], link[1]);
+    axis_.motor_force_N = force(base.a0 + base.a1, end_m, link[0], link[1]);
     return {};
   }
   void reset() override {}
@@ -60,8 +60,8 @@ class Rigid final : public Integrator {
   double force(double accel_m, double speed_m, double link_m, double link_speed_m) const {
     const machine::TwoMassModel& m = axis_.equations.model;
     const double tau_s = axis_.equations.tau_s;
-    return m.base_mass * accel_m / (tau_s * tau_s) + m.base_friction * speed_m / tau_s -
-           m.link_stiffness * link_m - m.link_damping * link_speed_m / tau_s;
+    return m.base_mass_kg * accel_m / (tau_s * tau_s) + m.base_friction_Ns_per_m * speed_m / tau_s -
+           m.link_stiffness_N_per_m * link_m - m.link_damping_Ns_per_m * link_speed_m / tau_s;
   }
 
   // work of that force and of the impulse at the tick's beginning, which changes the base's kinetic energy
@@ -69,7 +69,7 @@ class Rigid final : public Integrator {
   void add_work(double before_m, const BaseMotion& base) {
     const machine::TwoMassModel& m = axis_.equations.model;
     const double tau_s = axis_.equations.tau_s;
-    axis_.work.add_motor(0.5 * m.base_mass * (base.v0 * base.v0 - before_m * before_m) / (tau_s * tau_s));
+    axis_.work.add_motor(0.5 * m.base_mass_kg * (base.v0 * base.v0 - before_m * before_m) / (tau_s * tau_s));
     Vector<2> link{axis_.z[kLink], axis_.z[kLinkSpeed]};
     const double h = 1 / parts_;
     for (double part = 0; part < parts_; ++part) {
@@ -111,7 +111,7 @@ class Rigid final : public Integrator {
       w_w += over * ww;
     }
     axis_.work.add_motor(force_v);
-    axis_.work.dissipated_J += (m.base_friction * v_v + m.link_damping * w_w) / eq.tau_s;
+    axis_.work.dissipated_J += (m.base_friction_Ns_per_m * v_v + m.link_damping_Ns_per_m * w_w) / eq.tau_s;
     link = {0, 0};
     for (std::size_t n = kOrders + 1; n-- > 0;) {
       link[0] += x[n];

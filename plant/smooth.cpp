@@ -103,7 +103,7 @@ class Smooth final : public Integrator {
   // ahead
   void take_command(Axis& axis, const AxisPulses& pulses) {
     const AxisMotion& motion = *axis.motion;
-    SplinePoint newest{motion.node + pulses.net_steps(), 0};
+    SplinePoint newest{motion.node + pulses.net_steps().value, 0};
     const double off_u =
         pulses.command.position_end_u - (motion.origin_u + static_cast<double>(newest.node) * motion.step_u);
     if (std::fabs(off_u) <= kCredibleSteps * motion.step_u)
@@ -175,7 +175,7 @@ class Smooth final : public Integrator {
       residual[i] += staircase[i] - smooth;
     }
     axis.residual = residual;
-    motion.move_node(pulses.net_steps());
+    motion.move_node(pulses.net_steps().value);
     motion.z = residual;
     if (running_) {
       for (std::size_t i = 0; i < 4; ++i) motion.z[i] += y_[4 * a + i];
@@ -183,7 +183,7 @@ class Smooth final : public Integrator {
     } else {
       motion.z[kLag] += from_node(s, motion.node, step_m);
     }
-    motion.motor_force = motion.equations.motor_force(motion.z);
+    motion.motor_force_N = motion.equations.motor_force_N(motion.z);
   }
 
   // response to s alone; x0 is counted from frame_node

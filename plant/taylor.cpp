@@ -91,8 +91,9 @@ bool TaylorAxis::advance_part(Vector4& z, double h, AxisWork* work) const {
     }
     const machine::TwoMassModel& m = eq_.model;
     // force is an acceleration in m per tick^2; v is in m per tick
-    work->add_motor(m.base_mass * force_v / (eq_.tau_s * eq_.tau_s) - m.motor_damping * v_v / eq_.tau_s);
-    work->dissipated_J += (m.base_friction * v_v + m.link_damping * w_w) / eq_.tau_s;
+    work->add_motor(m.base_mass_kg * force_v / (eq_.tau_s * eq_.tau_s) -
+                    m.motor_damping_Ns_per_m * v_v / eq_.tau_s);
+    work->dissipated_J += (m.base_friction_Ns_per_m * v_v + m.link_damping_Ns_per_m * w_w) / eq_.tau_s;
   }
   z = sum;
   return true;
@@ -143,8 +144,8 @@ class Stepper final : public Integrator {
     const AxisPulses& pulses = batch.axis[static_cast<std::size_t>(axis_.axis)];
     Outcome outcome = series_.advance_tick(axis_.z, pulses, nullptr);
     if (!outcome) return outcome;
-    axis_.move_node(pulses.net_steps());
-    axis_.motor_force = axis_.equations.motor_force(axis_.z);
+    axis_.move_node(pulses.net_steps().value);
+    axis_.motor_force_N = axis_.equations.motor_force_N(axis_.z);
     return {};
   }
   void reset() override {}

@@ -24,8 +24,8 @@ Json axis_json(const AxisSummary& x, const machine::AxisModel& axis, const machi
   j["axis"] = std::string(1, axis.letter);
   j["unit"] = axis_unit(axis);
   j["pulses"] = x.pulses;
-  j["net_steps"] = x.net_steps;
-  j["end_steps"] = x.end_steps;
+  j["net_steps"] = x.net_steps.value;
+  j["end_steps"] = x.end_steps.value;
   j["end_u"] = x.end_u;
   j["min_u"] = x.min_u;
   j["max_u"] = x.max_u;
@@ -47,7 +47,7 @@ Json axis_json(const AxisSummary& x, const machine::AxisModel& axis, const machi
   load["residual_u"] = x.residual_u;
   load["peak_following_u"] = x.peak_following_u;
   load["rms_following_u"] = x.rms_following_u;
-  load["lost_steps"] = x.lost_steps;
+  load["lost_steps"] = x.lost_steps.value;
   if (model.log.energy) {
     load["positive_J"] = x.positive_J;
     load["absolute_J"] = x.positive_J + x.recuperated_J;

@@ -19,9 +19,8 @@ std::string limits_text(const machine::AxisModel& axis) {
 }
 
 bool outside(const AxisTravel& travel, const machine::AxisModel& axis) {
-  // the same slack as the soft-limit check: a limit reached but for rounding is inside
-  constexpr double kSlack_u = 1e-9;
-  return travel.min_u < axis.soft_min_u - kSlack_u || travel.max_u > axis.soft_max_u + kSlack_u;
+  // as the soft-limit check: a limit reached but for rounding is inside
+  return travel.min_u < axis.soft_min_u - kSamePoint_u || travel.max_u > axis.soft_max_u + kSamePoint_u;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "emulator/text/text.h"
 #include "emulator/text/units.h"
 #include "machine/base/hash.h"
+#include "machine/machine.h"
 
 namespace kadr::emulator {
 namespace {
@@ -62,7 +63,7 @@ std::string motion_table(const RunSummary& s, const SummaryContext& c) {
     const char* unit = axis_unit(axis);
     std::vector<std::string> row = {std::string("  ") + axis.letter,
                                     grouped(x.pulses),
-                                    grouped_signed(x.net_steps),
+                                    grouped_signed(x.net_steps.value),
                                     fmt::format("{} {}", fixed(x.end_u, 3), unit),
                                     fmt::format("{} .. {}", fixed(x.min_u, 3), fixed(x.max_u, 3)),
                                     fmt::format("{} {}/s", fixed(x.peak_feed_u_s, 3), unit)};
@@ -107,7 +108,7 @@ std::string load_table(const RunSummary& s, const SummaryContext& c) {
                moved ? fixed(seconds(x.peak_vibration_tick, *c.model), 3) + " s" : "",
                moved && x.peak_vibration_line > 0 ? fmt::format("line {}", x.peak_vibration_line) : "",
                fmt::format("{} {}", error_number(x.residual_u), error_unit(axis)),
-               error_pair(x.peak_following_u, x.rms_following_u, axis), grouped(x.lost_steps)});
+               error_pair(x.peak_following_u, x.rms_following_u, axis), grouped(x.lost_steps.value)});
   }
   return table.render();
 }

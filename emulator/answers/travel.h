@@ -3,8 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "machine/machine.h"
-#include "planner/path/path.h"
+namespace kadr::planner {
+class Path;
+}
+
+namespace kadr::machine {
+struct AxisModel;
+struct MachineModel;
+}  // namespace kadr::machine
 
 namespace kadr::emulator {
 

@@ -12,7 +12,7 @@
 #include "emulator/studies/teach/pulses.h"
 #include "gcode/gcode.h"
 #include "machine/file/data_sheet.h"
-#include "machine/machine.h"
+#include "machine/infinity.h"
 #include "scenarios/generator/wind.h"
 
 namespace kadr::cli {
@@ -78,7 +78,7 @@ struct Arguments {
   bool ask = false;                   ///< machine new --ask
   std::string tools;                  ///< tool table; empty: none
   std::optional<gcode::Dialect> dialect;
-  gcode::Bounds bounds;                  ///< --limit
+  gcode::ReadingBounds bounds;           ///< --limit
   std::vector<std::string> sub_folders;  ///< --subs
   std::string scenario;
   std::string log_path;

@@ -185,6 +185,10 @@ int move(RunInputs& in, Console& console) {
   options.threads = arguments.threads;
   options.until_s = arguments.until_s;
   options.interrupt = signals.flag();
+  options.warnings = in.diagnostics.warnings();
+  options.exit_code = [&signals](const emulator::RunSummary& summary) {
+    return exit_code(summary, signals.signal());
+  };
   const emulator::RunHeader header = run_header(job, options, in.scenario_toml);
   if (!log_path.empty()) {
     refuse_bad_log_path(log_path, arguments, job.sources[job.program].name());
@@ -206,7 +210,7 @@ int move(RunInputs& in, Console& console) {
     return kAlarm;
   }
 
-  const int code = exit_code(*result, signals.signal());
+  const int code = result->exit_code;
   emulator::SummaryContext context;
   context.program = in.program;
   context.machine = machine_text(arguments.machine, job.machine.model);

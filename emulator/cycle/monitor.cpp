@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/base/codes.h"
+#include "machine/machine.h"
+#include "planner/path/path.h"
+
 namespace kadr::emulator {
 namespace {
 
@@ -16,15 +20,13 @@ const char* unit(const machine::AxisModel& axis) {
 constexpr double kRelativeSlack = 1e-6;
 /// A motor that has kept up for so long is no longer slipping.
 constexpr double kSlipPause_s = 0.1;
-/// A position that is a limit but for rounding is inside.
-constexpr double kPositionSlack_u = 1e-9;
 
 /// Radians or metres of the plant's equations do not matter here: omega and zeta are ratios.
 void set_link(const machine::AxisModel& axis, double& omega_rad_s, double& damped_rad_s, double& zeta) {
   if (!axis.has_plant) return;
   const machine::TwoMassModel& m = axis.plant;
-  omega_rad_s = std::sqrt(m.link_stiffness / m.link_mass);
-  zeta = m.link_damping / (2 * std::sqrt(m.link_stiffness * m.link_mass));
+  omega_rad_s = std::sqrt(m.link_stiffness_N_per_m / m.link_mass_kg);
+  zeta = m.link_damping_Ns_per_m / (2 * std::sqrt(m.link_stiffness_N_per_m * m.link_mass_kg));
   damped_rad_s = zeta < 1 ? omega_rad_s * std::sqrt(1 - zeta * zeta) : 0.0;
 }
 
@@ -126,16 +128,17 @@ void Monitor::watch_axis(std::size_t a, const TickView& view, std::vector<EventR
   axis.accel_u_s2 = accel_u_s2;
 }
 
+const Code Monitor::kOverrunCodes[kOverruns] = {Code::soft_limit_overrun, Code::speed_overrun,
+                                                Code::acceleration_overrun, Code::jerk_overrun};
+
 void Monitor::watch_limit(std::size_t a, Overrun kind, double value, double limit, Ticks tick,
                           std::vector<EventRecord>& events) {
-  static constexpr Code kCodes[kOverruns] = {Code::soft_limit_overrun, Code::speed_overrun,
-                                             Code::acceleration_overrun, Code::jerk_overrun};
   static constexpr const char* kNames[kOverruns] = {"position", "speed", "acceleration", "jerk"};
   static constexpr const char* kPer[kOverruns] = {"", "/s", "/s2", "/s3"};
   const machine::AxisModel& model = machine_.axis[a];
-  const bool over = kind == soft_limit ? value > model.soft_max_u + kPositionSlack_u ||
-                                             value < model.soft_min_u - kPositionSlack_u
-                                       : value > limit * (1 + kRelativeSlack);
+  const bool over = kind == soft_limit
+                        ? value > model.soft_max_u + kSamePoint_u || value < model.soft_min_u - kSamePoint_u
+                        : value > limit * (1 + kRelativeSlack);
   Excursion& excursion = axes_[a].excursion[kind];
   const auto sentence = [&](const char* verb, double v, double l) {
     return fmt::format("axis {} {} {} {:.6g} {}{}, allowed {:.6g}", model.letter, kNames[kind], verb, v,
@@ -145,7 +148,7 @@ void Monitor::watch_limit(std::size_t a, Overrun kind, double value, double limi
     excursion = {true, value, limit};
     ++alarms_;
     EventRecord e = event_here(tick, "alarm", a, value, limit);
-    e.code = kCodes[kind];
+    e.code = kOverrunCodes[kind];
     e.text = sentence("is", value, limit);
     events.push_back(std::move(e));
   } else if (over) {
@@ -154,7 +157,7 @@ void Monitor::watch_limit(std::size_t a, Overrun kind, double value, double limi
   } else if (excursion.open) {
     excursion.open = false;
     EventRecord e = event_here(tick, "alarm end", a, excursion.worst, excursion.limit);
-    e.code = kCodes[kind];
+    e.code = kOverrunCodes[kind];
     e.text = sentence("was at most", excursion.worst, excursion.limit);
     events.push_back(std::move(e));
   }
@@ -249,8 +252,8 @@ void Monitor::lost_steps(const std::vector<plant::LostSteps>& lost, Ticks tick,
   for (const plant::LostSteps& l : lost) {
     const auto a = static_cast<std::size_t>(l.axis);
     Axis& axis = axes_[a];
-    axis.summary.lost_steps += l.steps.value;
-    axis.slip_steps += l.steps.value;
+    axis.summary.lost_steps += l.steps;
+    axis.slip_steps += l.steps;
     if (axis.slip_ticks_ago < 0) {
       ++alarms_;
       EventRecord e = event_here(tick, "alarm", a, static_cast<double>(l.steps.value), 0.0);
@@ -267,11 +270,11 @@ void Monitor::end_slips(std::int64_t after_ticks, Ticks now, std::vector<EventRe
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     Axis& axis = axes_[a];
     if (axis.slip_ticks_ago < after_ticks || axis.slip_ticks_ago < 0) continue;
-    EventRecord e = event_here(now, "alarm end", a, static_cast<double>(axis.slip_steps), 0.0);
+    EventRecord e = event_here(now, "alarm end", a, static_cast<double>(axis.slip_steps.value), 0.0);
     e.code = Code::lost_steps;
-    e.text = fmt::format("axis {} lost {} steps in all", machine_.axis[a].letter, axis.slip_steps);
+    e.text = fmt::format("axis {} lost {} steps in all", machine_.axis[a].letter, axis.slip_steps.value);
     events.push_back(std::move(e));
-    axis.slip_steps = 0;
+    axis.slip_steps = Steps{};
     axis.slip_ticks_ago = -1;
   }
 }
@@ -312,6 +315,7 @@ void Monitor::finish(Ticks end, std::vector<EventRecord>& events, std::vector<Bl
       if (axes_[a].excursion[kind].open) {
         const Excursion excursion = axes_[a].excursion[kind];
         EventRecord e = event_here(end, "alarm end", a, excursion.worst, excursion.limit);
+        e.code = kOverrunCodes[kind];
         e.text = fmt::format("axis {} was still over its limit at the end, at most {:.6g}, allowed {:.6g}",
                              machine_.axis[a].letter, excursion.worst, excursion.limit);
         events.push_back(std::move(e));

@@ -2,10 +2,16 @@
 #include <vector>
 
 #include "emulator/log/records.h"
-#include "machine/machine.h"
 #include "planner/laws/motion_source.h"
-#include "planner/path/path.h"
 #include "plant/plant.h"
+
+namespace kadr::planner {
+class Path;
+}
+
+namespace kadr::machine {
+struct MachineModel;
+}
 
 namespace kadr::emulator {
 
@@ -42,6 +48,7 @@ class Monitor {
 
  private:
   enum Overrun : std::uint8_t { soft_limit, speed, acceleration, jerk, kOverruns };
+  static const Code kOverrunCodes[kOverruns];
   struct Excursion {
     bool open = false;
     double worst = 0;
@@ -54,7 +61,7 @@ class Monitor {
     double omega_rad_s = 0, damped_rad_s = 0, zeta = 0;  // of the link, 0 without one
     double vibration_squares_u2 = 0, following_squares_u2 = 0;
     double stop_residual_u = 0;
-    std::int64_t slip_steps = 0;       // lost in the slip under way
+    Steps slip_steps;                  // lost in the slip under way
     std::int64_t slip_ticks_ago = -1;  // control ticks since its last loss; -1: no slip
     double block_link_u = 0, block_following_u = 0;
     double block_positive_J = 0, block_recuperated_J = 0;  // of the run, where the block began
@@ -67,8 +74,6 @@ class Monitor {
   void watch_plant(std::size_t a, const TickView& view);
   void watch_path_error(const TickView& view);
   void watch_stop(const TickView& view, std::vector<EventRecord>& events);
-  void watch_lost_steps(const std::vector<plant::LostSteps>& lost, Ticks tick,
-                        std::vector<EventRecord>& events);
   void end_slips(std::int64_t after_ticks, Ticks now, std::vector<EventRecord>& events);
   void end_stop(Ticks now, std::vector<EventRecord>& events);
   void end_block(Ticks tick, std::vector<BlockEndRecord>& block_ends);

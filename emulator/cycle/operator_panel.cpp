@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "machine/file/tree.h"
+#include "planner/laws/motion_source.h"
 
 namespace kadr::emulator {
 namespace {

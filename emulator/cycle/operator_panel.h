@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "emulator/emulator.h"
+#include "planner/laws/motion_source.h"
 
 namespace kadr::emulator {
 
@@ -36,7 +37,6 @@ class OperatorPanel {
   const planner::OperatorInput& advance(ControlTicks tick, double s_u, std::vector<EventRecord>& events);
   /// The spindle's part of the percent, ratio.
   double spindle_percent() const { return spindle_percent_; }
-  double operator_percent() const { return operator_percent_; }
   /// Nothing will change any more while the path rests.
   bool at_its_end() const;
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "planner/path/path_cut.h"
+
 namespace kadr::emulator {
 
 void limit_places(Job& job, Diagnostics& diagnostics) {

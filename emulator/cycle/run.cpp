@@ -172,8 +172,10 @@ class Cycle {
   void watch_operator(const planner::OperatorInput& input) {
     using planner::LimitedBy;
     using planner::OverrideNote;
-    deferred_ticks_ =
-        motion_.note == OverrideNote::none || motion_.note == OverrideNote::limited ? 0 : deferred_ticks_ + 1;
+    if (motion_.note == OverrideNote::none || motion_.note == OverrideNote::limited)
+      deferred_ticks_ = ControlTicks{};
+    else
+      ++deferred_ticks_;
     const bool locked_overload = motion_.note == OverrideNote::locked && panel_.spindle_percent() < 1;
     if (locked_overload && !overload_told_)
       add_alarm(Code::overload_locked, panel_.spindle_percent() * 100, 100,
@@ -353,7 +355,8 @@ class Cycle {
     monitor_.summarize(summary);
     for (std::size_t a = 0; a < summary.axis.size(); ++a) {
       const double node_u = job_.path.size() == 0 ? machine_.axis[a].home_u : job_.path.node(0)[a];
-      summary.axis[a].end_steps = lattice_node(node_u, machine_.axis[a].step_u) + summary.axis[a].net_steps;
+      summary.axis[a].end_steps =
+          Steps{lattice_node(node_u, machine_.axis[a].step_u)} + summary.axis[a].net_steps;
     }
     for (std::size_t i = 0; i < job_.path.size() && i < next_segment_; ++i) {
       const planner::PathSegment& segment = job_.path.segments[i];
@@ -368,7 +371,8 @@ class Cycle {
     summary.planned_s = job_.motion_s;
     if (has_operator()) summary.lost_by = lost_.shares();
     summary.alarms += plant_alarms_ + operator_alarms_;
-    summary.exit_code = summary.alarms > 0 ? 3 : 0;
+    summary.warnings = options_.warnings;
+    if (options_.exit_code) summary.exit_code = options_.exit_code(summary);
     if (log_)
       if (auto failure = keep(log_->end(summary))) return tl::unexpected(*failure);
     return summary;
@@ -395,7 +399,7 @@ class Cycle {
   std::vector<BlockEndRecord> block_ends_;
   std::int64_t motion_ticks_ = 0;
   std::size_t plant_alarms_ = 0, operator_alarms_ = 0;
-  std::int64_t deferred_ticks_ = 0;
+  ControlTicks deferred_ticks_;
   bool overload_told_ = false;
   std::string_view reason_ = "override";
 };

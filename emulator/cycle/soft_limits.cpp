@@ -13,9 +13,6 @@ const char* limit_unit(const machine::AxisModel& axis) {
   return axis.kind == machine::AxisKind::rotary ? "deg" : "mm";
 }
 
-/// Commands and limits are decimals; a position that is a limit but for rounding is inside.
-constexpr double kSlack_u = 1e-9;
-
 void report(const planner::PathSegment& segment, const machine::AxisModel& axis, double reached_u,
             double limit_u, SoftLimitRule rule, Diagnostics& diagnostics) {
   Diagnostic d{Code::soft_limit,
@@ -55,11 +52,11 @@ void check_soft_limits(const planner::Path& path, const machine::MachineModel& m
       const auto [low_u, high_u] = block_extent(path, i, end, static_cast<int>(a));
       // a move that only comes back from outside is not told again
       const double start_u = path.node(i)[a];
-      if (high_u > std::max(axis.soft_max_u, start_u) + kSlack_u ||
-          (i == 0 && start_u > axis.soft_max_u + kSlack_u))
+      if (high_u > std::max(axis.soft_max_u, start_u) + kSamePoint_u ||
+          (i == 0 && start_u > axis.soft_max_u + kSamePoint_u))
         report(path.segments[i], axis, high_u, axis.soft_max_u, rule, diagnostics);
-      if (low_u < std::min(axis.soft_min_u, start_u) - kSlack_u ||
-          (i == 0 && start_u < axis.soft_min_u - kSlack_u))
+      if (low_u < std::min(axis.soft_min_u, start_u) - kSamePoint_u ||
+          (i == 0 && start_u < axis.soft_min_u - kSamePoint_u))
         report(path.segments[i], axis, low_u, axis.soft_min_u, rule, diagnostics);
       i = end;
     }

@@ -12,6 +12,10 @@ namespace {
 // pi in two parts; the first has 31 bits, so that its product with a count of half turns below 2^22 is exact
 constexpr double kPiHead = 0x1.921fb54400000p+1;
 constexpr double kPiTail = 0x1.0b4611a626331p-33;
+// guards of two searches: Newton with a slope in [1, 2], and Newton in a bracket, where halving alone needs
+// 54
+constexpr int kTurningSteps = 16;
+constexpr int kBracketSteps = 100;
 // an extreme this near to a segment's end is the end itself; it moves the axis by radius * 5e-17
 constexpr double kSameAngle_rad = 1e-8;
 
@@ -70,7 +74,7 @@ double ArcCrossings::turning_share(std::int64_t m, double u_from) const {
   const double base = half_turns_rad(m);
   double u = std::clamp((base + lag_rad(u_from)) * u_per_rad_, u_from, 1.0);
   if (growth_ == 0.0) return u;
-  for (int i = 0; i < 16; ++i) {
+  for (int i = 0; i < kTurningSteps; ++i) {
     const double along = (radius_ + growth_ * u) * sweep_rad_;
     const double slope = 1.0 + growth_ * growth_ / (growth_ * growth_ + along * along);
     const double better = u - (u - (base + lag_rad(u)) * u_per_rad_) / slope;
@@ -196,7 +200,7 @@ void ArcCrossings::spiral_angles(const Run& height, Run& chi) const {
 double ArcCrossings::bracketed_angle(double height) const {
   double low = chi_begin_, high = chi_end_;
   double chi = 0.5 * (low + high);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < kBracketSteps; ++i) {
     const SinCos t = exact_sincos(chi);
     const double r = piece_radius_ + radius_per_rad_ * chi;
     const double value = r * t.cos - height;

@@ -10,13 +10,13 @@
 #include "emulator/interpolator/slot_track.h"
 #include "emulator/interpolator/tick_clock.h"
 #include "machine/base/require.h"
+#include "machine/machine.h"
 
 namespace kadr::emulator {
 
 namespace {
 
-// a law's end may miss its joint and its rest by rounding
-constexpr double kSameJoint_u = 1e-9;
+/// A law's end may miss its rest by rounding.
 constexpr double kRest_u_s = 1e-6;
 // reversals are stored as 16-bit pulse numbers
 constexpr std::size_t kMostPulsesBeforeReversal = 65535;
@@ -149,7 +149,7 @@ void CrossingInterpolator::Impl::enter_axis(std::size_t axis, const planner::Arc
 
 bool CrossingInterpolator::Impl::reaches_joint(const planner::TickMotion& motion) const {
   const double left_u = path.start_s_u[segment + 1] - motion.s_end_u;
-  return left_u <= 0.0 || (motion.speed_end_u_s <= kRest_u_s && left_u <= kSameJoint_u);
+  return left_u <= 0.0 || (motion.speed_end_u_s <= kRest_u_s && left_u <= kSamePoint_u);
 }
 
 void CrossingInterpolator::Impl::advance(const planner::TickMotion& motion, StepBatch& batch) {

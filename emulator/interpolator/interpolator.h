@@ -3,11 +3,17 @@
 #include <memory>
 #include <vector>
 
-#include "machine/machine.h"
 #include "machine/step_batch.h"
 #include "machine/step_hash.h"
 #include "planner/laws/motion_source.h"
-#include "planner/path/path.h"
+
+namespace kadr::planner {
+class Path;
+}
+
+namespace kadr::machine {
+struct MachineModel;
+}
 
 /// From path and tick motion to step pulses. Which pulses, and in which order along the path, is geometry
 /// alone; the motion law only says when each fires.

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "machine/machine.h"
+#include "planner/path/path.h"
+
 namespace kadr::emulator {
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include "machine/base/numbers.h"
 #include "machine/base/require.h"
+#include "machine/machine.h"
 
 namespace kadr::emulator {
 namespace {

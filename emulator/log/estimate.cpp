@@ -3,6 +3,7 @@
 
 #include "emulator/log/log_types.h"
 #include "emulator/log/run_log.h"
+#include "machine/machine.h"
 
 namespace kadr::emulator {
 namespace {

@@ -11,6 +11,7 @@
 #include "emulator/log/run_log.h"
 #include "machine/base/hash.h"
 #include "machine/base/require.h"
+#include "machine/machine.h"
 
 namespace kadr::emulator {
 namespace {

@@ -5,6 +5,7 @@
 #include "emulator/log/log_types.h"
 #include "machine/base/hash.h"
 #include "machine/base/require.h"
+#include "machine/machine.h"
 
 namespace kadr::emulator {
 namespace {
@@ -108,7 +109,7 @@ block_t block_message(const BlockRecord& r, const machine::ClockModel& clock) {
   m.limited_by = lcm_text(r.limited_by);
   m.entry_u_s = r.entry_u_s;
   m.planned_entry_u_s = r.planned_entry_u_s;
-  m.deferred_ticks = static_cast<std::int32_t>(r.deferred_ticks);
+  m.deferred_ticks = static_cast<std::int32_t>(r.deferred_ticks.value);
   return m;
 }
 
@@ -181,8 +182,8 @@ summary_t summary_message(const RunSummary& s, const machine::ClockModel& clock,
   m.n_axes = small(s.axis.size());
   for (const AxisSummary& a : s.axis) {
     m.axis_pulses.push_back(a.pulses);
-    m.net_steps.push_back(a.net_steps);
-    m.end_steps.push_back(a.end_steps);
+    m.net_steps.push_back(a.net_steps.value);
+    m.end_steps.push_back(a.end_steps.value);
     m.end_u.push_back(a.end_u);
     m.min_u.push_back(a.min_u);
     m.max_u.push_back(a.max_u);
@@ -197,7 +198,7 @@ summary_t summary_message(const RunSummary& s, const machine::ClockModel& clock,
     m.residual_u.push_back(a.residual_u);
     m.peak_following_u.push_back(a.peak_following_u);
     m.rms_following_u.push_back(a.rms_following_u);
-    m.lost_steps.push_back(a.lost_steps);
+    m.lost_steps.push_back(a.lost_steps.value);
     m.positive_J.push_back(a.positive_J);
     m.recuperated_J.push_back(a.recuperated_J);
   }
@@ -264,7 +265,7 @@ void BlockBuilder::begin_block(const TickRecord& record) {
 /// position_steps may count from anywhere; in the log a step count is the lattice node from machine zero.
 void BlockBuilder::begin_lattice(const TickRecord& record, const StepBatch& batch) {
   for (std::size_t a = 0; a < node_.size(); ++a) {
-    const std::int64_t before = (*record.position_steps)[a] - batch.axis[a].net_steps();
+    const std::int64_t before = (*record.position_steps)[a] - batch.axis[a].net_steps().value;
     const double start_u = batch.axis[a].command.position_begin_u;
     lattice_offset_.push_back(lattice_node(start_u, machine_.axis[a].step_u) - before);
   }
@@ -306,7 +307,7 @@ void BlockBuilder::add(const TickRecord& record, const StepBatch& batch) {
       ticks_.base_u_s[a][i] = state.base_u_s;
       ticks_.link_u[a][i] = state.link_u;
       ticks_.link_u_s[a][i] = state.link_u_s;
-      ticks_.motor_force[a][i] = state.motor_force;
+      ticks_.motor_force[a][i] = state.motor_force_N;
     }
     if (machine_.log.steps) pulses_[a].add(batch.axis[a], begin_ticks);
   }
@@ -368,7 +369,7 @@ axis_t BlockBuilder::axis_message(const TickRecord& record, const StepBatch& bat
     m.motor = state.base_u;
     m.load = state.base_u + state.link_u;
     m.load_rate = state.base_u_s + state.link_u_s;
-    m.motor_force_N = state.motor_force;
+    m.motor_force_N = state.motor_force_N;
   }
   constexpr double kMicro = 1000;  // um in a mm, millidegrees in a degree
   m.load_minus_ideal_um = kMicro * (m.load - m.ideal);

@@ -14,6 +14,7 @@
 
 #include "emulator/log/pulse_code.h"
 #include "emulator/log/records.h"
+#include "machine/machine.h"
 
 /// Records of a run as LCM messages (emulator/log/kadr.lcm).
 namespace kadr::emulator {

@@ -59,7 +59,7 @@ Decoded<BlockRecord> decode_block(WireReader in) {
   r.limited_by = in.string();
   r.entry_u_s = in.f64();
   r.planned_entry_u_s = in.f64();
-  r.deferred_ticks = in.i32();
+  r.deferred_ticks = ControlTicks{in.i32()};
   return finished(in, std::move(r));
 }
 
@@ -110,7 +110,7 @@ Decoded<TickBlock> decode_ticks(WireReader in, const LogHeader& header) {
   decode_steps_columns(in, b, ticks, base);
   for (AxisTicks& axis : b.axis) axis.command_u = in.f64s(ticks);
   for (auto column : {&AxisTicks::base_u, &AxisTicks::base_u_s, &AxisTicks::link_u, &AxisTicks::link_u_s,
-                      &AxisTicks::motor_force})
+                      &AxisTicks::motor_force_N})
     for (std::int32_t a = 0; a < plant_axes; ++a)
       b.axis[static_cast<std::size_t>(a)].*column = in.f64s(ticks);
   b.override_requested = in.f64s(override_ticks);
@@ -183,7 +183,7 @@ Decoded<AxisSample> decode_axis(WireReader in, std::string_view channel, const L
   s.t_s = in.f64();
   s.steps = in.i64();
   for (double* field :
-       {&s.ideal, &s.commanded, &s.motor, &s.load, &s.load_rate, &s.load_minus_ideal_um, &s.motor_force})
+       {&s.ideal, &s.commanded, &s.motor, &s.load, &s.load_rate, &s.load_minus_ideal_um, &s.motor_force_N})
     *field = in.f64();
   return finished(in, s);
 }
@@ -239,8 +239,8 @@ void decode_axis_summaries(WireReader& in, std::vector<AxisSummary>& axis) {
     for (AxisSummary& a : axis) a.*field = in.f64();
   };
   integers([](AxisSummary& a, std::int64_t v) { a.pulses = v; });
-  integers([](AxisSummary& a, std::int64_t v) { a.net_steps = v; });
-  integers([](AxisSummary& a, std::int64_t v) { a.end_steps = v; });
+  integers([](AxisSummary& a, std::int64_t v) { a.net_steps = Steps{v}; });
+  integers([](AxisSummary& a, std::int64_t v) { a.end_steps = Steps{v}; });
   reals(&AxisSummary::end_u);
   reals(&AxisSummary::min_u);
   reals(&AxisSummary::max_u);
@@ -255,7 +255,7 @@ void decode_axis_summaries(WireReader& in, std::vector<AxisSummary>& axis) {
   reals(&AxisSummary::residual_u);
   reals(&AxisSummary::peak_following_u);
   reals(&AxisSummary::rms_following_u);
-  integers([](AxisSummary& a, std::int64_t v) { a.lost_steps = v; });
+  integers([](AxisSummary& a, std::int64_t v) { a.lost_steps = Steps{v}; });
   reals(&AxisSummary::positive_J);
   reals(&AxisSummary::recuperated_J);
 }

@@ -50,7 +50,7 @@ struct LogHeader {
 struct AxisTicks {
   std::vector<std::int64_t> steps;  ///< [ticks] lattice node at the tick's end, from machine zero
   std::vector<double> command_u;    ///< [ticks] before the lattice
-  std::vector<double> base_u, base_u_s, link_u, link_u_s, motor_force;  ///< [ticks] x0, v0, x1, v1, force
+  std::vector<double> base_u, base_u_s, link_u, link_u_s, motor_force_N;  ///< [ticks] x0, v0, x1, v1, force
 };
 
 /// KADR_TICKS; element i is the end of control tick first + i.
@@ -92,7 +92,7 @@ struct AxisSample {
   double t_s = 0;
   std::int64_t steps = 0;
   double ideal = 0, commanded = 0, motor = 0, load = 0, load_rate = 0, load_minus_ideal_um = 0,
-         motor_force = 0;
+         motor_force_N = 0;
 };
 
 /// KADR_DIAG

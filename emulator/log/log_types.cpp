@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "machine/machine.h"
+
 namespace kadr::emulator {
 
 MessageKind message_kind(std::string_view channel) {

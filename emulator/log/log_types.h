@@ -4,7 +4,10 @@
 #include <string_view>
 
 #include "machine/base/count.h"
-#include "machine/machine.h"
+
+namespace kadr::machine {
+struct MachineModel;
+}
 
 /// Names and numbers that the log's writer, reader and size estimate share (docs/log_format.md).
 namespace kadr::emulator {

@@ -4,9 +4,13 @@
 #include <vector>
 
 #include "machine/axis_state.h"
-#include "machine/machine.h"
+#include "machine/base/diagnostic.h"
 #include "machine/step_batch.h"
 #include "machine/tick_motion.h"
+
+namespace kadr::machine {
+struct MachineModel;
+}
 
 /// What the cycle tells the log, in tick order; a pure function of the inputs: no clock, address, locale or
 /// thread.
@@ -38,8 +42,7 @@ struct BlockRecord {
   std::string limited_by;        ///< e.g. "program", "axis X speed"
   double entry_u_s = 0;          ///< feed at its beginning, as run
   double planned_entry_u_s = 0;  ///< F_KK of the block before, as planned at 100 %
-  std::int64_t deferred_ticks =
-      0;  ///< control ticks that a percent has been waiting for the motion before it
+  ControlTicks deferred_ticks;   ///< that a percent has been waiting for the motion before it
 };
 
 /// What a motion block did, at the first control tick at which another block has begun; only of blocks that
@@ -80,8 +83,8 @@ struct EventRecord {
 
 struct AxisSummary {
   std::int64_t pulses = 0;  ///< counted, both directions
-  std::int64_t net_steps = 0;
-  std::int64_t end_steps = 0;  ///< lattice node at the end, from machine zero
+  Steps net_steps;
+  Steps end_steps;  ///< lattice node at the end, from machine zero
   double end_u = 0;
   double min_u = 0, max_u = 0;  ///< commanded extremes at control ticks
   double peak_feed_u_s = 0;
@@ -95,7 +98,7 @@ struct AxisSummary {
   double residual_u = 0;        ///< largest envelope after a stop
   double peak_following_u = 0;  ///< |tool - command|
   double rms_following_u = 0;
-  std::int64_t lost_steps = 0;
+  Steps lost_steps;
   double positive_J = 0, recuperated_J = 0;  ///< work of the motor where it drives, and where it brakes
 };
 
@@ -106,7 +109,8 @@ struct LimitShare {
 
 /// Last message; a log without it was cut off.
 struct RunSummary {
-  std::string outcome = "complete";  ///< "complete", "alarm", "interrupted", "plant error"
+  std::string outcome = "complete";  ///< "complete", "alarm", "emergency stop", "held", "stopped by --until",
+                                     ///< "interrupted", "plant error"
   Ticks ticks;                       ///< length of the run
   ControlTicks control_ticks;
   std::uint32_t blocks = 0;
@@ -122,8 +126,9 @@ struct RunSummary {
   std::vector<LimitShare> limited_by;  ///< descending time
   double planned_s = 0;                ///< motion at 100 %
   std::vector<LimitShare> lost_by;     ///< time lost against that, by reason; < 0: gained
-  std::size_t alarms = 0, warnings = 0;
-  int exit_code = 0;  ///< 0, or 3 with alarms
+  std::size_t alarms = 0;
+  std::size_t warnings = 0;  ///< of the program, from RunOptions
+  int exit_code = 0;         ///< of the command that ran it, by RunOptions
 };
 
 }  // namespace kadr::emulator

@@ -36,7 +36,7 @@ void compare_count(std::vector<ScenarioCheck>& checks, std::string what, std::in
 }
 
 void compare_bounds(std::vector<ScenarioCheck>& checks, const std::string& what, char letter,
-                    const Bounds& bounds, double measured_u) {
+                    const ValueRange& bounds, double measured_u) {
   const char* unit = small_unit(letter);
   checks.push_back({fmt::format("{} {}", what, letter),
                     fmt::format("{:.4f} to {:.4f} {}", bounds.least_u * 1000, bounds.most_u * 1000, unit),
@@ -56,7 +56,8 @@ void compare_axis(std::vector<ScenarioCheck>& checks, const AxisExpectation& exp
   if (expect.pulses)
     compare_count(checks, fmt::format("pulses {}", expect.letter), *expect.pulses, axis.pulses);
   if (expect.end_steps)
-    compare_count(checks, fmt::format("end steps {}", expect.letter), *expect.end_steps, axis.end_steps);
+    compare_count(checks, fmt::format("end steps {}", expect.letter), *expect.end_steps,
+                  axis.end_steps.value);
   if (expect.vibration)
     compare_bounds(checks, "vibration", expect.letter, *expect.vibration, axis.peak_vibration_u);
   if (expect.residual) compare_bounds(checks, "residual", expect.letter, *expect.residual, axis.residual_u);
@@ -155,7 +156,7 @@ void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions
                                  r.tick.value % tau,
                                  r.entry_u_s,
                                  r.planned_entry_u_s,
-                                 r.deferred_ticks,
+                                 r.deferred_ticks.value,
                                  {}});
   compare_run(result, scenario.expect, job.machine.model);
   compare_signals(result, scenario.expect, signals, job.machine.model);

@@ -17,7 +17,7 @@
 namespace kadr::emulator {
 
 /// Least and most of a measured value, axis units (mm or deg).
-struct Bounds {
+struct ValueRange {
   double least_u = 0;
   double most_u = 0;
 };
@@ -26,8 +26,8 @@ struct AxisExpectation {
   char letter = 'X';
   std::optional<std::int64_t> pulses;     ///< counted, both directions
   std::optional<std::int64_t> end_steps;  ///< lattice node at the end, from machine zero
-  std::optional<Bounds> vibration;        ///< AxisSummary::peak_vibration_u
-  std::optional<Bounds> residual;         ///< AxisSummary::residual_u
+  std::optional<ValueRange> vibration;    ///< AxisSummary::peak_vibration_u
+  std::optional<ValueRange> residual;     ///< AxisSummary::residual_u
 };
 
 /// Least and most of a signal over control ticks that end in (from_s, to_s].

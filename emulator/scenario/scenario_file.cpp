@@ -333,10 +333,10 @@ class ScenarioReader {
     const bool rotary = is_rotary_letter(axis.letter) ||
                         (std::string_view("UVW").find(axis.letter) != std::string_view::npos &&
                          (table.has("vibration_mdeg") || table.has("residual_mdeg")));
-    const auto bounds = [&table](std::string_view key) -> std::optional<Bounds> {
+    const auto bounds = [&table](std::string_view key) -> std::optional<ValueRange> {
       if (!table.has(key)) return {};
       const auto pair = table.pair(key, kVibration);
-      return Bounds{pair.value.first / 1000, pair.value.second / 1000};
+      return ValueRange{pair.value.first / 1000, pair.value.second / 1000};
     };
     if (table.has("pulses")) axis.pulses = static_cast<std::int64_t>(table.number("pulses", kCount).value);
     if (table.has("end_steps"))

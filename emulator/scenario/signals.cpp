@@ -36,7 +36,7 @@ std::string signal_unit(std::string_view signal, const machine::MachineModel& ma
 SignalRecorder::SignalRecorder(const machine::MachineModel& machine, RunLog* next)
     : ForwardingLog(next), machine_(machine), columns_(kFirstAxis + machine.axis.size()) {}
 
-std::optional<Bounds> SignalRecorder::range(std::string_view signal, double from_s, double to_s) const {
+std::optional<ValueRange> SignalRecorder::range(std::string_view signal, double from_s, double to_s) const {
   const auto names = signal_names(machine_);
   const auto it = std::find(names.begin(), names.end(), signal);
   if (it == names.end()) return {};
@@ -45,9 +45,9 @@ std::optional<Bounds> SignalRecorder::range(std::string_view signal, double from
   // times are decimals: a tick that ends at from_s but for a rounding is outside
   const auto first = static_cast<std::size_t>(std::max(0.0, std::floor(from_s / tau_s + 1e-6)));
   const double last = std::floor(to_s / tau_s + 1e-6);
-  std::optional<Bounds> range;
+  std::optional<ValueRange> range;
   for (std::size_t k = first; k < column.size() && static_cast<double>(k) < last; ++k) {
-    if (!range) range = Bounds{column[k], column[k]};
+    if (!range) range = ValueRange{column[k], column[k]};
     range->least_u = std::min(range->least_u, column[k]);
     range->most_u = std::max(range->most_u, column[k]);
   }
@@ -60,7 +60,7 @@ ForwardingLog::Written SignalRecorder::block(const BlockRecord& record) {
 }
 
 ForwardingLog::Written SignalRecorder::tick(const TickRecord& record, const StepBatch& batch) {
-  const planner::TickMotion& m = *record.motion;
+  const TickMotion& m = *record.motion;
   const double tau_s = machine_.clock.tau_s();
   const double accel = (m.speed_end_u_s - m.speed_begin_u_s) / tau_s;
   const double before = columns_[kAcceleration].empty() ? 0.0 : columns_[kAcceleration].back();

@@ -17,7 +17,7 @@ class SignalRecorder final : public ForwardingLog {
   SignalRecorder(const machine::MachineModel& machine, RunLog* next);
 
   /// Least and most of a signal over the control ticks that end in (from_s, to_s]; nothing if there are none.
-  std::optional<Bounds> range(std::string_view signal, double from_s, double to_s) const;
+  std::optional<ValueRange> range(std::string_view signal, double from_s, double to_s) const;
   const std::vector<BlockRecord>& boundaries() const { return boundaries_; }
 
   Written block(const BlockRecord& record) override;

@@ -43,7 +43,7 @@ void replace_axis(const Entry& axis, const ScenarioResult& result, const machine
   if (const Entry* e = axis.value.find("pulses"))
     out.push_back({e->value.span, fmt::format("{}", measured.pulses)});
   if (const Entry* e = axis.value.find("end_steps"))
-    out.push_back({e->value.span, fmt::format("{}", measured.end_steps)});
+    out.push_back({e->value.span, fmt::format("{}", measured.end_steps.value)});
 }
 
 void replace_boundary(const Node& node, const ScenarioResult& result, std::vector<Replacement>& out) {
@@ -89,7 +89,7 @@ std::string whole_expect(const ScenarioResult& result, const machine::MachineMod
   if (!result.alarms.empty()) out += "alarms = " + alarms_text(result.alarms) + "\n";
   for (std::size_t a = 0; a < machine.axis.size(); ++a)
     out += fmt::format("\n[expect.axis.{}]\npulses = {}\nend_steps = {}\n", machine.axis[a].letter,
-                       result.summary->axis[a].pulses, result.summary->axis[a].end_steps);
+                       result.summary->axis[a].pulses, result.summary->axis[a].end_steps.value);
   return out;
 }
 

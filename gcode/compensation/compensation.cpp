@@ -13,8 +13,6 @@ using Kind = CompensationFault::Kind;
 
 // an entry arc whose chord is that close to a right angle with its radius would be a straight line
 constexpr double kLeastEntryCosine = 1e-4;
-// ends of a full circle coincide up to rounding
-constexpr double kSamePoint_mm = 1e-9;
 constexpr double kDegreesPerRadian = 180 / kPi;
 
 /// Said at once, though a move waits.
@@ -399,7 +397,7 @@ void Compensation::measure(Block& block, const FeedRates& feeds) {
     PlanePoint end = at(block.end);
     const auto normal_axis = static_cast<std::size_t>(axes.normal);
     const double radius = (length(start - center_of(block)) + length(end - center_of(block))) / 2;
-    if (length(end - start) < kSamePoint_mm) end = start;
+    if (length(end - start) < kSamePoint_u) end = start;
     measure_arc(sweep_rad(block, start, end), radius, block.end[normal_axis] - handed_out_[normal_axis],
                 block);
   } else if (block.kind != BlockKind::spline) {

@@ -43,7 +43,7 @@ bool Evaluator::evaluate(const Line& line, std::int32_t first, std::int32_t root
   return true;
 }
 
-bool Evaluator::node_value(const Line& line, const Node& node, const State& state, double& value) {
+bool Evaluator::node_value(const Line& line, const ExpressionNode& node, const State& state, double& value) {
   const auto operand = [&](std::int32_t i) { return values_[static_cast<std::size_t>(i)]; };
   Arithmetic result;
   switch (node.kind) {
@@ -88,7 +88,8 @@ bool Evaluator::node_value(const Line& line, const Node& node, const State& stat
   return fail(code, line.span(node.own), std::move(result.refusal));
 }
 
-bool Evaluator::read(const Line& line, const Node& node, const State& state, double index, double& value) {
+bool Evaluator::read(const Line& line, const ExpressionNode& node, const State& state, double index,
+                     double& value) {
   if (state.uncertain.parameters) doubtful_ = true;
   int number = 0;
   if (!near_integer(index, number) || number < parameter::kFirst || number > parameter::kLast) {
@@ -107,14 +108,14 @@ bool Evaluator::read(const Line& line, const Node& node, const State& state, dou
   return true;
 }
 
-void Evaluator::tell_never_set(const Line& line, const Node& node, const State& state, int number) {
+void Evaluator::tell_never_set(const Line& line, const ExpressionNode& node, const State& state, int number) {
   if (report_ == nullptr || state.uncertain.parameters || !told_.insert(number).second) return;
   report_->warning(problem(Code::parameter_never_set, line.span(node.own),
                            fmt::format("#{} is 0, because nothing has set it", number),
                            "set it at the head of the program, or correct the number"));
 }
 
-bool Evaluator::read_named(const Line& line, const Node& node, const State& state, double& value) {
+bool Evaluator::read_named(const Line& line, const ExpressionNode& node, const State& state, double& value) {
   if (is_predefined(node.left)) {
     value = read_predefined(state, node.left, line.number);
     return true;

@@ -27,13 +27,13 @@ class Evaluator {
   void begin_line() { declared_.clear(); }
 
  private:
-  bool node_value(const Line& line, const Node& node, const State& state, double& value);
-  bool read(const Line& line, const Node& node, const State& state, double index, double& value);
-  bool read_named(const Line& line, const Node& node, const State& state, double& value);
+  bool node_value(const Line& line, const ExpressionNode& node, const State& state, double& value);
+  bool read(const Line& line, const ExpressionNode& node, const State& state, double index, double& value);
+  bool read_named(const Line& line, const ExpressionNode& node, const State& state, double& value);
   bool fail(Code code, Span span, std::string label);
 
   bool is_declared(std::int32_t name) const;
-  void tell_never_set(const Line& line, const Node& node, const State& state, int number);
+  void tell_never_set(const Line& line, const ExpressionNode& node, const State& state, int number);
 
   std::vector<double> values_;          ///< [nodes of the line]
   std::set<int> told_;                  ///< parameters told as never set

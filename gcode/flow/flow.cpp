@@ -159,7 +159,7 @@ void Flow::pass_definition(int index) {
   state_.value_returned = !end.flow.arguments.empty();
   // names that only the sub sets are 0 here
   evaluator_.begin_line();
-  for (const Node& node : end.nodes) {
+  for (const ExpressionNode& node : end.nodes) {
     if (node.kind == NodeKind::named) evaluator_.declare(node.left);
   }
   const bool known =

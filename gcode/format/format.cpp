@@ -235,7 +235,7 @@ void Formatter::append_lexemes(std::string& out, const Line& line, std::uint32_t
   lexemes_.clear();
   const std::int32_t end_node = node_end(line, at);
   for (std::int32_t i = item.first; i < end_node; ++i) {
-    const Node& node = line.nodes[static_cast<std::size_t>(i)];
+    const ExpressionNode& node = line.nodes[static_cast<std::size_t>(i)];
     // a sign + changes nothing; before a number it would be read as the number's own the next time
     if (node.kind != NodeKind::plus) lexemes_.push_back({node.own, node.kind});
     if (node.closing.end > node.closing.begin) lexemes_.push_back({node.closing, NodeKind::group});

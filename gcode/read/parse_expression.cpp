@@ -91,7 +91,7 @@ std::int32_t ExpressionParser::value() {
 }
 
 std::int32_t ExpressionParser::number() {
-  Node node;
+  ExpressionNode node;
   const NumberResult result = cursor_.read_number(node.value, node.own);
   if (result == NumberResult::good) return add(node);
   if (report_ != nullptr) report_->error(number_problem(line_, result, node.own, 0));
@@ -99,7 +99,7 @@ std::int32_t ExpressionParser::number() {
 }
 
 std::int32_t ExpressionParser::signed_value(NodeKind kind) {
-  Node node;
+  ExpressionNode node;
   node.kind = kind;
   node.own = {cursor_.at(), cursor_.at() + 1};
   cursor_.advance();
@@ -108,7 +108,7 @@ std::int32_t ExpressionParser::signed_value(NodeKind kind) {
 }
 
 std::int32_t ExpressionParser::parameter() {
-  Node node;
+  ExpressionNode node;
   node.kind = NodeKind::parameter;
   node.own = {cursor_.at(), cursor_.at() + 1};
   cursor_.advance();
@@ -149,7 +149,7 @@ std::int32_t ExpressionParser::name(std::uint32_t sign) {
   return fail(Code::name_bad, {sign, end}, "a name without letters");
 }
 
-std::int32_t ExpressionParser::exists(Node node) {
+std::int32_t ExpressionParser::exists(ExpressionNode node) {
   const auto refuse = [&] {
     return fail(Code::argument_missing, node.own, "EXISTS takes one parameter",
                 "write EXISTS[#<name>] or EXISTS[#5]");
@@ -175,7 +175,7 @@ std::int32_t ExpressionParser::exists(Node node) {
 }
 
 std::int32_t ExpressionParser::group() {
-  Node node;
+  ExpressionNode node;
   node.kind = NodeKind::group;
   node.own = {cursor_.at(), cursor_.at() + 1};
   cursor_.advance();
@@ -188,7 +188,7 @@ std::int32_t ExpressionParser::group() {
 }
 
 std::int32_t ExpressionParser::function() {
-  Node node;
+  ExpressionNode node;
   node.kind = NodeKind::function;
   const Cursor before = cursor_;
   if (match(cursor_, "EXISTS", node.own)) return exists(node);
@@ -230,7 +230,7 @@ std::int32_t ExpressionParser::chain(int lowest_precedence) {
     const char c = cursor_.peek();
     if (c == ']' || cursor_.at_end()) return left;
     const Cursor before = cursor_;
-    Node node;
+    ExpressionNode node;
     node.kind = NodeKind::binary;
     if (!read_operator(node.operation, node.own)) return unknown_name("operator");
     int precedence = 0;
@@ -274,7 +274,7 @@ std::int32_t ExpressionParser::unknown_name(const char* expected) {
                                  : "operators: + - * / ** MOD EQ NE GT GE LT LE AND OR XOR");
 }
 
-std::int32_t ExpressionParser::add(const Node& node) {
+std::int32_t ExpressionParser::add(const ExpressionNode& node) {
   line_.nodes.push_back(node);
   return static_cast<std::int32_t>(line_.nodes.size()) - 1;
 }

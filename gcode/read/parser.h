@@ -29,7 +29,6 @@ class Parser {
   bool parse_o_word();
   bool parse_label(FlowStatement& flow);
   bool parse_arguments(FlowStatement& flow);
-  bool may_follow_o_word(char c) const;
   bool parse_comment();
   bool parse_line_comment();
   bool parse_percent();
@@ -68,11 +67,11 @@ class ExpressionParser {
   std::int32_t signed_value(NodeKind kind);
   std::int32_t parameter();
   std::int32_t function();
-  std::int32_t exists(Node node);
+  std::int32_t exists(ExpressionNode node);
   std::int32_t chain(int lowest_precedence);
   bool read_operator(Operation& operation, Bytes& bytes);
   std::int32_t unknown_name(const char* expected);
-  std::int32_t add(const Node& node);
+  std::int32_t add(const ExpressionNode& node);
   std::int32_t fail(Code code, Bytes bytes, std::string label, std::string help = {});
 
   Line& line_;

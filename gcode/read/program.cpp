@@ -47,7 +47,7 @@ LineHead head_of(std::string_view line) {
 
 }  // namespace
 
-Program::Program(const SourceSet& sources, std::uint32_t file, const Bounds& bounds, Names& names,
+Program::Program(const SourceSet& sources, std::uint32_t file, const ReadingBounds& bounds, Names& names,
                  Report& report)
     : source_(sources[file]),
       text_(source_.text()),

@@ -19,7 +19,8 @@ class Program {
     std::uint32_t line = 1;
   };
 
-  Program(const SourceSet& sources, std::uint32_t file, const Bounds& bounds, Names& names, Report& report);
+  Program(const SourceSet& sources, std::uint32_t file, const ReadingBounds& bounds, Names& names,
+          Report& report);
 
   /// Parses the next line; it holds until the next call. Null at the end of the text.
   const Line* next();

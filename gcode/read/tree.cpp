@@ -12,7 +12,7 @@ namespace {
 void collect(const Line& line, const Item& item, std::int32_t end_node, std::vector<Bytes>& lexemes) {
   if (item.first < 0) return;
   for (std::int32_t i = item.first; i < end_node; ++i) {
-    const Node& node = line.nodes[static_cast<std::size_t>(i)];
+    const ExpressionNode& node = line.nodes[static_cast<std::size_t>(i)];
     lexemes.push_back(node.own);
     if (node.closing.end > node.closing.begin) lexemes.push_back(node.closing);
   }

@@ -62,7 +62,7 @@ enum class Operation : std::uint8_t {
 };
 
 /// Part of an expression. Operands come before their node in Line::nodes, so one pass in order evaluates it.
-struct Node {
+struct ExpressionNode {
   NodeKind kind = NodeKind::number;
   Operation operation = Operation::none;
   std::int32_t left = -1;  ///< index in Line::nodes, or the number of a name in Names
@@ -136,7 +136,7 @@ struct Line {
   std::string_view text;     ///< without line end
   std::string_view ending;   ///< "\n" or "\r\n"; "\r" or "" at the end of the file
   std::vector<Item> items;
-  std::vector<Node> nodes;
+  std::vector<ExpressionNode> nodes;
   FlowStatement flow;     ///< if has_flow
   bool has_flow = false;  ///< an O word stands on the line
   bool failed = false;    ///< a syntax error was told; items before it are valid

@@ -10,6 +10,10 @@ inline constexpr std::string_view kAxisLetters = "XYZABCUVW";
 /// Values by program axis: mm for X Y Z U V W, degrees for A B C.
 using AxisValues = std::array<double, kProgramAxes>;
 
+/// Two positions nearer than this are one, mm or deg: what the rounding of decimals, offsets and sums leaves
+/// (a coordinate of 1e5 mm carries 1.5e-11), and a hundredth of the finest step (1e-7).
+inline constexpr double kSamePoint_u = 1e-9;
+
 /// Index of an axis letter in AxisValues, -1 if it is none.
 constexpr int axis_index(char letter) {
   const auto at = kAxisLetters.find(letter);

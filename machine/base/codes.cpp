@@ -10,23 +10,31 @@
 
 namespace kadr {
 
+namespace {
+
+constexpr CodeEntry kTexts[] = {
+#define KADR_TEXT(name, title, explanation) {Code::name, #name, title, explanation},
+#include "machine/base/code_texts.inc"
+#undef KADR_TEXT
+};
+
+// A code without a text, or with two, does not compile: -Wswitch and duplicate cases are errors.
+constexpr bool has_text(Code code) {
+  switch (code) {
+#define KADR_TEXT(name, title, explanation) case Code::name:
+#include "machine/base/code_texts.inc"
+#undef KADR_TEXT
+    return true;
+  }
+  return false;
+}
+static_assert(has_text(Code::broken_promise));
+
+}  // namespace
+
 std::span<const CodeEntry> all_codes() {
   static const std::vector<CodeEntry> entries = [] {
-    std::vector<CodeEntry> list = {
-#define KADR_CODE(number, name, title, explanation) {Code::name, #name, title, explanation},
-#include "machine/base/codes/compensation.inc"
-#include "machine/base/codes/curves.inc"
-#include "machine/base/codes/cycles.inc"
-#include "machine/base/codes/files.inc"
-#include "machine/base/codes/flow.inc"
-#include "machine/base/codes/functions.inc"
-#include "machine/base/codes/geometry.inc"
-#include "machine/base/codes/internal.inc"
-#include "machine/base/codes/motion.inc"
-#include "machine/base/codes/planning.inc"
-#include "machine/base/codes/reading.inc"
-#undef KADR_CODE
-    };
+    std::vector<CodeEntry> list(std::begin(kTexts), std::end(kTexts));
     std::sort(list.begin(), list.end(),
               [](const CodeEntry& a, const CodeEntry& b) { return a.code < b.code; });
     return list;

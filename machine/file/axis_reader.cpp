@@ -132,11 +132,11 @@ std::optional<TwoMassModel> read_plant(const Node& table, const std::string& pat
   const bool link = m.motor != MotorModel::rigid || r.has(base_mass) || r.has(link_mass) ||
                     r.has(stiffness) || r.has(damping);
   const std::optional<double> otherwise = link ? std::optional<double>() : 0.0;
-  m.base_mass = r.number(base_mass, kMassBounds, otherwise).value;
-  m.link_mass = r.number(link_mass, kMassBounds, otherwise).value;
-  m.link_stiffness = r.number(stiffness, kStiffnessBounds, otherwise).value;
-  m.link_damping = r.number(damping, kDampingBounds, otherwise).value;
-  m.base_friction = r.number(key("base_friction", units.damping), kDampingBounds, 0.0).value;
+  m.base_mass_kg = r.number(base_mass, kMassBounds, otherwise).value;
+  m.link_mass_kg = r.number(link_mass, kMassBounds, otherwise).value;
+  m.link_stiffness_N_per_m = r.number(stiffness, kStiffnessBounds, otherwise).value;
+  m.link_damping_Ns_per_m = r.number(damping, kDampingBounds, otherwise).value;
+  m.base_friction_Ns_per_m = r.number(key("base_friction", units.damping), kDampingBounds, 0.0).value;
 
   // keys of other motor models are allowed and ignored, so that switching `model` is a one-line edit
   const auto needed = [&](const std::string& name, const Bounds& bounds, bool by_model) {
@@ -144,9 +144,9 @@ std::optional<TwoMassModel> read_plant(const Node& table, const std::string& pat
     return r.number(name, bounds, read ? std::optional<double>() : std::optional<double>(0.0)).value;
   };
   const bool spring = m.motor == MotorModel::spring, stepper = m.motor == MotorModel::stepper;
-  m.motor_stiffness = needed(key("motor_stiffness", units.stiffness), kStiffnessBounds, spring);
-  m.motor_damping = needed(key("motor_damping", units.damping), kDampingBounds, spring || stepper);
-  m.holding_force = needed(key("holding_force", units.force), kForceBounds, stepper);
+  m.motor_stiffness_N_per_m = needed(key("motor_stiffness", units.stiffness), kStiffnessBounds, spring);
+  m.motor_damping_Ns_per_m = needed(key("motor_damping", units.damping), kDampingBounds, spring || stepper);
+  m.holding_force_N = needed(key("holding_force", units.force), kForceBounds, stepper);
   m.tooth_pitch_u = needed(keys.of("tooth_pitch"), kPitchBounds, stepper);
   r.finish();
   return link ? std::optional(m) : std::nullopt;

@@ -6,7 +6,7 @@
 
 #include "machine/base/parse_number.h"
 #include "machine/file/technology.h"
-#include "machine/machine.h"
+#include "machine/machine_file.h"
 
 namespace kadr::machine {
 
@@ -72,14 +72,14 @@ void write_plant(TomlWriter& w, const AxisModel& axis) {
   const TwoMassModel& m = axis.plant;
   w.table("  [axis.plant]", fmt::format("axis.{}.plant", axis.letter));
   w.word("model", models[static_cast<std::size_t>(m.motor)]);
-  w.number(key("base_mass", "kg", "kg_m2"), m.base_mass);
-  w.number(key("link_mass", "kg", "kg_m2"), m.link_mass);
-  w.number(key("link_stiffness", "N_per_m", "Nm_per_rad"), m.link_stiffness);
-  w.number(key("link_damping", "Ns_per_m", "Nms_per_rad"), m.link_damping);
-  w.number(key("base_friction", "Ns_per_m", "Nms_per_rad"), m.base_friction);
-  w.number_if(key("motor_stiffness", "N_per_m", "Nm_per_rad"), m.motor_stiffness);
-  w.number(key("motor_damping", "Ns_per_m", "Nms_per_rad"), m.motor_damping);
-  w.number_if(key("holding_force", "N", "Nm"), m.holding_force);
+  w.number(key("base_mass", "kg", "kg_m2"), m.base_mass_kg);
+  w.number(key("link_mass", "kg", "kg_m2"), m.link_mass_kg);
+  w.number(key("link_stiffness", "N_per_m", "Nm_per_rad"), m.link_stiffness_N_per_m);
+  w.number(key("link_damping", "Ns_per_m", "Nms_per_rad"), m.link_damping_Ns_per_m);
+  w.number(key("base_friction", "Ns_per_m", "Nms_per_rad"), m.base_friction_Ns_per_m);
+  w.number_if(key("motor_stiffness", "N_per_m", "Nm_per_rad"), m.motor_stiffness_N_per_m);
+  w.number(key("motor_damping", "Ns_per_m", "Nms_per_rad"), m.motor_damping_Ns_per_m);
+  w.number_if(key("holding_force", "N", "Nm"), m.holding_force_N);
   w.number_if(key("tooth_pitch", "mm", "deg"), m.tooth_pitch_u);
 }
 

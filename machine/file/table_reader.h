@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "machine/file/tree.h"
-#include "machine/machine.h"
+#include "machine/machine_file.h"
 
 namespace kadr::machine {
 

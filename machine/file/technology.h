@@ -1,6 +1,6 @@
 #pragma once
 #include "machine/file/table_reader.h"
-#include "machine/machine.h"
+#include "machine/settings.h"
 
 namespace kadr::machine {
 

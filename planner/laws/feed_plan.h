@@ -4,8 +4,9 @@
 #include <string_view>
 #include <vector>
 
+#include "machine/base/axes.h"
+#include "machine/choices.h"
 #include "machine/tick_motion.h"
-#include "planner/path/path.h"
 
 namespace kadr::planner {
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/machine.h"
 #include "planner/laws/motion_source.h"
 #include "planner/laws/tick_shape.h"
 
@@ -11,11 +12,14 @@ namespace {
 /// tick.
 constexpr double kEndSlack_s = 1e-9;
 
+/// Halves a piece of up to a day to below a tenth of a nanosecond.
+constexpr int kTimeHalvings = 50;
+
 /// Time within a quintic piece at which it has a speed, or the end of [from, to] that is nearest to it: its
 /// speed only rises, or only falls.
 double time_of_speed(const JerkPiece& p, double speed, double from_s, double to_s) {
   const bool rises = p.quintic_rise_u_s > 0.0;
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < kTimeHalvings; ++i) {
     const double mid = 0.5 * (from_s + to_s);
     ((p.speed_after_u_s(mid) < speed) == rises ? from_s : to_s) = mid;
   }

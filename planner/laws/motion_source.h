@@ -4,6 +4,10 @@
 #include "machine/base/count.h"
 #include "planner/laws/feed_plan.h"
 
+namespace kadr::machine {
+struct MachineModel;
+}
+
 namespace kadr::planner {
 
 using kadr::OverrideNote;

@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "machine/base/numbers.h"
+#include "machine/machine.h"
 #include "planner/bezier/curve_bounds.h"
+#include "planner/path/path.h"
 
 namespace kadr::planner {
 namespace {
@@ -78,13 +80,16 @@ ArcBounds arc_bounds(const ArcShape& arc, double length_u) {
   return b;
 }
 
+/// A guard: Newton ends when a step no longer falls.
+constexpr int kCubeRootSteps = 60;
+
 /// Real cube root of x >= 0 by Newton from above, falling steps only: + - * / and powers of two alone.
 double cube_root(double x) {
   if (!(x > 0.0) || x == kInfinity) return x;
   int exponent = 0;
   std::frexp(x, &exponent);  // x < 2^exponent
   double r = std::ldexp(1.0, exponent > 0 ? (exponent + 2) / 3 : exponent / 3);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < kCubeRootSteps; ++i) {
     const double next = (2.0 * r + x / (r * r)) / 3.0;
     if (!(next < r)) break;
     r = next;

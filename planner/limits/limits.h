@@ -8,8 +8,14 @@
 #include "planner/limits/plan_error.h"
 #include "planner/path/path.h"
 
+namespace kadr::machine {
+struct MachineModel;
+}
+
 /// What geometry and machine allow on each place of a path, before any ramp is thought of.
 namespace kadr::planner {
+
+class Path;
 
 /// Why a cap is what it is: the signature of one place.
 struct Signature {

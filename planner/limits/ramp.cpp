@@ -23,12 +23,15 @@ double slope(double v, double w, RampLimits l) {
   return 0.5 * ramp_time_s(dv, l) + 0.5 * (v + w) * rate;
 }
 
+/// A guard: halving alone would need 54 steps to the last bit, and Newton helps.
+constexpr int kBracketSteps = 64;
+
 /// Highest w in [low, high] with way(w) <= distance; `way` increases, slope is its derivative.
 template <class Way, class Slope>
 double highest_speed(double low, double high, double distance, Way way, Slope slope_at) {
   if (way(high) <= distance) return high;
   double w = high;
-  for (int i = 0; i < 64 && high - low > 1e-15 * high; ++i) {
+  for (int i = 0; i < kBracketSteps && high - low > 1e-15 * high; ++i) {
     const double excess = way(w) - distance;
     (excess <= 0.0 ? low : high) = w;
     if (std::fabs(excess) <= 1e-15 * distance) break;

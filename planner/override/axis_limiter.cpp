@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "machine/machine.h"
+
 namespace kadr::planner {
 
 double axis_factor(machine::LimiterKind kind, double speed, double most, double band) {

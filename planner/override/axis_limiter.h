@@ -1,7 +1,11 @@
 #pragma once
 #include <span>
 
-#include "machine/machine.h"
+#include "machine/choices.h"
+
+namespace kadr::machine {
+struct MachineModel;
+}
 
 namespace kadr::planner {
 

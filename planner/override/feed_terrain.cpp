@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/machine.h"
+
 namespace kadr::planner {
 namespace {
 

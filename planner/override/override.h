@@ -4,10 +4,16 @@
 #include "planner/laws/feed_plan.h"
 #include "planner/laws/motion_source.h"
 
+namespace kadr::machine {
+struct MachineModel;
+}
+
 /// A plan under the operator's percent: which feed it allows from tick to tick (feed_terrain.h), how the
 /// motion follows it without breaking a limit (feed_tracker.h), and what the axis limiter takes off
 /// (axis_limiter.h).
 namespace kadr::planner {
+
+class Path;
 
 /// Plays a plan under an operator's percent (OverrideSource, override_source.h). `path`, `plan` and `machine`
 /// outlive it.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "machine/base/require.h"
+#include "machine/machine.h"
 #include "planner/laws/tick_shape.h"
 
 namespace kadr::planner {

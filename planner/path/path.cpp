@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "machine/base/numbers.h"
+#include "machine/machine.h"
 
 namespace kadr::planner {
 namespace {

@@ -8,9 +8,14 @@
 #include <variant>
 #include <vector>
 
-#include "gcode/block.h"
-#include "machine/machine.h"
+#include "gcode/block_kind.h"
+#include "machine/base/diagnostic.h"
+#include "machine/infinity.h"
 #include "planner/bezier/path_curve.h"
+
+namespace kadr::machine {
+struct MachineModel;
+}
 
 /// The tool path: segments in the machine's n axes, joined end to end. Geometry only; timing is elsewhere.
 ///

@@ -5,8 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "gcode/block.h"
 #include "machine/base/numbers.h"
 #include "machine/base/require.h"
+#include "machine/machine.h"
 #include "planner/bezier/curve_parts.h"
 #include "planner/path/path_builder.h"
 #include "planner/path/spline_arcs.h"

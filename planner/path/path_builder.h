@@ -6,7 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "machine/base/axes.h"
 #include "planner/path/path.h"
+
+namespace kadr::gcode {
+struct Block;
+}
 
 namespace kadr::planner {
 

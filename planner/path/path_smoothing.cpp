@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 
+#include "gcode/block.h"
+#include "machine/machine.h"
 #include "planner/bezier/corner.h"
 #include "planner/bezier/point_fit.h"
 #include "planner/path/path_builder.h"

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "machine/base/axes.h"
 #include "machine/base/numbers.h"
 
 namespace kadr::planner {
@@ -13,8 +14,6 @@ constexpr int kMostHalvings = 20;
 constexpr int kSamples = 16;
 // samples are no proof between them: the bound on them is kept by a fifth
 constexpr double kSampleShare = 0.8;
-// an arc whose end is nearer to its first tangent than this is a line
-constexpr double kStraight_mm = 1e-9;
 // ends of a pair point along its chord within 60 degrees: then the pair does not wind
 constexpr double kLeastForward = 0.5;
 // beside a cusp no pair fits: pieces this short are lines
@@ -46,7 +45,8 @@ CurvePiece piece_from(Vector point, Vector tangent, Vector to) {
   piece.end_second_mm = to.y;
   piece.length_mm = norm(w);
   const double aside = cross(tangent, w);
-  if (std::fabs(aside) < kStraight_mm) return piece;
+  // an arc whose end is on its first tangent is a line
+  if (std::fabs(aside) < kSamePoint_u) return piece;
   piece.arc = true;
   const double radius = dot(w, w) / (2 * aside);  // signed: > 0 turns counter-clockwise
   piece.center_first_mm = point.x - radius * tangent.y;

@@ -3,13 +3,16 @@
 
 namespace kadr::planner {
 
+/// minimise() ends there at the latest.
+inline constexpr int kMostEvaluations = 100;
+
 /// A place and what a function is there.
 struct Minimum {
   double at = 0, value = 0;
 };
 
 /// Brent's search for a minimum between two places (Brent 1973, chapter 5): parabolas through the three best
-/// points, golden sections where these do not help. At most 100 evaluations; the same ones everywhere, since
+/// points, golden sections where these do not help. At most kMostEvaluations; the same ones everywhere, since
 /// only + - * / and sqrt take part.
 /// @param tolerance  of the place, absolute, > 0
 template <class Function>
@@ -18,7 +21,7 @@ Minimum minimise(Function&& f, double low, double high, double tolerance) {
   double x = low + golden * (high - low), w = x, v = x;
   double fx = f(x), fw = fx, fv = fx;
   double step = 0, before = 0;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < kMostEvaluations; ++i) {
     const double middle = (low + high) / 2;
     if (std::fabs(x - middle) <= 2 * tolerance - (high - low) / 2) break;
     // a parabola through x, w and v, unless it leaves the bracket or shrinks too slowly

@@ -26,7 +26,7 @@ struct DrivenMode {
 
   /// position:  omega, zeta, gain 1
   /// force:     omega r, zeta r, gain r^2,  r = sqrt(1 + m1/m0): a law tuned to omega misses it
-  static DrivenMode of(const Mode& load, Drive drive, double base_mass, double load_mass);
+  static DrivenMode of(const Mode& load, Drive drive, double base_mass_kg, double load_mass_kg);
 };
 
 }  // namespace kadr::planner

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "machine/axis.h"
 #include "machine/base/numbers.h"
 
 namespace kadr::planner {
@@ -39,16 +40,17 @@ struct Quartic {
   }
 };
 
-double motor_stiffness(const machine::AxisModel& axis) {
+double motor_stiffness_N_per_m(const machine::AxisModel& axis) {
   const machine::TwoMassModel& m = axis.plant;
-  if (m.motor == machine::MotorModel::spring) return m.motor_stiffness;
+  if (m.motor == machine::MotorModel::spring) return m.motor_stiffness_N_per_m;
   const double si_per_u = axis.kind == machine::AxisKind::rotary ? kPi / 180 : 1e-3;
-  return m.holding_force * 2 * kPi / (m.tooth_pitch_u * si_per_u);
+  return m.holding_force_N * 2 * kPi / (m.tooth_pitch_u * si_per_u);
 }
 
-Quartic characteristic(const machine::TwoMassModel& m, double motor_stiffness) {
-  const double m0 = m.base_mass, m1 = m.link_mass, k = m.link_stiffness, c = m.link_damping;
-  const double b = m.motor_damping + m.base_friction, km = motor_stiffness;
+Quartic characteristic(const machine::TwoMassModel& m, double motor_stiffness_N_per_m) {
+  const double m0 = m.base_mass_kg, m1 = m.link_mass_kg, k = m.link_stiffness_N_per_m,
+               c = m.link_damping_Ns_per_m;
+  const double b = m.motor_damping_Ns_per_m + m.base_friction_Ns_per_m, km = motor_stiffness_N_per_m;
   return {m0 * m1, m0 * c + (b + c) * m1, m0 * k + b * c + (km + k) * m1, b * k + km * c, km * k};
 }
 
@@ -62,10 +64,11 @@ std::optional<Complex> root_near(const Quartic& q, double omega_rad_s) {
 
 void add_coupled_modes(const machine::AxisModel& axis, std::vector<DrivenMode>& modes) {
   const machine::TwoMassModel& m = axis.plant;
-  const double km = motor_stiffness(axis);
+  const double km = motor_stiffness_N_per_m(axis);
   const Quartic q = characteristic(m, km);
   // without damping: m0 m1 w^4 - (m0 k + (Km + k) m1) w^2 + Km k = 0
-  const double sum = m.base_mass * m.link_stiffness + (km + m.link_stiffness) * m.link_mass;
+  const double sum =
+      m.base_mass_kg * m.link_stiffness_N_per_m + (km + m.link_stiffness_N_per_m) * m.link_mass_kg;
   const double spread = std::sqrt(std::fmax(sum * sum - 4 * q.c4 * q.c0, 0.0));
   const double high = (sum + spread) / (2 * q.c4), low = q.c0 / (q.c4 * high);
   std::optional<Complex> last;
@@ -75,7 +78,7 @@ void add_coupled_modes(const machine::AxisModel& axis, std::vector<DrivenMode>& 
     last = s;
     const double omega = size_of(*s), zeta = -s->re / omega;
     if (!(zeta < kDampedEnough)) continue;
-    const double residue = km * m.link_mass / size_of(q.slope(*s));
+    const double residue = km * m.link_mass_kg / size_of(q.slope(*s));
     modes.push_back({{omega, zeta}, 2 * s->im * residue});
   }
 }
@@ -90,8 +93,8 @@ std::vector<DrivenMode> link_modes(const machine::AxisModel& axis) {
     add_coupled_modes(axis, modes);
     return modes;
   }
-  const double omega = std::sqrt(m.link_stiffness / m.link_mass);
-  const double zeta = m.link_damping / (2 * std::sqrt(m.link_stiffness * m.link_mass));
+  const double omega = std::sqrt(m.link_stiffness_N_per_m / m.link_mass_kg);
+  const double zeta = m.link_damping_Ns_per_m / (2 * std::sqrt(m.link_stiffness_N_per_m * m.link_mass_kg));
   if (zeta < kDampedEnough) modes.push_back({{omega, zeta}, 1});
   return modes;
 }

@@ -1,8 +1,11 @@
 #pragma once
 #include <vector>
 
-#include "machine/machine.h"
 #include "planner/point_to_point/mode.h"
+
+namespace kadr::machine {
+struct AxisModel;
+}
 
 namespace kadr::planner {
 

@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "machine/base/numbers.h"
+#include "machine/machine.h"
+#include "planner/path/path.h"
 #include "planner/point_to_point/builders.h"
 #include "planner/point_to_point/minimise.h"
 #include "planner/point_to_point/residual.h"

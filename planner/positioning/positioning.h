@@ -4,11 +4,16 @@
 #include <string_view>
 #include <vector>
 
-#include "machine/machine.h"
+#include "machine/choices.h"
+#include "machine/infinity.h"
 #include "planner/laws/feed_plan.h"
 #include "planner/limits/limits.h"
 #include "planner/point_to_point/law.h"
 #include "planner/point_to_point/mode.h"
+
+namespace kadr::machine {
+struct MachineModel;
+}
 
 namespace kadr::planner {
 

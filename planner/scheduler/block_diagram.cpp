@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/infinity.h"
+
 namespace kadr::planner {
 namespace {
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "machine/machine.h"
+#include "machine/choices.h"
 #include "planner/limits/ramp.h"
 
 namespace kadr::planner {

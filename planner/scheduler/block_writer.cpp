@@ -1,5 +1,7 @@
 #include "planner/scheduler/block_writer.h"
 
+#include "planner/path/path.h"
+
 namespace kadr::planner {
 
 BlockWriter::BlockWriter(const Path& path, double tau_s, FeedPlan& plan)

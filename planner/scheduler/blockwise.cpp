@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "machine/machine.h"
+#include "planner/path/path.h"
+
 namespace kadr::planner {
 BlockScheduler::BlockScheduler(const Path& path, const PathLimitTable& table,
                                const machine::MachineModel& machine)

@@ -3,8 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/infinity.h"
+#include "planner/path/path.h"
+
 namespace kadr::planner {
 namespace {
+
+/// A guard: halving alone would need 54 steps to the last bit, and Newton helps.
+constexpr int kBracketSteps = 80;
 
 /// Time within a piece at which it has gone `way`: closed form at constant speed, else Newton in a bracket.
 double time_of_way(const JerkPiece& p, double way) {
@@ -14,7 +20,7 @@ double time_of_way(const JerkPiece& p, double way) {
   if (way >= p.way_u(high)) return high;
   const double mean = 0.5 * (p.speed_u_s + p.speed_after_u_s(high));
   double t = std::clamp(way / mean, low, high);
-  for (int i = 0; i < 80; ++i) {
+  for (int i = 0; i < kBracketSteps; ++i) {
     const double excess = p.way_u(t) - way;
     (excess > 0.0 ? high : low) = t;
     if (high - low <= 1e-16 * high) break;

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/infinity.h"
+#include "planner/path/path.h"
 #include "planner/scheduler/run_planner.h"
 
 namespace kadr::planner {

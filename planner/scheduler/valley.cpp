@@ -2,7 +2,9 @@
 #include <cmath>
 
 #include "machine/base/require.h"
+#include "machine/infinity.h"
 #include "planner/limits/range_min.h"
+#include "planner/path/path.h"
 #include "planner/scheduler/run_planner.h"
 
 namespace kadr::planner {
@@ -35,6 +37,8 @@ struct Task {
 constexpr double kWorthwhile = 1.01;
 // speeds closer than this ratio are one level: no ramps between caps that differ by rounding
 constexpr double kSame = 1.0 + 1e-9;
+constexpr int kPeakHalvings = 50;   // of a speed range: to its last bits
+constexpr int kPlaceHalvings = 45;  // of a fraction of a ramp's time, to 3e-14
 constexpr int kLevelRounds = 6;
 constexpr std::size_t kFewPlaces = 4;  // so few are looked at one by one
 constexpr int kValleyRounds = 12;
@@ -283,7 +287,7 @@ struct ValleyPlanner::Impl {
       down = make_ramp(b.v, peak, lowest);
     } else if (m > floor) {
       double high = m;
-      for (int i = 0; i < 50; ++i) {
+      for (int i = 0; i < kPeakHalvings; ++i) {
         const double w = 0.5 * (peak + high);
         const Ramp u = ramp_from(a, w, b);
         const Ramp v = ramp_to(b, w, a);
@@ -428,7 +432,7 @@ struct ValleyPlanner::Impl {
       const double edge = q.v > p.v ? end_of(place) : begin_of(place);
       double low = t0, high = t1;
       double s, v;
-      for (int i = 0; i < 45; ++i) {
+      for (int i = 0; i < kPlaceHalvings; ++i) {
         const double mid = 0.5 * (low + high);
         ramp_at(p, q, limits, mid, s, v);
         (s < edge ? low : high) = mid;

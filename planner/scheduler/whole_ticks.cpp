@@ -7,6 +7,8 @@
 namespace kadr::planner {
 namespace {
 
+// of a speed range: until both ends are neighbours
+constexpr int kPlateauHalvings = 100;
 // relative error of a compensated sum of correctly rounded times
 constexpr double kScaleRounding = 4e-15;
 
@@ -83,7 +85,7 @@ void lower_plateau(std::vector<Element>& run, const Plateau& p, double more_s) {
   const double wanted = shape.time_s(run[p.up].v1_u_s) + more_s;
   double low = std::max({shape.v0, shape.v1, 0.05 * run[p.up].v1_u_s});
   double high = run[p.up].v1_u_s;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < kPlateauHalvings; ++i) {
     const double w = 0.5 * (low + high);
     (shape.time_s(w) >= wanted ? low : high) = w;
   }

@@ -14,7 +14,7 @@ constexpr std::size_t kTold = 16;  ///< nodes from one call of progress to the n
 DynamicProgramme::DynamicProgramme(const LawProblem& problem, DpStepFunction function)
     : problem_(problem), rows_(accel_rows(problem)), step_(function) {}
 
-void DynamicProgramme::Node::set(const LevelRange& r, std::size_t padded) {
+void DynamicProgramme::NodeLevels::set(const LevelRange& r, std::size_t padded) {
   range = r;
   speed.assign(padded, 0.0);
   square.assign(padded, 0.0);

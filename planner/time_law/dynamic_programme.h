@@ -26,7 +26,7 @@ class DynamicProgramme {
   std::uint64_t transitions() const { return transitions_; }         ///< looked at in all runs
 
  private:
-  struct Node {
+  struct NodeLevels {
     std::vector<double> speed, square;
     LevelRange range;
     std::int32_t first = 0, last = 0;  ///< levels that can be reached
@@ -45,7 +45,7 @@ class DynamicProgramme {
   std::vector<std::uint16_t> first_, last_;
   std::vector<std::int32_t> step_first_, step_last_;
   std::vector<double> least_square_, most_square_;
-  Node before_, here_;
+  NodeLevels before_, here_;
   std::vector<std::int32_t> level_;
   std::uint64_t transitions_ = 0;
 };

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "machine/base/numbers.h"
+#include "machine/machine.h"
+#include "planner/path/path.h"
 #include "planner/time_law/certified.h"
 #include "planner/time_law/greedy.h"
 #include "planner/time_law/tube.h"

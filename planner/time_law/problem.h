@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "machine/machine.h"
+#include "machine/infinity.h"
 
 namespace kadr::planner {
 

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "machine/base/require.h"
+#include "machine/machine.h"
+#include "planner/path/path.h"
 
 namespace kadr::planner {
 namespace {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/path/path.h"
+
 namespace kadr::planner {
 
 Stretch state_stretch(const Path& path, const PathLimitTable& table, const Run& run,

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "machine/base/numbers.h"
+#include "machine/machine.h"
+#include "planner/path/path.h"
 #include "planner/verify/verify_blocks.h"
 
 namespace kadr::planner {
@@ -12,6 +14,8 @@ namespace {
 
 using AxisVector = std::array<double, kProgramAxes>;
 
+// of a piece's time: until both ends are neighbours
+constexpr int kTimeHalvings = 70;
 // a curve's ends may miss the path's nodes by the rounding of its powers
 constexpr double kCurveEnd_u = 1e-9;
 
@@ -310,7 +314,7 @@ class Verifier {
 
   double time_of(const JerkPiece& p, double s) const {
     double low = 0.0, high = p.duration_s;
-    for (int i = 0; i < 70; ++i) {
+    for (int i = 0; i < kTimeHalvings; ++i) {
       const double mid = 0.5 * (low + high);
       (at(p, mid).s < s ? low : high) = mid;
     }

@@ -4,7 +4,13 @@
 
 #include "planner/laws/feed_plan.h"
 
+namespace kadr::machine {
+struct MachineModel;
+}
+
 namespace kadr::planner {
+
+class Path;
 
 /// One broken limit found by verify().
 struct Violation {

@@ -56,7 +56,7 @@ void parse(benchmark::State& state) {
     Diagnostics diagnostics;
     gcode::Report report(diagnostics);
     gcode::Names names;
-    gcode::Program program(sources(), 0, gcode::Bounds{}, names, report);
+    gcode::Program program(sources(), 0, gcode::ReadingBounds{}, names, report);
     std::size_t items = 0;
     while (const gcode::Line* line = program.next()) items += line->items.size();
     benchmark::DoNotOptimize(items);

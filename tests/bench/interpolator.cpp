@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "planner/path/path.h"
 #include "tests/emulator/interpolator/interpolator_paths.h"
 
 using namespace kadr;

@@ -7,6 +7,7 @@
 
 #include "emulator/log/pulse_code.h"
 #include "emulator/log/run_log.h"
+#include "machine/machine.h"
 
 /// Encoding and writing of the log: nanoseconds a pulse and a control tick, bytes a pulse and a tick, MB/s.
 namespace {
@@ -101,20 +102,20 @@ void write_log(benchmark::State& state) {
   const std::string path = "bench-log-" + std::to_string(::getpid()) + ".lcmlog";
   RunHeader header;
   header.machine = &machine;
-  const std::vector<plant::AxisState> states(3, {1.5, 2.5, 3.5, 4.5, 5.5});
+  const std::vector<AxisState> states(3, {1.5, 2.5, 3.5, 4.5, 5.5});
   std::int64_t bytes = 0;
   for (auto _ : state) {
     auto log = open_lcm_log({path, ""});
     bool good = log.has_value() && (*log)->begin(header).has_value();
     std::vector<std::int64_t> position(3);
-    planner::TickMotion motion;
+    TickMotion motion;
     TickRecord record;
     record.motion = &motion;
     record.position_steps = &position;
     record.axis = state.range(1) ? &states : nullptr;
     for (const StepBatch& batch : batches) {
       record.tick = motion.tick = batch.tick;
-      for (std::size_t a = 0; a < 3; ++a) position[a] += batch.axis[a].net_steps();
+      for (std::size_t a = 0; a < 3; ++a) position[a] += batch.axis[a].net_steps().value;
       good = good && (*log)->tick(record, batch).has_value();
     }
     RunSummary summary;

@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "gcode/block.h"
 #include "machine/base/numbers.h"
+#include "machine/machine.h"
 #include "planner/planner.h"
 
 // A million short segments: from blocks to path, from path to law.

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "machine/machine.h"
+
 // Plant alone: three axes, control tick 1 ms. "machine_s_per_s" is machine seconds per wall second.
 
 namespace {
@@ -21,14 +23,14 @@ machine::AxisModel make_axis(machine::MotorModel motor, double base_kg, double m
   const double motor_rad_s = kTwoPi * motor_hz, link_rad_s = kTwoPi * link_hz;
   machine::TwoMassModel& m = axis.plant;
   m.motor = motor;
-  m.base_mass = base_kg;
-  m.link_mass = link_kg;
-  m.link_stiffness = link_kg * link_rad_s * link_rad_s;
-  m.link_damping = 2 * 0.02 * link_rad_s * link_kg;
-  m.motor_stiffness = all_kg * motor_rad_s * motor_rad_s;
-  m.motor_damping = 2 * 0.1 * motor_rad_s * all_kg;
+  m.base_mass_kg = base_kg;
+  m.link_mass_kg = link_kg;
+  m.link_stiffness_N_per_m = link_kg * link_rad_s * link_rad_s;
+  m.link_damping_Ns_per_m = 2 * 0.02 * link_rad_s * link_kg;
+  m.motor_stiffness_N_per_m = all_kg * motor_rad_s * motor_rad_s;
+  m.motor_damping_Ns_per_m = 2 * 0.1 * motor_rad_s * all_kg;
   m.tooth_pitch_u = 256 * axis.step_u;
-  m.holding_force = m.motor_stiffness * m.tooth_pitch_u * 1e-3 / kTwoPi;
+  m.holding_force_N = m.motor_stiffness_N_per_m * m.tooth_pitch_u * 1e-3 / kTwoPi;
   return axis;
 }
 

@@ -4,8 +4,10 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "emulator/log/log_reader.h"
 #include "tests/cli/programs.h"
 #include "tests/cli/run_kadr.h"
 
@@ -233,6 +235,31 @@ TEST_CASE("a soft limit that a program leaves is an error of kadr check and an a
   const Finished strict = call({"run", "far.ngc", "--strict"}, scratch.path());
   CHECK(strict.code == 1);
   CHECK(!scratch.has("far.lcmlog"));
+}
+
+TEST_CASE("the summary of a log has the warnings of the program and the answer of kadr run") {
+  const Scratch scratch;
+  scratch.write("far.ngc", "G21 G90\nG1 X100000 F6000\nM2\n");
+  scratch.write("square.ngc", test::kSquare);
+  const auto summary = [&](const std::string& log) {
+    auto reader = kadr::emulator::LogReader::open(scratch.file(log));
+    REQUIRE(reader.has_value());
+    kadr::emulator::LogMessage message;
+    kadr::emulator::RunSummary found;
+    found.outcome = "none";
+    while (reader->next(message))
+      if (const auto* last = std::get_if<kadr::emulator::LogSummary>(&message)) found = last->run;
+    REQUIRE(found.outcome != "none");
+    return found;
+  };
+  const Finished far = call({"run", "far.ngc", "--no-plant", "--until", "20", "--json"}, scratch.path());
+  CHECK(far.code == 3);
+  CHECK(summary("far.lcmlog").exit_code == 3);
+  CHECK(summary("far.lcmlog").warnings == Json::parse(far.out)["diagnostics"].size());
+  CHECK(summary("far.lcmlog").warnings > 0);
+  CHECK(call({"run", "square.ngc", "--no-plant", "-q"}, scratch.path()).code == 0);
+  CHECK(summary("square.lcmlog").exit_code == 0);
+  CHECK(summary("square.lcmlog").warnings == 0);
 }
 
 TEST_CASE("kadr plan prints a row a block, as table, CSV and JSON with the same numbers") {

@@ -7,6 +7,9 @@
 #include "emulator/answers/travel.h"
 #include "emulator/log/alarm_list.h"
 #include "emulator/text/text.h"
+#include "gcode/block.h"
+#include "machine/machine.h"
+#include "planner/path/path_builder.h"
 #include "tests/cli/run_kadr.h"
 
 using namespace kadr;
@@ -49,7 +52,7 @@ RunSummary summary() {
   s.path_error_u = 0.2314;
   s.axis.resize(3);
   s.axis[0].pulses = 912'800;
-  s.axis[0].net_steps = 152'400;
+  s.axis[0].net_steps = Steps{152'400};
   s.axis[0].end_u = 381;
   s.axis[0].min_u = -0.5;
   s.axis[0].max_u = 381;
@@ -65,7 +68,7 @@ RunSummary summary() {
   s.axis[0].peak_following_u = 0.0213;
   s.axis[0].rms_following_u = 0.004;
   s.axis[1].pulses = 312'000;
-  s.axis[1].net_steps = -88'010;
+  s.axis[1].net_steps = Steps{-88'010};
   s.axis[1].end_u = -220.025;
   s.axis[1].min_u = -220.025;
   s.axis[1].peak_feed_u_s = 84.1;

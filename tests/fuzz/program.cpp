@@ -88,7 +88,7 @@ void check_block(const Block& block, const SourceSet& sources) {
 }
 
 /// Text -> tree -> text, and each plain number read by the careful way too.
-void check_tree(const SourceSet& sources, std::uint32_t file, const Bounds& bounds) {
+void check_tree(const SourceSet& sources, std::uint32_t file, const ReadingBounds& bounds) {
   Diagnostics diagnostics;
   Report report(diagnostics);
   Names names;

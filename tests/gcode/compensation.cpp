@@ -7,6 +7,7 @@
 
 #include "gcode/arc.h"
 #include "machine/base/numbers.h"
+#include "planner/path/path.h"
 #include "support.h"
 
 using namespace kadr;

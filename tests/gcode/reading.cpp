@@ -16,7 +16,7 @@ std::string printed_back(const std::string& text) {
   Diagnostics diagnostics;
   Report report(diagnostics);
   Names names;
-  Program program(sources, file, Bounds(), names, report);
+  Program program(sources, file, ReadingBounds(), names, report);
   std::string out;
   while (const Line* line = program.next()) append_source(out, *line);
   return out;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -66,9 +67,11 @@ TEST_CASE("a code has one name and one title of its own") {
   }
 }
 
-TEST_CASE("each file lists its codes in ascending order, within the range that its first line names") {
+TEST_CASE("each file of texts ascends by number, within the range that its first line names") {
+  std::map<std::string, int> number_of;
+  for (const CodeEntry& e : all_codes()) number_of[std::string(e.name)] = static_cast<int>(e.code);
   const std::regex head("^// K(\\d)xxx |^// K(\\d{4}) to K(\\d{4}) ");
-  const std::regex entry("\nKADR_CODE\\((\\d+),");
+  const std::regex entry("\nKADR_TEXT\\((\\w+),");
   std::size_t listed = 0;
   for (const auto& file : fs::directory_iterator(kSource / "machine/base/codes")) {
     const std::string text = contents(file.path());
@@ -80,7 +83,7 @@ TEST_CASE("each file lists its codes in ascending order, within the range that i
     const int most = whole ? least + 999 : std::stoi(range[3]);
     int last = least - 1;
     for (std::sregex_iterator it(text.begin(), text.end(), entry), end; it != end; ++it, ++listed) {
-      const int number = std::stoi((*it)[1]);
+      const int number = number_of.at((*it)[1]);
       CAPTURE(number);
       CHECK(number > last);
       CHECK(number <= most);
@@ -88,6 +91,19 @@ TEST_CASE("each file lists its codes in ascending order, within the range that i
     }
   }
   CHECK(listed == all_codes().size());
+}
+
+TEST_CASE("the texts of the codes are read by codes.cpp alone") {
+  // an edited text must not rebuild what only reports the code
+  for (const char* folder : {"machine", "gcode", "planner", "plant", "emulator", "scenarios"}) {
+    for (const auto& file : fs::recursive_directory_iterator(kSource / folder)) {
+      const std::string path = file.path().string();
+      if ((!path.ends_with(".cpp") && !path.ends_with(".h")) || path.ends_with("machine/base/codes.cpp"))
+        continue;
+      CAPTURE(path);
+      CHECK(contents(file.path()).find("base/code_texts.inc") == std::string::npos);
+    }
+  }
 }
 
 TEST_CASE("every code stands in a golden text of something bad, or in a test of its own") {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "machine/machine.h"
+#include "machine/machine_file.h"
 
 using namespace kadr;
 using namespace kadr::machine;
@@ -103,7 +104,7 @@ TEST_CASE("one setting changes the motor of mill3, since the numbers of the othe
   const auto m = read(std::string(shipped_machine("mill3")), {"axis.X.plant.model=stepper"});
   REQUIRE(m);
   CHECK(m->model.axis[0].plant.motor == MotorModel::stepper);
-  CHECK(m->model.axis[0].plant.holding_force == 1350);
+  CHECK(m->model.axis[0].plant.holding_force_N == 1350);
   CHECK(m->model.axis[1].plant.motor == MotorModel::spring);
 }
 
@@ -199,15 +200,15 @@ class MachineMaker {
   TwoMassModel plant(bool linear) {
     TwoMassModel p;
     p.motor = static_cast<MotorModel>(pick(linear ? 2 : 3));
-    p.base_mass = positive(20);
-    p.link_mass = positive(20);
-    p.link_stiffness = positive(1e6);
-    p.link_damping = positive(100);
-    p.base_friction = pick(2) == 0 ? 0 : positive(10);
-    if (p.motor == MotorModel::spring || pick(2) == 0) p.motor_stiffness = positive(1e7);
-    if (p.motor != MotorModel::rigid) p.motor_damping = positive(1e3);
+    p.base_mass_kg = positive(20);
+    p.link_mass_kg = positive(20);
+    p.link_stiffness_N_per_m = positive(1e6);
+    p.link_damping_Ns_per_m = positive(100);
+    p.base_friction_Ns_per_m = pick(2) == 0 ? 0 : positive(10);
+    if (p.motor == MotorModel::spring || pick(2) == 0) p.motor_stiffness_N_per_m = positive(1e7);
+    if (p.motor != MotorModel::rigid) p.motor_damping_Ns_per_m = positive(1e3);
     if (p.motor == MotorModel::stepper || pick(2) == 0) {
-      p.holding_force = positive(1e3);
+      p.holding_force_N = positive(1e3);
       p.tooth_pitch_u = positive(1);
     }
     return p;

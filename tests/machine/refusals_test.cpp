@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "machine/machine.h"
+#include "machine/machine_file.h"
 #include "tests/support/golden.h"
 
 using namespace kadr;

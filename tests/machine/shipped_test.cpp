@@ -5,6 +5,7 @@
 
 #include "machine/base/numbers.h"
 #include "machine/machine.h"
+#include "machine/machine_file.h"
 
 using namespace kadr;
 using namespace kadr::machine;
@@ -44,12 +45,12 @@ TEST_CASE("mill3 has three linear axes with 400 steps/mm and link resonances of 
     CHECK(axis.step_u == 0.0025);
     REQUIRE(axis.has_plant);
     CHECK(axis.plant.motor == MotorModel::spring);
-    const double link_hz = std::sqrt(axis.plant.link_stiffness / axis.plant.link_mass) / (2 * kPi);
+    const double link_hz = std::sqrt(axis.plant.link_stiffness_N_per_m / axis.plant.link_mass_kg) / (2 * kPi);
     CHECK(link_hz > 30);
     CHECK(link_hz < 80);
     // the linear motor is the stepper for small lags: Km = 2 pi F_hold / pitch, within 1 %
-    const double stiffness_N_m = 2 * kPi * axis.plant.holding_force / (axis.plant.tooth_pitch_u / 1000);
-    CHECK(axis.plant.motor_stiffness == doctest::Approx(stiffness_N_m).epsilon(0.01));
+    const double stiffness_N_m = 2 * kPi * axis.plant.holding_force_N / (axis.plant.tooth_pitch_u / 1000);
+    CHECK(axis.plant.motor_stiffness_N_per_m == doctest::Approx(stiffness_N_m).epsilon(0.01));
   }
 }
 
@@ -77,14 +78,15 @@ TEST_CASE("rig1 has the numbers of paper 001") {
   CHECK(x.max_accel_u_s2 == 1000);
   CHECK(x.max_jerk_u_s3 == kInfinity);
   const TwoMassModel& p = x.plant;
-  CHECK(p.base_mass == 4.5);
-  CHECK(p.link_mass == 1);
-  CHECK(std::sqrt(p.link_stiffness / p.link_mass) == doctest::Approx(100 * kPi / 3).epsilon(1e-15));
-  CHECK(p.link_damping / (2 * std::sqrt(p.link_stiffness * p.link_mass)) ==
+  CHECK(p.base_mass_kg == 4.5);
+  CHECK(p.link_mass_kg == 1);
+  CHECK(std::sqrt(p.link_stiffness_N_per_m / p.link_mass_kg) ==
+        doctest::Approx(100 * kPi / 3).epsilon(1e-15));
+  CHECK(p.link_damping_Ns_per_m / (2 * std::sqrt(p.link_stiffness_N_per_m * p.link_mass_kg)) ==
         doctest::Approx(0.005).epsilon(1e-15));
-  CHECK(p.motor_stiffness == doctest::Approx(5.5 * (100 * kPi) * (100 * kPi)).epsilon(1e-15));
-  CHECK(p.motor_damping == doctest::Approx(0.2 * 100 * kPi * 5.5).epsilon(1e-15));
-  CHECK(p.base_friction == 0);
+  CHECK(p.motor_stiffness_N_per_m == doctest::Approx(5.5 * (100 * kPi) * (100 * kPi)).epsilon(1e-15));
+  CHECK(p.motor_damping_Ns_per_m == doctest::Approx(0.2 * 100 * kPi * 5.5).epsilon(1e-15));
+  CHECK(p.base_friction_Ns_per_m == 0);
 }
 
 TEST_CASE("robot7 has the limits of paper 000: six joints in rad/s and a rail in mm/s") {

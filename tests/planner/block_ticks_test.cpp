@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "machine/machine.h"
 #include "planner/scheduler/block_diagram.h"
 #include "planner_support.h"
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "machine/machine.h"
 #include "planner_support.h"
 
 // Block by block on random programs. Seed and count from KADR_SEED and KADR_COUNT, as in fuzz_test.cpp.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "machine/machine.h"
 #include "verified_plan.h"
 
 // The scheduler of paper 003, a = 2000 mm/s2, j = 40000 mm/s3, tau = 1 ms: each block by itself.

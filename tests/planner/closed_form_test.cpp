@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include "gcode/block.h"
+#include "machine/machine.h"
 #include "verified_plan.h"
 
 // Trapezoidal motion (jerk = inf, whole ticks off) against its closed forms, to 0.05 % and mostly far better.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "gcode/block.h"
+#include "machine/machine.h"
 #include "planner/path/spline_arcs.h"
 #include "planner_support.h"
 

@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include "gcode/block.h"
+#include "machine/machine.h"
 #include "planner/time_law/jerk_motion.h"
 #include "planner/time_law/jerk_plan.h"
 #include "verified_plan.h"

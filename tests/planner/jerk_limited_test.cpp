@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gcode/block.h"
+#include "machine/machine.h"
 #include "verified_plan.h"
 
 // Jerk-limited plans, a = 2000 mm/s2, j = 40000 mm/s3: a ramp by dv <= a^2/j = 100 mm/s lasts 2 sqrt(dv/j).

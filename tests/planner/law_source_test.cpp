@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "machine/machine.h"
 #include "planner_support.h"
 
 namespace kadr::test {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "machine/machine.h"
 #include "planner/override/override_source.h"
 #include "planner/scheduler/pieces.h"
 #include "planner_support.h"

@@ -4,6 +4,8 @@
 #include <functional>
 #include <utility>
 
+#include "gcode/block.h"
+#include "machine/machine.h"
 #include "planner_support.h"
 
 /// The cases of paper 003 by hand: XY, 110 mm/s an axis, a 2000 mm/s2 and jerk 40000 mm/s3 along the path,

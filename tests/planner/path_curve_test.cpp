@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "gcode/block.h"
+#include "machine/machine.h"
 #include "planner/bezier/bezier.h"
 #include "planner/bezier/curve_bounds.h"
 #include "planner/bezier/curve_parts.h"

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "gcode/block.h"
+#include "machine/machine.h"
 #include "planner_support.h"
 
 namespace kadr::test {

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include "machine/machine.h"
 #include "planner/limits/limits.h"
 #include "planner/time_law/path_law.h"
 #include "planner_support.h"

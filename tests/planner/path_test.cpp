@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "gcode/block.h"
 #include "planner_support.h"
 
 namespace kadr::test {

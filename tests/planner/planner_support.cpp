@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "gcode/block.h"
+#include "machine/machine.h"
+
 namespace kadr::test {
 
 machine::MachineModel random_machine(Random& r) {

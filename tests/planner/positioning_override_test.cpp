@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "machine/machine.h"
 #include "planner/point_to_point/residual.h"
 #include "planner/positioning/link_modes.h"
 #include "planner_support.h"
@@ -27,9 +28,9 @@ machine::MachineModel flexible(RapidShape shape) {
   machine::TwoMassModel& p = m.axis[0].plant;
   m.axis[0].has_plant = true;
   p.motor = machine::MotorModel::rigid;
-  p.base_mass = 20;
-  p.link_mass = 4;
-  p.link_stiffness = 4 * (2 * kPi * 20) * (2 * kPi * 20);
+  p.base_mass_kg = 20;
+  p.link_mass_kg = 4;
+  p.link_stiffness_N_per_m = 4 * (2 * kPi * 20) * (2 * kPi * 20);
   return m;
 }
 

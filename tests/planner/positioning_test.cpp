@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 
+#include "machine/machine.h"
 #include "planner/point_to_point/residual.h"
 #include "planner/positioning/link_modes.h"
 #include "planner/positioning/positioning.h"
@@ -30,11 +31,11 @@ machine::MachineModel flexible_machine(RapidShape shape, double zeta = 0.0) {
     machine::TwoMassModel& p = m.axis[c].plant;
     m.axis[c].has_plant = true;
     p.motor = MotorModel::rigid;
-    p.base_mass = 20.0;
-    p.link_mass = 4.0;
+    p.base_mass_kg = 20.0;
+    p.link_mass_kg = 4.0;
     const double w = 2.0 * kPi * hz[c];
-    p.link_stiffness = p.link_mass * w * w;
-    p.link_damping = 2.0 * zeta * p.link_mass * w;
+    p.link_stiffness_N_per_m = p.link_mass_kg * w * w;
+    p.link_damping_Ns_per_m = 2.0 * zeta * p.link_mass_kg * w;
   }
   return m;
 }
@@ -88,15 +89,16 @@ TEST_CASE("a link on a motor's spring rings at an eigenvalue of the coupled syst
     machine::TwoMassModel& p = axis.plant;
     axis.has_plant = true;
     p.motor = MotorModel::spring;
-    p.base_mass = random(1, 30);
-    p.link_mass = random(0.5, 10);
-    p.link_stiffness = p.link_mass * random(1e3, 4e5);
-    p.link_damping = 2 * random(0, 0.05) * std::sqrt(p.link_stiffness * p.link_mass);
-    p.motor_stiffness = p.base_mass * random(3e4, 4e6);
-    p.motor_damping = 2 * random(0, 0.4) * std::sqrt(p.motor_stiffness * p.base_mass);
-    p.base_friction = random(0, 20);
-    const double k = p.link_stiffness, c = p.link_damping, km = p.motor_stiffness,
-                 b = p.motor_damping + p.base_friction, m0 = p.base_mass, m1 = p.link_mass;
+    p.base_mass_kg = random(1, 30);
+    p.link_mass_kg = random(0.5, 10);
+    p.link_stiffness_N_per_m = p.link_mass_kg * random(1e3, 4e5);
+    p.link_damping_Ns_per_m = 2 * random(0, 0.05) * std::sqrt(p.link_stiffness_N_per_m * p.link_mass_kg);
+    p.motor_stiffness_N_per_m = p.base_mass_kg * random(3e4, 4e6);
+    p.motor_damping_Ns_per_m = 2 * random(0, 0.4) * std::sqrt(p.motor_stiffness_N_per_m * p.base_mass_kg);
+    p.base_friction_Ns_per_m = random(0, 20);
+    const double k = p.link_stiffness_N_per_m, c = p.link_damping_Ns_per_m, km = p.motor_stiffness_N_per_m,
+                 b = p.motor_damping_Ns_per_m + p.base_friction_Ns_per_m, m0 = p.base_mass_kg,
+                 m1 = p.link_mass_kg;
     Eigen::Matrix4d a;
     a << 0, 1, 0, 0,                        //
         -km / m0, -b / m0, k / m0, c / m0,  //
@@ -131,11 +133,11 @@ TEST_CASE("a link on a motor's spring rings at an eigenvalue of the coupled syst
 TEST_CASE("a stepper's magnetic spring counts as a motor's spring where it stands") {
   machine::AxisModel axis = flexible_machine(RapidShape::zv).axis[0];
   axis.plant.motor = MotorModel::stepper;
-  axis.plant.holding_force = 400;
+  axis.plant.holding_force_N = 400;
   axis.plant.tooth_pitch_u = 2;
   const std::vector<DrivenMode> stepper = link_modes(axis);
   axis.plant.motor = MotorModel::spring;
-  axis.plant.motor_stiffness = 400 * 2 * kPi / 2e-3;  // N/m
+  axis.plant.motor_stiffness_N_per_m = 400 * 2 * kPi / 2e-3;  // N/m
   const std::vector<DrivenMode> spring = link_modes(axis);
   REQUIRE(stepper.size() == spring.size());
   REQUIRE(!spring.empty());

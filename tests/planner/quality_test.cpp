@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "machine/machine.h"
 #include "planner_support.h"
 
 // How good the plans are: against a lower bound that no planner can beat, and against the optimum without

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "machine/machine.h"
 #include "planner/scheduler/block_diagram.h"
 #include "verified_plan.h"
 

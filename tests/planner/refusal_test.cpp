@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
 
 #include "../support/golden.h"
+#include "gcode/block.h"
 #include "machine/base/diagnostic.h"
+#include "machine/machine.h"
 #include "planner_support.h"
 
 // What can't be planned: code, place, measured and allowed value, help.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "gcode/block.h"
+#include "machine/machine.h"
 #include "planner/bezier/corner.h"
 #include "planner/bezier/point_fit.h"
 #include "verified_plan.h"

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "machine/machine.h"
 #include "planner/time_law/greedy.h"
 #include "planner/time_law/spline_fit.h"
 #include "planner_support.h"

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include "gcode/block.h"
+#include "machine/machine.h"
 #include "planner_support.h"
 
 namespace kadr::test {

@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "gcode/block.h"
+#include "machine/machine.h"
 #include "verified_plan.h"
 
 // The judge itself: a sound plan passes, and each kind of damage is found by name.

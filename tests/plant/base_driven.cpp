@@ -114,10 +114,10 @@ TEST_CASE("the base-driven link matches 28 closed-form responses to 1e-8, zeros 
     axis.step_u = 0.01;
     axis.has_plant = true;
     axis.plant.motor = machine::MotorModel::rigid;
-    axis.plant.base_mass = 4.5;
-    axis.plant.link_mass = 2;
-    axis.plant.link_stiffness = 2 * c.w * c.w;
-    axis.plant.link_damping = 2 * c.zeta * c.w * 2;
+    axis.plant.base_mass_kg = 4.5;
+    axis.plant.link_mass_kg = 2;
+    axis.plant.link_stiffness_N_per_m = 2 * c.w * c.w;
+    axis.plant.link_damping_Ns_per_m = 2 * c.zeta * c.w * 2;
     model.axis = {axis};
     Plant plant(model);
 
@@ -163,9 +163,9 @@ TEST_CASE("a corner taken without a stop kicks the link by the jump of the base'
   machine::AxisModel axis;
   axis.step_u = 0.01;
   axis.has_plant = true;
-  axis.plant.base_mass = 3;
-  axis.plant.link_mass = 1;
-  axis.plant.link_stiffness = 1e4;
+  axis.plant.base_mass_kg = 3;
+  axis.plant.link_mass_kg = 1;
+  axis.plant.link_stiffness_N_per_m = 1e4;
   model.axis = {axis};
   Plant plant(model, {.energy = true});
   StepBatch batch;
@@ -175,7 +175,7 @@ TEST_CASE("a corner taken without a stop kicks the link by the jump of the base'
   CHECK(plant.state()[0].link_u == doctest::Approx(-0.019966683329365628).epsilon(1e-12));
   CHECK(plant.state()[0].link_u_s == doctest::Approx(-20 * 0.99500416527802577).epsilon(1e-12));
   // force that holds the base's speed: -k x1 = 0.19966683 N
-  CHECK(plant.state()[0].motor_force == doctest::Approx(0.19966683329365628).epsilon(1e-12));
+  CHECK(plant.state()[0].motor_force_N == doctest::Approx(0.19966683329365628).epsilon(1e-12));
   // the kick costs m0 v^2/2 = 0.5 * 3 * 0.02^2 = 6e-4 J; the force then adds, by the integral of
   // k*0.2e-3*sin(100 t) times 0.02 m/s, 2 * 0.02/100 * (1 - cos 0.1) = 1.9983e-6 J
   const EnergyBalance e = plant.energy(0);

@@ -41,10 +41,10 @@ std::vector<StepBatch> whole_number_train(const machine::MachineModel& model, st
       }
       const double step_u = model.axis[a].step_u;
       pulses.command.position_begin_u = static_cast<double>(node) * step_u;
-      node += pulses.net_steps();
+      node += pulses.net_steps().value;
       pulses.command.position_end_u = static_cast<double>(node) * step_u;
       pulses.command.speed_begin_u_s = pulses.command.speed_end_u_s =
-          static_cast<double>(pulses.net_steps()) * step_u * 1000;
+          static_cast<double>(pulses.net_steps().value) * step_u * 1000;
     }
   }
   return batches;
@@ -65,7 +65,7 @@ std::string states_hash(MotorModel motor, IntegratorKind kind) {
     const auto moved = plant.advance(batch);
     if (!moved) FAIL(std::string(moved.error().flag + " " + moved.error().detail));
     for (const AxisState& s : plant.state()) {
-      const double values[] = {s.base_u, s.base_u_s, s.link_u, s.link_u_s, s.motor_force};
+      const double values[] = {s.base_u, s.base_u_s, s.link_u, s.link_u_s, s.motor_force_N};
       hash.bytes(values, sizeof values);
     }
   }

@@ -90,7 +90,7 @@ TEST_CASE("without damping a stopped axis keeps its energy: nothing dissipated, 
     // what the motor's own spring holds is the motor's: it belongs to the total that is kept
     const double lag_m = (plant.state()[0].base_u - 3 * 0.0015625) * 1e-3;
     const double total_J =
-        e.kinetic_J + e.spring_J + 0.5 * model.axis[0].plant.motor_stiffness * lag_m * lag_m;
+        e.kinetic_J + e.spring_J + 0.5 * model.axis[0].plant.motor_stiffness_N_per_m * lag_m * lag_m;
     low_J = std::min(low_J, total_J);
     high_J = std::max(high_J, total_J);
   }

@@ -60,10 +60,10 @@ TEST_CASE("masses, stiffnesses and tolerances that are zero or not finite are re
   for (int kind = 0; kind < 6; ++kind) {
     auto model = make_machine({AxisRecipe{}});
     machine::TwoMassModel& m = model.axis[0].plant;
-    if (kind == 0) m.base_mass = 0;
-    if (kind == 1) m.link_mass = 0;
-    if (kind == 2) m.motor_stiffness = 0;
-    if (kind == 3) m.link_stiffness = std::nan("");
+    if (kind == 0) m.base_mass_kg = 0;
+    if (kind == 1) m.link_mass_kg = 0;
+    if (kind == 2) m.motor_stiffness_N_per_m = 0;
+    if (kind == 3) m.link_stiffness_N_per_m = std::nan("");
     if (kind == 4) model.plant.tolerance_um = 0;
     if (kind == 5) model.clock.control_tick = {70000};
     Plant plant(model);

@@ -30,7 +30,7 @@ double largest_error_um(machine::MachineModel model, IntegratorKind kind,
     }
     for (std::size_t a = 0; a < model.axis.size(); ++a) {
       const machine::AxisModel& axis = model.axis[a];
-      node[a] += batches[k].axis[a].net_steps();
+      node[a] += batches[k].axis[a].net_steps().value;
       const double milli_per_m =
           axis.kind == machine::AxisKind::rotary ? 180e3 / 3.14159265358979323846 : 1e6;
       const AxisState& state = plant.state()[a];
@@ -219,7 +219,7 @@ TEST_CASE("an axis at rest stays exactly at rest, however long") {
     CHECK(s.base_u == 7.3);
     CHECK(s.base_u_s == 0);
     CHECK(s.link_u == 0);
-    CHECK(s.motor_force == 0);
+    CHECK(s.motor_force_N == 0);
   }
 }
 

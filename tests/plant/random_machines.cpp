@@ -72,7 +72,7 @@ TEST_CASE("random spring machines: smooth within 1e-6 um of the oracle, the orac
       REQUIRE(smooth.advance(batches[k]));
       REQUIRE(oracle.advance(batches[k]));
       for (std::size_t a = 0; a < model.axis.size(); ++a) {
-        node[a] += batches[k].axis[a].net_steps();
+        node[a] += batches[k].axis[a].net_steps().value;
         const AxisState &s = smooth.state()[a], &o = oracle.state()[a];
         const bool rotary = model.axis[a].kind == machine::AxisKind::rotary;
         const double milli = rotary ? 180e3 / 3.14159265358979323846 : 1e6;

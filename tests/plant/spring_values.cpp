@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "machine/machine.h"
 #include "plant/matrix.h"
 #include "plant/plant.h"
 
@@ -23,12 +24,12 @@ machine::MachineModel rig() {
   axis.step_u = 0.01;
   axis.has_plant = true;
   axis.plant = {.motor = machine::MotorModel::spring,
-                .base_mass = 4.5,
-                .link_mass = 1,
-                .link_stiffness = kSpringW * kSpringW,
-                .link_damping = 2 * 0.005 * kSpringW,
-                .motor_stiffness = 5.5 * (100 * kSpringPi_) * (100 * kSpringPi_),
-                .motor_damping = 0.2 * 100 * kSpringPi_ * 5.5};
+                .base_mass_kg = 4.5,
+                .link_mass_kg = 1,
+                .link_stiffness_N_per_m = kSpringW * kSpringW,
+                .link_damping_Ns_per_m = 2 * 0.005 * kSpringW,
+                .motor_stiffness_N_per_m = 5.5 * (100 * kSpringPi_) * (100 * kSpringPi_),
+                .motor_damping_Ns_per_m = 0.2 * 100 * kSpringPi_ * 5.5};
   machine::MachineModel model;
   model.axis = {axis};
   return model;
@@ -80,7 +81,7 @@ TEST_CASE(
     const double lag_m = static_cast<double>(std::min(e.steps, e.ticks)) * 1e-5 - e.x0;
     const double force_N =
         5.5 * (100 * kSpringPi_) * (100 * kSpringPi_) * lag_m - 0.2 * 100 * kSpringPi_ * 5.5 * e.v0;
-    CHECK(s.motor_force == doctest::Approx(force_N).epsilon(1e-8));
+    CHECK(s.motor_force_N == doctest::Approx(force_N).epsilon(1e-8));
   }
 }
 

@@ -30,7 +30,7 @@ Comparison compare(machine::MachineModel model, IntegratorKind kind, const std::
   std::int64_t node = 0;
   for (std::size_t k = 0; k < batches.size(); ++k) {
     REQUIRE(plant.advance(batches[k]));
-    node += batches[k].axis[0].net_steps();
+    node += batches[k].axis[0].net_steps().value;
     const AxisState& s = plant.state()[0];
     const double lag_um = (s.base_u - static_cast<double>(node) * model.axis[0].step_u) * 1e3;
     c.largest_um = std::max(c.largest_um, std::fabs(lag_um - static_cast<double>(exact[k].lag_m) * 1e6));
@@ -121,7 +121,7 @@ TEST_CASE(
         for (int i = 0; k < 20 && i < 100; ++i)
           batch.axis[0].offset_ticks.push_back(static_cast<std::uint16_t>(100 * i));
         REQUIRE(plant.advance(batch));
-        node += batch.axis[0].net_steps();
+        node += batch.axis[0].net_steps().value;
         for (const LostSteps& slip : plant.lost_steps()) {
           CHECK(slip.axis == 0);
           CHECK(slip.tick.value == k);
@@ -137,7 +137,7 @@ TEST_CASE(
         // after 4 s it rests in the tooth where it settled
         CHECK(plant.state()[0].base_u ==
               doctest::Approx(static_cast<double>(node + lost) * 0.0015625).epsilon(1e-9));
-        CHECK(std::fabs(plant.state()[0].motor_force) < 1e-6);
+        CHECK(std::fabs(plant.state()[0].motor_force_N) < 1e-6);
       }
     }
   }
@@ -148,8 +148,8 @@ TEST_CASE("nothing is lost while the lag stays below half a tooth, and a lag jus
   // degrees. Its motor pulls forward below 180 degrees and back above.
   for (int steps : {31, 33}) {
     auto model = make_machine({stepper()});
-    model.axis[0].plant.motor_damping =
-        40 * model.axis[0].plant.motor_damping;  // no swing past the next tooth
+    model.axis[0].plant.motor_damping_Ns_per_m =
+        40 * model.axis[0].plant.motor_damping_Ns_per_m;  // no swing past the next tooth
     Plant plant(model);
     StepBatch batch;
     batch.axis.resize(1);

@@ -104,19 +104,19 @@ AxisModel make_axis(const AxisRecipe& r) {
   axis.has_plant = true;
   machine::TwoMassModel& m = axis.plant;
   m.motor = r.motor;
-  m.base_mass = r.base_kg;
-  m.link_mass = r.link_kg;
+  m.base_mass_kg = r.base_kg;
+  m.link_mass_kg = r.link_kg;
   const double link = 2 * kPi_ * r.link_hz, motor = 2 * kPi_ * r.motor_hz, all_kg = r.base_kg + r.link_kg;
-  m.link_stiffness = r.link_kg * link * link;
-  m.link_damping = 2 * r.link_ratio * link * r.link_kg;
-  m.motor_stiffness = all_kg * motor * motor;
+  m.link_stiffness_N_per_m = r.link_kg * link * link;
+  m.link_damping_Ns_per_m = 2 * r.link_ratio * link * r.link_kg;
+  m.motor_stiffness_N_per_m = all_kg * motor * motor;
   // the losses shared between motor and guide
-  m.motor_damping = 1.5 * r.motor_ratio * motor * all_kg;
-  m.base_friction = 0.5 * r.motor_ratio * motor * all_kg;
+  m.motor_damping_Ns_per_m = 1.5 * r.motor_ratio * motor * all_kg;
+  m.base_friction_Ns_per_m = 0.5 * r.motor_ratio * motor * all_kg;
   m.tooth_pitch_u = r.pitch_steps * r.step_u;
   const double metre_per_unit = r.kind == machine::AxisKind::rotary ? kPi_ / 180 : 1e-3;
   // the same stiffness at small angles: F_hold 2 pi / pitch = Km
-  m.holding_force = m.motor_stiffness * m.tooth_pitch_u * metre_per_unit / (2 * kPi_);
+  m.holding_force_N = m.motor_stiffness_N_per_m * m.tooth_pitch_u * metre_per_unit / (2 * kPi_);
   return axis;
 }
 
@@ -137,15 +137,15 @@ struct LongEquations {
   machine::TwoMassModel m;
   long double pitch_m;
   Long4 slope(const Long4& y) const {
-    long double force = -m.motor_damping * y[1];
+    long double force = -m.motor_damping_Ns_per_m * y[1];
     if (m.motor == MotorModel::stepper) {
-      force -= m.holding_force * std::sin(2 * 3.14159265358979323846264338L * y[0] / pitch_m);
+      force -= m.holding_force_N * std::sin(2 * 3.14159265358979323846264338L * y[0] / pitch_m);
     } else {
-      force -= m.motor_stiffness * y[0];
+      force -= m.motor_stiffness_N_per_m * y[0];
     }
-    const long double link_force = m.link_stiffness * y[2] + m.link_damping * y[3];
-    const long double base = (force - m.base_friction * y[1] + link_force) / m.base_mass;
-    return {y[1], base, y[3], -base - link_force / m.link_mass};
+    const long double link_force = m.link_stiffness_N_per_m * y[2] + m.link_damping_Ns_per_m * y[3];
+    const long double base = (force - m.base_friction_Ns_per_m * y[1] + link_force) / m.base_mass_kg;
+    return {y[1], base, y[3], -base - link_force / m.link_mass_kg};
   }
 };
 
@@ -191,10 +191,11 @@ std::vector<ExactState> exact_states(const AxisModel& axis, const machine::Clock
       axis.kind == machine::AxisKind::rotary ? 3.14159265358979323846264338L / 180 : 1e-3L;
   const LongEquations eq{axis.plant, axis.plant.tooth_pitch_u * metre_per_unit};
   const machine::TwoMassModel& m = axis.plant;
-  const long double fastest = std::sqrt(m.motor_stiffness / m.base_mass) +
-                              std::sqrt(m.link_stiffness * (1 / m.base_mass + 1 / m.link_mass)) +
-                              (m.motor_damping + m.base_friction + m.link_damping) / m.base_mass +
-                              m.link_damping / m.link_mass;
+  const long double fastest =
+      std::sqrt(m.motor_stiffness_N_per_m / m.base_mass_kg) +
+      std::sqrt(m.link_stiffness_N_per_m * (1 / m.base_mass_kg + 1 / m.link_mass_kg)) +
+      (m.motor_damping_Ns_per_m + m.base_friction_Ns_per_m + m.link_damping_Ns_per_m) / m.base_mass_kg +
+      m.link_damping_Ns_per_m / m.link_mass_kg;
   const long double base_s = 1.0L / clock.base_hz;
   Long4 y{};
   std::vector<ExactState> states;

@@ -11,9 +11,9 @@ class RecordingLog final : public emulator::RunLog {
  public:
   struct Tick {
     emulator::TickRecord record;
-    planner::TickMotion motion;
+    TickMotion motion;
     std::vector<std::int64_t> steps;
-    std::vector<plant::AxisState> axis;
+    std::vector<AxisState> axis;
     StepBatch batch;
   };
   std::vector<emulator::BlockRecord> blocks;
@@ -46,7 +46,7 @@ class RecordingLog final : public emulator::RunLog {
   }
   Done diagnostic(const Diagnostic&, Ticks) override { return {}; }
   Done tick(const emulator::TickRecord& r, const StepBatch& batch) override {
-    Tick t{r, *r.motion, *r.position_steps, r.axis ? *r.axis : std::vector<plant::AxisState>{}, batch};
+    Tick t{r, *r.motion, *r.position_steps, r.axis ? *r.axis : std::vector<AxisState>{}, batch};
     ticks.push_back(std::move(t));
     return {};
   }

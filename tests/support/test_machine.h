@@ -19,13 +19,13 @@ inline machine::MachineModel test_machine(int axes = 3) {
     a.junction_accel_u_s2 = 2000;
     a.has_plant = true;
     a.plant.motor = machine::MotorModel::spring;
-    a.plant.base_mass = 4.5;
-    a.plant.link_mass = 1.0;
-    a.plant.link_stiffness = 10966.227112321508;  // (100 pi/3)^2
-    a.plant.link_damping = 1.0471975511965976;    // 2 * 0.005 * (100 pi/3)
-    a.plant.motor_stiffness = 542828.2420599128;  // 5.5 * (100 pi)^2
-    a.plant.motor_damping = 345.5751918948772;    // 5.5 * 0.2 * 100 pi
-    a.plant.holding_force = 500;
+    a.plant.base_mass_kg = 4.5;
+    a.plant.link_mass_kg = 1.0;
+    a.plant.link_stiffness_N_per_m = 10966.227112321508;  // (100 pi/3)^2
+    a.plant.link_damping_Ns_per_m = 1.0471975511965976;   // 2 * 0.005 * (100 pi/3)
+    a.plant.motor_stiffness_N_per_m = 542828.2420599128;  // 5.5 * (100 pi)^2
+    a.plant.motor_damping_Ns_per_m = 345.5751918948772;   // 5.5 * 0.2 * 100 pi
+    a.plant.holding_force_N = 500;
     a.plant.tooth_pitch_u = 0.4;
     m.axis.push_back(a);
   }

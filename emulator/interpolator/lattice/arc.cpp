@@ -4,7 +4,7 @@
 
 namespace kadr::emulator::lattice {
 
-int quadrant_of(Node n, Turn turn) {
+int quadrant_of(PlaneNode n, Turn turn) {
   if (turn == Turn::ccw)
     return n.x > 0 && n.y >= 0 ? 0 : n.x <= 0 && n.y > 0 ? 1 : n.x < 0 && n.y <= 0 ? 2 : 3;
   return n.x >= 0 && n.y > 0 ? 0 : n.x < 0 && n.y >= 0 ? 1 : n.x <= 0 && n.y < 0 ? 2 : 3;
@@ -118,7 +118,7 @@ class RuleArc : public Stepper {
 
   ArcRule rule_;
   Turn turn_;
-  Node node_, end_;
+  PlaneNode node_, end_;
   int quadrant_;
   int quadrants_left_ = 0;
   std::int64_t f_ = 0, slots_left_ = 0;
@@ -168,7 +168,7 @@ class DdaArc : public Stepper {
 
   bool sequential_;
   int way_;
-  Node node_;
+  PlaneNode node_;
   std::int64_t modulus_ = 1, sum_x_ = 0, sum_y_ = 0, left_ = 0;
 };
 
@@ -191,7 +191,7 @@ class ChordArc : public Stepper {
  private:
   void begin_chord() {
     ++chord_;
-    Node to = arc_.end;
+    PlaneNode to = arc_.end;
     if (chord_ < chords_) {
       const double angle = (arc_.turn == Turn::ccw ? 1 : -1) * sweep_rad_ * static_cast<double>(chord_) /
                            static_cast<double>(chords_);
@@ -204,7 +204,7 @@ class ChordArc : public Stepper {
   }
 
   ArcCurve arc_;
-  Node node_;  // end of the chord
+  PlaneNode node_;  // end of the chord
   double sweep_rad_ = 0;
   std::int64_t chords_ = 0, chord_ = 0;
   MadeStepper line_;

@@ -58,7 +58,7 @@ class PrintedHalfStepArc : public Stepper {
   }
 
  private:
-  Node node_;
+  PlaneNode node_;
   Signs s_;
   std::int64_t left_, f_ = 0;
   bool x_inward_ = true;

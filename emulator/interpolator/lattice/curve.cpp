@@ -13,7 +13,7 @@ std::int64_t nearest_x(const ParabolaCurve& parabola, std::int64_t y) {
   return parabola.p > 0 ? x : -x;
 }
 
-Point point(Node node) { return {node.x, node.y}; }
+Point point(PlaneNode node) { return {node.x, node.y}; }
 
 }  // namespace
 
@@ -93,8 +93,8 @@ ImplicitCurve ellipse(std::int64_t a, std::int64_t b, Turn turn) {
 }
 
 ImplicitCurve implicit_of(const ParabolaCurve& parabola) {
-  const Node begin = {nearest_x(parabola, parabola.y_begin), parabola.y_begin};
-  const Node end = {nearest_x(parabola, parabola.y_end), parabola.y_end};
+  const PlaneNode begin = {nearest_x(parabola, parabola.y_begin), parabola.y_begin};
+  const PlaneNode end = {nearest_x(parabola, parabola.y_end), parabola.y_end};
   // F < 0 within the arms: to the left of one who comes down the arm of p > 0
   const bool down = parabola.y_end < parabola.y_begin;
   return {Polynomial({{1, 0, 2}, {-2 * parabola.p, 1, 0}}), begin, end, down == (parabola.p > 0) ? 1 : -1};

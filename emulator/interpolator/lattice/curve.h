@@ -16,8 +16,8 @@ enum class Turn : std::uint8_t { ccw, cw };
 
 /// About the origin, from begin to end; R^2 = |begin|^2. Where end is begin: a full turn.
 struct ArcCurve {
-  Node begin;
-  Node end;
+  PlaneNode begin;
+  PlaneNode end;
   Turn turn = Turn::ccw;
 };
 
@@ -57,8 +57,8 @@ class Polynomial {
 /// F(x, y) = 0 from begin to end; where end is begin, once around.
 struct ImplicitCurve {
   Polynomial f;
-  Node begin;
-  Node end;
+  PlaneNode begin;
+  PlaneNode end;
   int side = 1;  ///< +1: F < 0 lies to the left of travel, -1: to the right
 };
 

@@ -62,14 +62,14 @@ class RuleCurve : public Stepper {
   CurveRule rule_;
   ImplicitCurve curve_;
   Polynomial fx_, fy_;
-  Node node_;
+  PlaneNode node_;
   std::int64_t reach_;
   bool begun_ = false;
 };
 
 }  // namespace
 
-Ahead ahead_of(const Polynomial& fx, const Polynomial& fy, int side, Node node) {
+Ahead ahead_of(const Polynomial& fx, const Polynomial& fy, int side, PlaneNode node) {
   const std::int64_t x2 = 2 * node.x, y2 = 2 * node.y;
   int gx = sign_of(fx.doubled(x2, y2));
   const int gy = sign_of(fy.doubled(x2, y2));

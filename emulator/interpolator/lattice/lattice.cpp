@@ -136,7 +136,7 @@ Refusal check(const LineCurve& line, Method) {
 Refusal check(const ArcCurve& arc, Method method) {
   if (std::max(largest({arc.begin.x, arc.begin.y}), largest({arc.end.x, arc.end.y})) > kMostPlane)
     return Refusal::range;
-  if (arc.begin == Node{}) return Refusal::no_length;
+  if (arc.begin == PlaneNode{}) return Refusal::no_length;
   if (!on_circle(arc)) return Refusal::off_curve;
   if (method != Method::printed_half_step) return Refusal::none;
   const Signs s = signs_of(quadrant_of(arc.begin, arc.turn), arc.turn);

@@ -109,7 +109,7 @@ class Diagonal : public Stepper {
   Lengths at_;
   std::int64_t left_;
   Point v_{};
-  Node done_;
+  PlaneNode done_;
 };
 
 /// The signs of F at (x + 1, y + 1/2) and (x + 1/2, y + 1), twice: the diagonal where the line passes
@@ -142,7 +142,7 @@ class ExtraPoints : public Stepper {
  private:
   Lengths at_;
   std::int64_t f_ = 0;
-  Node done_;
+  PlaneNode done_;
 };
 
 class Dda : public Stepper {

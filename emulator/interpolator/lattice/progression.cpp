@@ -48,7 +48,7 @@ class ProgressionParabola : public Stepper {
   std::int64_t p_;
   int sy_, sx_ = 1;
   std::int64_t x_ = 0, y_;
-  Node end_;
+  PlaneNode end_;
   std::int64_t f_ = 0, odd_ = 0;
 };
 

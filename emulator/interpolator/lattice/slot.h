@@ -14,10 +14,10 @@ __extension__ typedef __int128 Wide;
 using Point = std::array<std::int64_t, kMostAxes>;  ///< a lattice node by axis; axes beyond the curve's are 0
 
 /// A node of a plane curve.
-struct Node {
+struct PlaneNode {
   std::int64_t x = 0;
   std::int64_t y = 0;
-  constexpr bool operator==(const Node&) const = default;
+  constexpr bool operator==(const PlaneNode&) const = default;
 };
 
 constexpr int sign_of(Wide value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }

@@ -38,7 +38,7 @@ struct Ahead {
   int sx, sy;
   bool x_lowers;  ///< a step of X lowers F
 };
-Ahead ahead_of(const Polynomial& fx, const Polynomial& fy, int side, Node node);
+Ahead ahead_of(const Polynomial& fx, const Polynomial& fy, int side, PlaneNode node);
 /// y^2 = 2px by the odd numbers: exact, and the half-step path.
 MadeStepper progression_parabola(const ParabolaCurve& parabola);
 /// x(y) by Newton's forward differences in fixed point.
@@ -59,7 +59,7 @@ MadeStepper magnitude_line(const LineCurve& line);
 MadeStepper printed_half_step_arc(const ArcCurve& arc);
 
 /// Quadrants of a travel, half open in its direction: a node on an axis belongs to the one it enters.
-int quadrant_of(Node node, Turn turn);
+int quadrant_of(PlaneNode node, Turn turn);
 struct Signs {
   int x, y;
 };

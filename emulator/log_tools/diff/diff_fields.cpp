@@ -61,7 +61,7 @@ constexpr std::array kAxisFields = {
     LogField<AxisAt>{"link_u_s", Unit::axis_speed,
                      [](const AxisAt& t) -> FieldValue { return t.axis.link_u_s[t.index]; }, Key::link_rate},
     LogField<AxisAt>{"motor_force", Unit::force,
-                     [](const AxisAt& t) -> FieldValue { return t.axis.motor_force[t.index]; }, Key::force},
+                     [](const AxisAt& t) -> FieldValue { return t.axis.motor_force_N[t.index]; }, Key::force},
 };
 
 constexpr std::array kEventFields = {
@@ -108,6 +108,12 @@ constexpr std::array kBlockFields = {
                           [](const BlockRecord& b) -> FieldValue { return b.planned_s; }},
     LogField<BlockRecord>{"limited_by", Unit::none,
                           [](const BlockRecord& b) -> FieldValue { return b.limited_by; }},
+    LogField<BlockRecord>{"entry_u_s", Unit::path_speed,
+                          [](const BlockRecord& b) -> FieldValue { return b.entry_u_s; }},
+    LogField<BlockRecord>{"planned_entry_u_s", Unit::path_speed,
+                          [](const BlockRecord& b) -> FieldValue { return b.planned_entry_u_s; }},
+    LogField<BlockRecord>{"deferred_ticks", Unit::none,
+                          [](const BlockRecord& b) -> FieldValue { return b.deferred_ticks.value; }},
 };
 
 constexpr std::array kDiagnosticFields = {
@@ -150,12 +156,12 @@ constexpr std::array kAxisSummaryFields = {
     LogField<AxisSummary>{"axis_pulses", Unit::none,
                           [](const AxisSummary& a) -> FieldValue { return a.pulses; }},
     LogField<AxisSummary>{"net_steps", Unit::none,
-                          [](const AxisSummary& a) -> FieldValue { return a.net_steps; }},
+                          [](const AxisSummary& a) -> FieldValue { return a.net_steps.value; }},
     LogField<AxisSummary>{"end_steps", Unit::none,
-                          [](const AxisSummary& a) -> FieldValue { return a.end_steps; }},
+                          [](const AxisSummary& a) -> FieldValue { return a.end_steps.value; }},
     LogField<AxisSummary>{"end_u", Unit::axis, [](const AxisSummary& a) -> FieldValue { return a.end_u; }},
     LogField<AxisSummary>{"lost_steps", Unit::none,
-                          [](const AxisSummary& a) -> FieldValue { return a.lost_steps; }},
+                          [](const AxisSummary& a) -> FieldValue { return a.lost_steps.value; }},
 };
 
 constexpr std::array<std::string_view, 3> kStepFields = {"pulses", "offset_ticks", "sign"};

@@ -49,7 +49,7 @@ struct LogSamples::Impl {
   /// Rest between control ticks that the log skips.
   void skip_gap() {
     if (context.frame == nullptr || now.control_tick == before.control_tick + 1) return;
-    for (AxisMotion& m : context.axis) m = {m.command_u, 0, 0, 0};
+    for (CommandedAxis& m : context.axis) m = {m.command_u, 0, 0, 0};
   }
 
   void take_all() {

@@ -145,7 +145,7 @@ void add_axis(Table& table, const LogHeader& header, std::size_t a, bool plant, 
   table.real(name + "vibration", small,
              [a](const TickContext& c) { return 1000 * c.ticks().axis[a].link_u[c.at()]; });
   table.real(name + "motor_force", unit == "deg" ? "N m" : "N",
-             [a](const TickContext& c) { return c.ticks().axis[a].motor_force[c.at()]; });
+             [a](const TickContext& c) { return c.ticks().axis[a].motor_force_N[c.at()]; });
 }
 
 }  // namespace
@@ -170,7 +170,7 @@ void advance(TickContext& c, const LogFrame& frame, double tau_s) {
   c.frame = &frame;
   c.feed_jerk_u_s3 = (frame.ticks->accel_u_s2[i] - accel_before) / tau_s;
   for (std::size_t a = 0; a < c.axis.size(); ++a) {
-    AxisMotion& m = c.axis[a];
+    CommandedAxis& m = c.axis[a];
     const double command_u = frame.ticks->axis[a].command_u[i];
     const double speed = (command_u - m.command_u) / tau_s, accel = (speed - m.speed_u_s) / tau_s;
     m = {command_u, speed, accel, (accel - m.accel_u_s2) / tau_s};

@@ -9,7 +9,7 @@
 namespace kadr::emulator {
 
 /// How one axis moves, from the positions of successive control ticks: means over the tick that ended.
-struct AxisMotion {
+struct CommandedAxis {
   double command_u = 0;
   double speed_u_s = 0, accel_u_s2 = 0, jerk_u_s3 = 0;
 };
@@ -18,8 +18,8 @@ struct AxisMotion {
 struct TickContext {
   const LogHeader* header = nullptr;
   const LogFrame* frame = nullptr;
-  std::vector<AxisMotion> axis;  ///< [axes]
-  double feed_jerk_u_s3 = 0;     ///< change of the path's acceleration over the tick
+  std::vector<CommandedAxis> axis;  ///< [axes]
+  double feed_jerk_u_s3 = 0;        ///< change of the path's acceleration over the tick
   const TickBlock& ticks() const { return *frame->ticks; }
   std::size_t at() const { return frame->tick_index; }
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/machine_file.h"
+
 namespace kadr::emulator {
 namespace {
 
@@ -114,7 +116,7 @@ class Gatherer {
       if (!data_.header.axis[a].has_plant) continue;
       const bool rotary = data_.header.axis[a].unit == "deg";
       const double speed = ticks.axis[a].base_u_s[i] * (rotary ? 3.14159265358979323846 / 180 : 1e-3);
-      const double energy_J = ticks.axis[a].motor_force[i] * speed * tau_s;
+      const double energy_J = ticks.axis[a].motor_force_N[i] * speed * tau_s;
       (energy_J > 0 ? data_.work[a].driving_J : data_.work[a].braking_J) += energy_J;
     }
   }

@@ -14,7 +14,7 @@ CornerFinder::CornerFinder(std::vector<double> step_mm, double tolerance_mm, std
 }
 
 /// Squared distance of a node from the line between two others, ends included.
-double CornerFinder::off_mm2(const Node& from, const Node& to, const Node& node) const {
+double CornerFinder::off_mm2(const Sample& from, const Sample& to, const Sample& node) const {
   double along = 0, line = 0, way = 0;
   for (std::size_t a = 0; a < step_mm_.size(); ++a) {
     const double l = step_mm_[a] * (double(to.at[a]) - from.at[a]);
@@ -28,14 +28,14 @@ double CornerFinder::off_mm2(const Node& from, const Node& to, const Node& node)
   return way - 2 * along + line;
 }
 
-void CornerFinder::keep(const Node& node) {
+void CornerFinder::keep(const Sample& node) {
   kept_.ticks.push_back(node.tick);
   for (std::size_t a = 0; a < step_mm_.size(); ++a) kept_.nodes[a].push_back(node.at[a]);
   last_ = node;
 }
 
 void CornerFinder::add(std::int32_t tick, const std::vector<std::int32_t>& nodes) {
-  Node node{tick, nodes};
+  Sample node{tick, nodes};
   if (kept_.ticks.empty()) return keep(node);
   // standing still: one node that lasts
   if (waiting_.size() == 1 && waiting_[0].at == node.at && last_.at == node.at) {
@@ -44,7 +44,7 @@ void CornerFinder::add(std::int32_t tick, const std::vector<std::int32_t>& nodes
   }
   const double most_mm2 = tolerance_mm_ * tolerance_mm_;
   const bool straight = waiting_.size() < kLongest &&
-                        std::all_of(waiting_.begin(), waiting_.end(), [&](const Node& on_the_way) {
+                        std::all_of(waiting_.begin(), waiting_.end(), [&](const Sample& on_the_way) {
                           return off_mm2(last_, node, on_the_way) <= most_mm2;
                         });
   if (!straight) {

@@ -31,19 +31,19 @@ class CornerFinder {
   double tolerance_mm() const { return tolerance_mm_; }
 
  private:
-  struct Node {
+  struct Sample {
     std::int32_t tick = 0;
     std::vector<std::int32_t> at;
   };
-  double off_mm2(const Node& from, const Node& to, const Node& node) const;
-  void keep(const Node& node);
+  double off_mm2(const Sample& from, const Sample& to, const Sample& node) const;
+  void keep(const Sample& node);
 
   std::vector<double> step_mm_;
   double tolerance_mm_;
   std::size_t most_;
   PathCorners kept_;
-  Node last_;                  // the corner kept last
-  std::vector<Node> waiting_;  // behind it
+  Sample last_;                  // the corner kept last
+  std::vector<Sample> waiting_;  // behind it
 };
 
 /// At most `most` corners of a path.

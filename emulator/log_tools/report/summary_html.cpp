@@ -166,7 +166,7 @@ class Summary {
                         {moved && x.peak_vibration_line > 0 ? std::to_string(x.peak_vibration_line) : ""},
                         number(1000 * x.residual_u, 3, unit),
                         number(1000 * x.peak_following_u, 3, unit),
-                        {grouped(x.lost_steps)},
+                        {grouped(x.lost_steps.value)},
                         number(d_.work[a].driving_J, 3, "J"),
                         number(d_.work[a].braking_J, 3, "J")},
                        place);

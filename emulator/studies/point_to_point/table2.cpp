@@ -87,8 +87,9 @@ std::vector<double> zeros_without_tf(double zeta) {
     if (low < range.low) continue;
     if (zeta > 0.0) {
       // the damped zero lies a little above n periods; halved to the last bit
+      constexpr int kBits = 60;
       const bool sign = end_speed(low) > 0;
-      for (int i = 0; i < 60; ++i) {
+      for (int i = 0; i < kBits; ++i) {
         const double middle = (low + high) / 2;
         ((end_speed(middle) > 0) == sign ? low : high) = middle;
       }

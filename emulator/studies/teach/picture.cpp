@@ -9,7 +9,7 @@ namespace {
 
 using lattice::Curve;
 using lattice::Method;
-using lattice::Node;
+using lattice::PlaneNode;
 
 constexpr int kArcPlaces = 360, kBezierPlaces = 240;
 
@@ -20,7 +20,7 @@ struct Travel {
   std::int64_t x, y;
 };
 
-Travel travel_at(const Curve& curve, Node node) {
+Travel travel_at(const Curve& curve, PlaneNode node) {
   if (const auto* line = std::get_if<lattice::LineCurve>(&curve))
     return {line->delta[0] < 0 ? -1 : 1, line->delta[1] < 0 ? -1 : 1};
   if (const auto* arc = std::get_if<lattice::ArcCurve>(&curve)) {
@@ -59,7 +59,7 @@ std::vector<Place> feet(const lattice::Polynomial& f, const StepTable& table) {
 
 }  // namespace
 
-std::vector<TestedPlace> tested_places(const Curve& curve, Method method, Node node) {
+std::vector<TestedPlace> tested_places(const Curve& curve, Method method, PlaneNode node) {
   if (!lattice::knows(method, curve) || !sign_polynomial(curve)) return {};
   const Travel s = travel_at(curve, node);
   const std::int64_t x2 = 2 * node.x, y2 = 2 * node.y;

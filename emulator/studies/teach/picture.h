@@ -17,7 +17,7 @@ struct TestedPlace {
 /// square that lies ahead, diagonal beside the neighbour along the longer axis, extra_points beside both
 /// neighbours, magnitudes at both. Empty: the method tests no sign of F, or the curve has none.
 std::vector<TestedPlace> tested_places(const lattice::Curve& curve, lattice::Method method,
-                                       lattice::Node node);
+                                       lattice::PlaneNode node);
 
 /// The curve's place that a deviation is measured to; of a Bezier by crossings that of the moment t.
 /// @param t  at which the node was reached; below 0: no Bezier by crossings

@@ -42,9 +42,9 @@ lattice::LineCurve line(Numbers& numbers, int axes) {
 
 /// A quarter, half, three quarters or whole of a circle from a node of it, or from one near an axis.
 lattice::ArcCurve arc(Numbers& numbers) {
-  lattice::Node begin{numbers.other_than_0(40), numbers.next(-30, 30)};
+  lattice::PlaneNode begin{numbers.other_than_0(40), numbers.next(-30, 30)};
   const auto turn = numbers.next(0, 1) == 0 ? lattice::Turn::ccw : lattice::Turn::cw;
-  lattice::Node end = begin;
+  lattice::PlaneNode end = begin;
   for (std::int64_t quarters = numbers.next(0, 3); quarters > 0; --quarters) end = {-end.y, end.x};
   return {begin, end, turn};
 }

@@ -37,7 +37,7 @@ Stop stop_after(const machine::MachineModel& model, double off = 0.0) {
   Stop stop;
   if (!r.job.plan.positioned.empty()) stop.stated_um = 1e3 * r.job.plan.positioned[0].residual_u[0];
   stop.time_s = r.job.plan.segments[0].end_time_s;
-  r.job.machine.model.axis[0].plant.link_stiffness *= (1 + off) * (1 + off);
+  r.job.machine.model.axis[0].plant.link_stiffness_N_per_m *= (1 + off) * (1 + off);
   emulator::RunHeader header;
   header.machine = &r.job.machine.model;
   REQUIRE(r.log.begin(header).has_value());
@@ -100,7 +100,7 @@ TEST_CASE("the swing on the emulated rig is that of the closed form") {
     machine::MachineModel m = rig(RapidShape::t_zero);
     machine::TwoMassModel& p = m.axis[0].plant;
     p.motor = machine::MotorModel::rigid;
-    p.link_damping = 2 * zeta * std::sqrt(p.link_stiffness * p.link_mass);
+    p.link_damping_Ns_per_m = 2 * zeta * std::sqrt(p.link_stiffness_N_per_m * p.link_mass_kg);
     RunResult r;
     run_program(r, "G21 G90\nG0 X3000\nG4 P0.2\nM2\n", m);
     const double stated_u = r.job.plan.positioned.at(0).residual_u[0];

@@ -3,6 +3,8 @@
 #include <string>
 
 #include "interpolator_paths.h"
+#include "machine/machine.h"
+#include "planner/path/path.h"
 
 using namespace kadr;
 using namespace kadr::test;

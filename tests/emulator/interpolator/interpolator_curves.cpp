@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
 
 #include "emulator/interpolator/lattice/bezier_events.h"
+#include "gcode/block.h"
 #include "interpolator_paths.h"
+#include "machine/machine.h"
 #include "planner/planner.h"
 
 using namespace kadr;

@@ -5,6 +5,8 @@
 #include "emulator/interpolator/tick_clock.h"
 #include "interpolator_paths.h"
 #include "machine/base/require.h"
+#include "machine/machine.h"
+#include "planner/path/path.h"
 
 using namespace kadr;
 using namespace kadr::test;
@@ -90,7 +92,7 @@ TEST_CASE("pulses of a stop mirror those of a start") {
   StepBatch batch;
   interpolator.advance(motion(0, 0.0, 0.01, 20.0, 0.0), batch);
   CHECK(offsets(batch.axis[0]) == std::vector<int>{253, 780, 1339, 1937, 2583, 3291, 4083, 5000, 6127, 7763});
-  CHECK(batch.axis[0].net_steps() == -10);
+  CHECK(batch.axis[0].net_steps().value == -10);
   CHECK(batch.axis[0].first_sign == -1);
 }
 
@@ -258,7 +260,7 @@ TEST_CASE("a line of 100 million steps needs no table and counts exactly") {
   for (std::int64_t tick = 0; s < maker.path.length_u(); ++tick) {
     const double to = std::min(s + 40.0, maker.path.length_u());
     interpolator.advance(motion(tick, s, to, 40'000.0, 40'000.0), batch);
-    net += batch.axis[0].net_steps();
+    net += batch.axis[0].net_steps().value;
     s = to;
   }
   CHECK(net == 100'000'000);

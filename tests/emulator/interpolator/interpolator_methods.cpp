@@ -2,6 +2,8 @@
 
 #include "emulator/interpolator/lattice/lattice.h"
 #include "interpolator_paths.h"
+#include "machine/machine.h"
+#include "planner/path/path.h"
 
 using namespace kadr;
 using namespace kadr::test;

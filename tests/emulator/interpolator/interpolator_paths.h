@@ -9,6 +9,8 @@
 
 #include "emulator/interpolator/interpolator.h"
 #include "machine/base/numbers.h"
+#include "machine/machine.h"
+#include "planner/path/path.h"
 
 /// Paths and tick motions made by hand, without planner, for the interpolator's tests.
 namespace kadr::test {
@@ -170,7 +172,7 @@ inline Run run_path(const planner::Path& path, const machine::MachineModel& mach
     interpolator.advance(motion, batch);
     hash.add(batch);
     for (std::size_t k = 0; k < batch.axis.size(); ++k) {
-      run.net[k] += batch.axis[k].net_steps();
+      run.net[k] += batch.axis[k].net_steps().value;
       run.pulses[k] += static_cast<std::int64_t>(batch.axis[k].count());
     }
     const auto& events = interpolator.trace();

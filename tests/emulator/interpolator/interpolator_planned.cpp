@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
+#include "gcode/block.h"
 #include "interpolator_paths.h"
+#include "machine/machine.h"
 #include "planner/planner.h"
 
 using namespace kadr;

@@ -3,6 +3,8 @@
 #include <tuple>
 
 #include "interpolator_paths.h"
+#include "machine/machine.h"
+#include "planner/path/path.h"
 
 using namespace kadr;
 using namespace kadr::test;
@@ -164,7 +166,7 @@ TEST_CASE("commands chain from tick to tick and are exact on the nodes at rest")
         const AxisCommand& command = batch.axis[k].command;
         CHECK(command.position_begin_u == position);
         position = command.position_end_u;
-        node += batch.axis[k].net_steps();
+        node += batch.axis[k].net_steps().value;
         CHECK(std::fabs(position / c.machine.axis[k].step_u - static_cast<double>(node)) <=
               0.5 + blur_steps(c, k));
       }

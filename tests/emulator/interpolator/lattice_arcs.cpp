@@ -25,7 +25,7 @@ struct Worst {
     most_forced = std::max(most_forced, t.forced);
     slots += static_cast<std::int64_t>(t.slots.size());
     for (const lattice::Slot& s : t.slots) diagonals += s.step[0] != 0 && s.step[1] != 0;
-    for (const Node n : nodes(t)) {
+    for (const PlaneNode n : nodes(t)) {
       radial = std::max(radial, std::fabs(test::radial(n, std::sqrt(q))));
       if (squares) square = std::max(square, square_distance(q, n));
     }
@@ -51,7 +51,7 @@ TEST_CASE("lattice: a quarter of R = 7 has the step tables of the study bit for 
   CHECK(values(half) == std::vector<std::int64_t>{0, 1, 4, 9, -4, 3, -8, 1, -8, 3, -4, 9, 4, 1});
   CHECK(tested(half) == std::vector<std::int64_t>{-7, -5, -1, 5, -7, 1, -9, 1, -7, 5, -1, 13, 9, 7});
   double worst = 0;
-  for (const Node n : nodes(half)) worst = std::max(worst, std::fabs(radial(n, 7)));
+  for (const PlaneNode n : nodes(half)) worst = std::max(worst, std::fabs(radial(n, 7)));
   CHECK(worst == doctest::Approx(0.616).epsilon(1e-3));
 }
 
@@ -69,8 +69,8 @@ TEST_CASE("lattice: full circles close after 8 R half-steps, within 0.5 in each 
       extra.add(arc, points, false);
       CHECK(points.hash == trace(arc, Method::octant_midpoint).hash);
       if (turn == Turn::ccw) continue;
-      std::vector<Node> ccw = nodes(trace(circle(r, Turn::ccw), Method::half_step));
-      for (Node& n : ccw) n.y = -n.y;
+      std::vector<PlaneNode> ccw = nodes(trace(circle(r, Turn::ccw), Method::half_step));
+      for (PlaneNode& n : ccw) n.y = -n.y;
       CHECK(ccw == nodes(t));
     }
   CHECK(half.missed == 0);
@@ -121,7 +121,7 @@ TEST_CASE("lattice: random arcs both ways: the half-step misses no end and is ne
     const auto draw = [&] { return static_cast<int>(random() % static_cast<unsigned>(2 * m + 1)) - m; };
     ArcCurve arc;
     arc.begin = {draw(), draw()};
-    if (arc.begin == Node{}) continue;
+    if (arc.begin == PlaneNode{}) continue;
     const double r = std::hypot(static_cast<double>(arc.begin.x), static_cast<double>(arc.begin.y));
     const double angle = static_cast<double>(random() % 36'000) * M_PI / 18'000;
     arc.end = {std::llround(r * std::cos(angle)), std::llround(r * std::sin(angle))};
@@ -148,7 +148,7 @@ TEST_CASE("lattice: the half-step circle visits just the dual squares that the c
   // by
   for (int r = 1; r <= 60; ++r) {
     const Trace t = trace(ArcCurve{{r, 0}, {0, r}, Turn::ccw}, Method::half_step);
-    Node n{r, 0};
+    PlaneNode n{r, 0};
     for (const lattice::Slot& s : t.slots) {
       // the circle leaves upwards if it is inside the square's width at y + 1/2: x^2 = R^2 - (y + 1/2)^2
       const std::int64_t x2_4 = 4 * std::int64_t{r} * r - (2 * n.y + 1) * (2 * n.y + 1);
@@ -156,7 +156,7 @@ TEST_CASE("lattice: the half-step circle visits just the dual squares that the c
       REQUIRE((s.step[1] == 1) == up);
       n = {n.x + s.step[0], n.y + s.step[1]};
     }
-    CHECK(n == Node{0, r});
+    CHECK(n == PlaneNode{0, r});
   }
 }
 
@@ -170,7 +170,7 @@ TEST_CASE("lattice: a DDA circle closes if its registers take turns, and spirals
     for (const int i : {0, 1}) {
       const Trace t =
           trace(circle(row.r, Turn::ccw), i == 0 ? Method::dda_sequential : Method::dda_simultaneous);
-      for (const Node n : nodes(t)) worst[i] = std::max(worst[i], std::fabs(radial(n, row.r)));
+      for (const PlaneNode n : nodes(t)) worst[i] = std::max(worst[i], std::fabs(radial(n, row.r)));
       if (i == 0) CHECK(std::hypot(t.end[0] - row.r, t.end[1]) <= 1.0);
     }
     CHECK(worst[0] == doctest::Approx(row.sequential).epsilon(1e-4));
@@ -186,7 +186,7 @@ TEST_CASE("lattice: chords of sagitta 0.1 are worse than the half-step at every 
   for (const auto& row : rows) {
     const Trace t = trace(circle(row.r, Turn::ccw), Method::chords);
     double worst = 0;
-    for (const Node n : nodes(t)) worst = std::max(worst, std::fabs(radial(n, row.r)));
+    for (const PlaneNode n : nodes(t)) worst = std::max(worst, std::fabs(radial(n, row.r)));
     CHECK(worst == doctest::Approx(row.worst).epsilon(1e-4));
     CHECK(worst <= 0.1 + 0.5 + std::sqrt(0.5));
     CHECK(t.end_reached);
@@ -199,7 +199,7 @@ TEST_CASE("lattice: eq. 7 as printed leaves a circle of 50 steps by 21") {
   CHECK(t.end[0] == 1);
   CHECK(t.end[1] == 51);
   double worst = 0;
-  for (const Node n : nodes(t)) worst = std::max(worst, std::fabs(radial(n, 50)));
+  for (const PlaneNode n : nodes(t)) worst = std::max(worst, std::fabs(radial(n, 50)));
   CHECK(worst == doctest::Approx(21.42).epsilon(1e-3));
   CHECK_FALSE(t.end_reached);
   CHECK(lattice::make_stepper(ArcCurve{{50, 0}, {-50, 0}, Turn::ccw}, Method::printed_half_step).refusal ==

@@ -24,7 +24,7 @@ Distance distance(const Trace& t, At&& at, double from, double to, int points) {
   std::vector<std::pair<double, double>> curve;
   for (int i = 0; i <= points; ++i) curve.push_back(at(from + (to - from) * i / points));
   Distance out;
-  for (const Node n : nodes(t)) {
+  for (const PlaneNode n : nodes(t)) {
     double euclid = 1e300, square = 1e300;
     for (const auto& [x, y] : curve) {
       const double dx = std::fabs(x - static_cast<double>(n.x)), dy = std::fabs(y - static_cast<double>(n.y));
@@ -68,8 +68,9 @@ TEST_CASE(
         20'000);
     CHECK(d.euclid == doctest::Approx(row.euclid).epsilon(2e-3));
     CHECK(d.square <= 0.5 + 2e-3);  // of the sampling
-    std::vector<Node> mirrored = nodes(trace(lattice::ellipse(row.a, row.b, Turn::cw), Method::half_step));
-    for (Node& n : mirrored) n.y = -n.y;
+    std::vector<PlaneNode> mirrored =
+        nodes(trace(lattice::ellipse(row.a, row.b, Turn::cw), Method::half_step));
+    for (PlaneNode& n : mirrored) n.y = -n.y;
     CHECK(mirrored == nodes(t));
   }
   // a tip of radius 0.15 folds inside a cell: the sign rule never closes
@@ -108,7 +109,7 @@ TEST_CASE("lattice: a parabola marched by differences meets the nearest node of 
   const ParabolaCurve parabola{7, -50, 50};
   const Trace t = trace(parabola, Method::newton, options);
   CHECK(t.end_reached);
-  const std::vector<Node> at = nodes(t);
+  const std::vector<PlaneNode> at = nodes(t);
   // before each Y step, and at the end, X is the node nearest to y^2/14
   for (std::size_t i = 0; i + 1 < at.size(); ++i)
     if (at[i + 1].y != at[i].y) CHECK(2 * std::abs(14 * at[i].x - at[i].y * at[i].y) <= 14);
@@ -137,12 +138,12 @@ TEST_CASE(
   for (const bool y_of_x : {true, false})
     for (const std::int64_t way : {1, -1}) {
       const std::int64_t from = -130 * way, to = 130 * way;
-      const Node begin = y_of_x ? Node{from, nearest(from)} : Node{nearest(from), from},
-                 end = y_of_x ? Node{to, nearest(to)} : Node{nearest(to), to};
+      const PlaneNode begin = y_of_x ? PlaneNode{from, nearest(from)} : PlaneNode{nearest(from), from},
+                      end = y_of_x ? PlaneNode{to, nearest(to)} : PlaneNode{nearest(to), to};
       const Trace t =
           trace(lattice::ImplicitCurve{y_of_x ? f : turned, begin, end, 1}, Method::newton, options);
       CHECK(t.end_reached);
-      const std::vector<Node> at = nodes(t);
+      const std::vector<PlaneNode> at = nodes(t);
       int met = 0;
       for (std::size_t i = 0; i + 1 < at.size(); ++i) {
         const std::int64_t u = y_of_x ? at[i].x : at[i].y, v = y_of_x ? at[i].y : at[i].x;

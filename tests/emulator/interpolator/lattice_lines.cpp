@@ -147,18 +147,18 @@ TEST_CASE("lattice: the half-step path of the way back is the same nodes where t
   for (int dx = -12; dx <= 12; ++dx)
     for (int dy = -12; dy <= 12; ++dy) {
       if (dx == 0 && dy == 0) continue;
-      std::vector<Node> there = nodes(trace(line({dx, dy}), Method::half_step));
+      std::vector<PlaneNode> there = nodes(trace(line({dx, dy}), Method::half_step));
       lattice::MethodOptions mirrored;
       mirrored.tie_to_y = true;
-      std::vector<Node> back = nodes(trace(line({-dx, -dy}), Method::half_step, mirrored));
+      std::vector<PlaneNode> back = nodes(trace(line({-dx, -dy}), Method::half_step, mirrored));
       std::reverse(back.begin(), back.end());
-      for (Node& n : back) n = {n.x + dx, n.y + dy};
+      for (PlaneNode& n : back) n = {n.x + dx, n.y + dy};
       CHECK(there == back);
       if (std::abs(dx) != std::abs(dy)) continue;
       // through corners: without the mirror the way back differs
-      std::vector<Node> same_tie = nodes(trace(line({-dx, -dy}), Method::half_step));
+      std::vector<PlaneNode> same_tie = nodes(trace(line({-dx, -dy}), Method::half_step));
       std::reverse(same_tie.begin(), same_tie.end());
-      for (Node& n : same_tie) n = {n.x + dx, n.y + dy};
+      for (PlaneNode& n : same_tie) n = {n.x + dx, n.y + dy};
       CHECK_FALSE(there == same_tie);
     }
 }

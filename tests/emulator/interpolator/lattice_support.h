@@ -15,7 +15,7 @@ using lattice::ArcCurve;
 using lattice::Curve;
 using lattice::LineCurve;
 using lattice::Method;
-using lattice::Node;
+using lattice::PlaneNode;
 using lattice::Trace;
 using lattice::Turn;
 
@@ -34,8 +34,8 @@ inline LineCurve line(std::initializer_list<std::int64_t> delta) {
 }
 
 /// Nodes of a plane run, the beginning among them.
-inline std::vector<Node> nodes(const Trace& t) {
-  std::vector<Node> out = {{t.begin[0], t.begin[1]}};
+inline std::vector<PlaneNode> nodes(const Trace& t) {
+  std::vector<PlaneNode> out = {{t.begin[0], t.begin[1]}};
   for (const lattice::Slot& s : t.slots) out.push_back({out.back().x + s.step[0], out.back().y + s.step[1]});
   return out;
 }
@@ -59,13 +59,13 @@ inline std::vector<std::int64_t> tested(const Trace& t) {
   return out;
 }
 
-inline double radial(Node n, double radius) {
+inline double radial(PlaneNode n, double radius) {
   return std::hypot(static_cast<double>(n.x), static_cast<double>(n.y)) - radius;
 }
 
 /// Distance in the larger of |dx|, |dy| from a node to the circle of squared radius q, by halving: the square
 /// about the node that just touches it.
-inline double square_distance(double q, Node n) {
+inline double square_distance(double q, PlaneNode n) {
   const double x = std::fabs(static_cast<double>(n.x)), y = std::fabs(static_cast<double>(n.y));
   double low = 0, high = 2 * std::sqrt(q) + 2;
   for (int i = 0; i < 60; ++i) {

@@ -17,6 +17,7 @@
 #include "emulator/log/log.h"
 #include "emulator/log/log_info.h"
 #include "log_support.h"
+#include "machine/machine.h"
 #include "machine/step_hash.h"
 
 using namespace kadr;
@@ -97,7 +98,7 @@ TEST_CASE("every control tick comes back from a log bit by bit: 1000 ticks, 3 ax
         same = same && x.steps[i] == run.nodes()[a] &&
                x.command_u[i] == run.batch().axis[a].command.position_end_u && x.base_u[i] == s.base_u &&
                x.base_u_s[i] == s.base_u_s && x.link_u[i] == s.link_u && x.link_u_s[i] == s.link_u_s &&
-               x.motor_force[i] == s.motor_force;
+               x.motor_force_N[i] == s.motor_force_N;
       }
       REQUIRE(same);
     }

@@ -96,7 +96,7 @@ TEST_CASE("the Python decoder of docs/log_format.md finds every pulse of a log")
     for (std::size_t a = 0; a < 3; ++a) {
       const AxisPulses& p = fake.batch().axis[a];
       count[a] += static_cast<std::int64_t>(p.count());
-      net[a] += p.net_steps();
+      net[a] += p.net_steps().value;
       if (p.count() > 0) last[a] = k * 10'000 + p.offset_ticks.back();
     }
   }

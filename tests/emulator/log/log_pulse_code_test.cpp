@@ -101,7 +101,7 @@ TEST_CASE("three pulses back, two forth, one back reverse at pulses 0, 3 and 5")
   CHECK(out[1].axis[0].count() == 0);
   CHECK(out[2].axis[0].first_sign == 1);
   CHECK(out[2].axis[0].reversals == std::vector<std::uint16_t>{2});
-  CHECK(out[0].axis[0].net_steps() + out[2].axis[0].net_steps() == -2);
+  CHECK(out[0].axis[0].net_steps().value + out[2].axis[0].net_steps().value == -2);
 }
 
 TEST_CASE("an even pace costs one byte a pulse") {

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "log_support.h"
+#include "machine/machine.h"
 
 using namespace kadr;
 using namespace kadr::emulator;

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "machine/machine.h"
 #include "machine/step_hash.h"
 
 namespace kadr::test {

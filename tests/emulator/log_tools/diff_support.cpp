@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "machine/machine.h"
 #include "machine/step_hash.h"
 
 namespace kadr::test {
@@ -42,15 +43,16 @@ void write_changed(const std::string& path, const emulator::RunHeader& header, s
   const std::int64_t tau = machine.clock.control_tick.value;
   for (std::int64_t k = 0; k < control_ticks; ++k) {
     emulator::TickRecord record = run.advance();
-    ChangeableTick tick{k, *record.motion, run.batch(), run.states(), {}};
+    ChangeableTick tick{k, *record.motion, run.batch(), run.states(), {}, {}};
     const auto number = static_cast<std::uint32_t>(k / 100);
     if (k % 250 == 249)
       tick.events.push_back(
           {Ticks{k * tau + 9}, number, {0, 0, 0, 0}, "input", Code{}, -1, 1, 0, "digital input 3 = 1"});
-    if (change) change(tick);
     if (k % 100 == 0)
-      check(log->block(
-          block_record(Ticks{k * tau + 7}, number, number % 2 + 1, number % 2 == 0 ? "N10 G1 X10" : "M2")));
+      tick.block =
+          block_record(Ticks{k * tau + 7}, number, number % 2 + 1, number % 2 == 0 ? "N10 G1 X10" : "M2");
+    if (change) change(tick);
+    if (tick.block) check(log->block(*tick.block));
     for (const auto& event : tick.events) check(log->event(event));
     record.motion = &tick.motion;
     record.axis = &tick.states;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct ChangeableTick {
   StepBatch batch;
   std::vector<AxisState> states;
   std::vector<emulator::EventRecord> events;
+  std::optional<emulator::BlockRecord> block;  ///< of the ticks in which one begins
 };
 using ChangeTick = std::function<void(ChangeableTick&)>;
 

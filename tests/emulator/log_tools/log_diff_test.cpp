@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "diff_support.h"
+#include "emulator/log_tools/diff/diff_fields.h"
 #include "emulator/log_tools/diff/diff_report.h"
 #include "emulator/log_tools/diff/log_diff.h"
 #include "emulator/log_tools/log_tools.h"
@@ -96,6 +102,44 @@ TEST_CASE("a change of one control tick is found at that very tick, and nothing 
   }
 }
 
+TEST_CASE("feeds at a block's beginning and the wait of an override before it are compared") {
+  const std::pair<const char*, void (*)(BlockRecord&)> changes[] = {
+      {"entry_u_s", [](BlockRecord& b) { b.entry_u_s += 1e-12; }},
+      {"planned_entry_u_s", [](BlockRecord& b) { b.planned_entry_u_s += 1e-12; }},
+      {"deferred_ticks", [](BlockRecord& b) { ++b.deferred_ticks; }},
+  };
+  for (const auto& [field, change] : changes) {
+    const Two two([&, change = change](ChangeableTick& tick) {
+      if (tick.number == 300) change(*tick.block);
+    });
+    const LogDiff diff = compare(two.a, two.b);
+    REQUIRE(diff.first);
+    CHECK(diff.first->tick.control_tick == 300);
+    REQUIRE(diff.first->tick.fields.size() == 1);
+    CHECK(diff.first->tick.fields[0].field == field);
+    CHECK(diff.channels[static_cast<std::size_t>(DiffChannel::block)].differing == 1);
+  }
+}
+
+TEST_CASE("every field of block_t in kadr.lcm is compared, except the second that repeats the tick") {
+  std::ifstream file(std::string(KADR_SOURCE_DIR) + "/emulator/log/kadr.lcm");
+  std::string line;
+  while (std::getline(file, line) && line != "struct block_t {") {
+  }
+  std::vector<std::string> fields;
+  while (std::getline(file, line) && line != "}") {
+    std::istringstream words(line);
+    std::string type, name;
+    words >> type >> name;
+    name.resize(name.find(';'));
+    if (name != "t_s") fields.push_back(name);
+  }
+  REQUIRE(fields.size() == 15);
+  std::vector<std::string> compared;
+  for (const auto& field : block_fields()) compared.emplace_back(field.name);
+  CHECK(compared == fields);
+}
+
 TEST_CASE("one bit of a plant state is found, unless a tolerance allows it or it is ignored") {
   const Two two([](ChangeableTick& tick) {
     double& link_u = tick.states[1].link_u;
@@ -178,7 +222,7 @@ TEST_CASE("at one tick events come before feed, feed before pulses, pulses befor
     tick.events[0].value = 2;
     tick.motion.override_used = 0.5;
     ++tick.batch.axis[0].offset_ticks[0];
-    tick.states[0].motor_force += 1;
+    tick.states[0].motor_force_N += 1;
   });
   const LogDiff diff = compare(two.a, two.b);
   REQUIRE(diff.first);

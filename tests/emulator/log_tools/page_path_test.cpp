@@ -8,6 +8,7 @@
 
 #include "emulator/log_tools/report/page_data.h"
 #include "emulator/log_tools/report/path_corners.h"
+#include "planner/path/path.h"
 
 using namespace kadr::emulator;
 using kadr::Ticks;

@@ -5,6 +5,7 @@
 
 #include "diff_support.h"
 #include "emulator/log_tools/diff/diff_report.h"
+#include "machine/machine.h"
 
 using namespace kadr;
 using namespace kadr::emulator;

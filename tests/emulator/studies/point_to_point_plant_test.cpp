@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "machine/base/numbers.h"
+#include "machine/machine.h"
 #include "planner/point_to_point/point_to_point.h"
 #include "plant/plant.h"
 
@@ -21,10 +22,10 @@ planner::LinkState by_plant(const planner::PointLaw& law, const planner::Mode& m
   axis.step_u = 0.01;
   axis.has_plant = true;
   axis.plant.motor = machine::MotorModel::rigid;
-  axis.plant.base_mass = 4.5;
-  axis.plant.link_mass = 2;
-  axis.plant.link_stiffness = 2 * mode.omega_rad_s * mode.omega_rad_s;
-  axis.plant.link_damping = 2 * mode.zeta * mode.omega_rad_s * 2;
+  axis.plant.base_mass_kg = 4.5;
+  axis.plant.link_mass_kg = 2;
+  axis.plant.link_stiffness_N_per_m = 2 * mode.omega_rad_s * mode.omega_rad_s;
+  axis.plant.link_damping_Ns_per_m = 2 * mode.zeta * mode.omega_rad_s * 2;
   model.axis.push_back(axis);
   plant::Plant plant(model);
   StepBatch batch;

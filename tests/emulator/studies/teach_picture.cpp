@@ -70,7 +70,7 @@ TEST_CASE("where a method looks, F is just what its step table says") {
     const lattice::Trace trace = kadr::test::trace(c.curve, c.method, {}, 500);
     // n axes and cubics have no F; Beziers by crossings have t
     const bool events = !trace.slots.empty() && trace.slots.front().parameter >= 0;
-    lattice::Node node{trace.begin[0], trace.begin[1]};
+    lattice::PlaneNode node{trace.begin[0], trace.begin[1]};
     for (const lattice::Slot& slot : trace.slots) {
       const auto places = tested_places(c.curve, c.method, node);
       if (!places.empty() && !events) {

@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+
+/// What a machine file chooses among.
+namespace kadr::machine {
+
+enum class AxisKind : std::uint8_t { linear, rotary };
+enum class MotorModel : std::uint8_t { rigid, spring, stepper };
+enum class IntegratorKind : std::uint8_t { smooth, reference, oracle };
+enum class TickFeed : std::uint8_t { linear, constant };
+enum class AxisLimitRule : std::uint8_t { enforce, report };
+enum class OnAlarm : std::uint8_t { report, stop };
+enum class SchedulerKind : std::uint8_t { chained, blockwise };
+enum class PlanMethod : std::uint8_t { scheduler, tube, certified, jerk_limited };
+/// How a G0 gets from rest to rest where a flexible link swings (paper 001).
+enum class RapidShape : std::uint8_t { scurve, t_zero, zv, zvd, automatic };
+/// Which pulses a segment gives, and when: half-crossings at their moments, or a method of paper 002 at one
+/// clock slot a step, for study.
+enum class StepMethod : std::uint8_t {
+  crossing,
+  classic,
+  half_step,
+  diagonal,
+  extra_points,
+  octant_midpoint,
+  dda,
+  dda_preloaded,
+  dda_sequential,
+  dda_simultaneous,
+  progression,
+  chords,
+  ptp,
+};
+enum class RampLaw : std::uint8_t { jerk_limited, quintic };
+enum class BlockTicks : std::uint8_t { exact, kl };
+enum class OverrideMode : std::uint8_t { corrected_plus, corrected, proportional };
+enum class LimiterKind : std::uint8_t { off, threshold, paper, matched };
+enum class LockedFeed : std::uint8_t { full, freeze };
+
+}  // namespace kadr::machine

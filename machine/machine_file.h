@@ -1,0 +1,43 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "machine/base/diagnostic.h"
+#include "machine/machine.h"
+
+/// Machine files: read, shipped, printed.
+namespace kadr::machine {
+
+/// Where a value comes from: its key as in a setting ("axis.X.max_mm_s") and "mill3.toml:42" or "command
+/// line".
+struct KeyOrigin {
+  std::string key;
+  std::string origin;
+};
+
+/// A machine file that was read, with the text its spans point to.
+struct MachineFile {
+  MachineModel model;
+  std::string text;
+  std::vector<KeyOrigin> origins =
+      {};  ///< values that were given, in the order of reading; all others are defaults
+};
+
+/// Reads a machine file (TOML; docs in machine/files/mill3.toml). All mistakes of the file are told at once.
+/// @param sources   the text is added here, so that diagnostics can be rendered
+/// @param overrides "key=value" settings from the command line, same keys as in the file
+tl::expected<MachineFile, Diagnostics> read_machine(SourceText text, SourceSet& sources,
+                                                    const std::vector<std::string>& overrides = {});
+
+/// A machine that ships with kadr: "mill3", "winder4", "rig1", "robot7"; empty text if there is none of that
+/// name.
+std::string_view shipped_machine(std::string_view name);
+std::vector<std::string_view> shipped_machine_names();
+
+/// Every value in force with its origin (file:line, default, command line), as TOML with comments.
+std::string render_machine(const MachineFile& file);
+
+}  // namespace kadr::machine
