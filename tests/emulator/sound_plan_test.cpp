@@ -158,6 +158,20 @@ TEST_CASE("curves are verified but for acceleration and jerk of those that turn 
   CHECK(!planner::verify(job.path, job.plan, job.machine.model).empty());
 }
 
+TEST_CASE("rapids by laws of their own are sound beside quintic ramps, whose jerk alone may not jump") {
+  // a rapid by ZV is made of pieces of constant jerk, also where planner.law = quintic
+  machine::MachineModel machine = test_machine();
+  machine.planner.law = machine::RampLaw::quintic;
+  machine.planner.rapid_law = machine::RapidShape::zv;
+  emulator::Job job = make_job("G0 X20\nG1 X40 F3000\nG0 X0 Y10\nM2\n", machine);
+  Diagnostics diagnostics;
+  CHECK(emulator::prepare(job, diagnostics));
+  CHECK(job.plan.positioned.size() == 2);
+  // the same pieces under a feed move are none of quintic ramps
+  for (auto& segment : job.path.segments) segment.rapid = false, segment.feed_u_s = 110;
+  CHECK_THROWS_AS(emulator::require_sound_plan(job), BrokenPromise);
+}
+
 TEST_CASE("a run ends with a broken promise where a node is more than half a step from the path") {
   // the path is moved by 0.7 steps of Y under the run's feet after 1000 control ticks; the next sample, every
   // 127th control tick, is the one that begins at 1.016 s
