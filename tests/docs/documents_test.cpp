@@ -85,6 +85,10 @@ TEST_CASE("docs/rapids.md: every command gives the output that stands below it")
   check_document("docs/rapids.md");
 }
 
+TEST_CASE("docs/smoothing.md: every command gives the output that stands below it") {
+  check_document("docs/smoothing.md");
+}
+
 TEST_CASE("docs/report.md: every command gives the output that stands below it") {
   check_document("docs/report.md");
 }
