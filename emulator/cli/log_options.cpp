@@ -45,6 +45,8 @@ void add_diff(Options& o) {
       "Allowed difference with unit, e.g. load=0.5um; keys load, base, link, base_rate, link_rate, force,\n"
       "and with --align path feed; default: none; repeatable",
       [&o](const std::string& text) { return emulator::add_tolerance(o.arguments.diff.tolerance, text); });
+  o.words(sub->get_option("--tolerance"),
+          {"load=", "base=", "link=", "base_rate=", "link_rate=", "force=", "feed="});
   o.repeated(
       sub, "--ignore", "CHANNEL/FIELD",
       "Leave out a channel (KADR_EVENT), a field (KADR_EVENT/text) or a group (load, feed); repeatable",
