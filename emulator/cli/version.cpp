@@ -35,9 +35,10 @@ int print_version(const Arguments&, Console& console) {
   std::string libraries;
   for (const LibraryVersion& l : build_libraries())
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", l.name, l.version);
-  console.data(fmt::format("kadr {}\ncommit {}\ncompiler {}\nbuild {}\nlibraries {}\nlog format {}\npages {}\n",
-                           KADR_VERSION, build_commit(), build_compiler(), build_flags(), libraries,
-                           emulator::kLogFormat, emulator::pages_text()));
+  console.data(
+      fmt::format("kadr {}\ncommit {}\ncompiler {}\nbuild {}\nlibraries {}\nlog format {}\npages {}\n",
+                  KADR_VERSION, build_commit(), build_compiler(), build_flags(), libraries,
+                  emulator::kLogFormat, emulator::pages_text()));
   return kYes;
 }
 
