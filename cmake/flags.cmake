@@ -8,6 +8,8 @@ target_compile_options(kadr_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -W
   -ffp-contract=off -fno-fast-math -fno-math-errno -fno-trapping-math)
 target_compile_definitions(kadr_flags INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY
   KADR_VERSION="${PROJECT_VERSION}")
+# a broken promise names its file as it lies in the tree, and builds in two folders are the same bytes
+target_compile_options(kadr_flags INTERFACE -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND KADR_OPTIMIZE MATCHES "O3")
   # GCC 12 at -O3 inlines std::string and fmt so deep that it reports overlaps, bounds and overflows that can't happen; a
   # precompiled header takes away that these are the library's. The sanitizers see what is real.

@@ -1,6 +1,20 @@
 #include "emulator/cli/options.h"
 
 namespace kadr::cli {
+namespace {
+
+/// "blocks=", "call_depth=", ... of "blocks call_depth ..."
+std::vector<std::string> names_with_equals(std::string_view names) {
+  std::vector<std::string> list;
+  while (!names.empty()) {
+    const auto end = std::min(names.find(' '), names.size());
+    list.push_back(std::string(names.substr(0, end)) + '=');
+    names.remove_prefix(std::min(end + 1, names.size()));
+  }
+  return list;
+}
+
+}  // namespace
 
 CLI::App* Options::command(CLI::App& parent, const std::string& name, Run value,
                            const std::string& description) {
@@ -86,6 +100,8 @@ void Options::reading(CLI::App* sub) {
          "Read codes on which controllers differ as this one does: linuxcnc|grbl|marlin|fanuc (default "
          "linuxcnc)")
       ->type_name("WORD");
+  words(sub->get_option("--limit"), names_with_equals(gcode::kBoundNames));
+  words(sub->get_option("--dialect"), {"linuxcnc", "grbl", "marlin", "fanuc"});
 }
 
 void Options::limit(const std::string& text) {

@@ -10,6 +10,7 @@
 #include <tl/expected.hpp>
 
 #include "emulator/cli/arguments.h"
+#include "emulator/cli/command_tree.h"
 
 namespace kadr::cli {
 
@@ -29,6 +30,8 @@ class Options {
 
   CLI::App& app;
   Arguments& arguments;
+  /// Of options whose values are words of a vocabulary; others are completed by the name of their value.
+  std::map<const CLI::Option*, Completion> completions;
 
   CLI::App* command(CLI::App& parent, const std::string& name, Run run, const std::string& description);
 
@@ -40,6 +43,11 @@ class Options {
   void strict(CLI::App* sub);
   CLI::Option* programs(CLI::App* sub, const std::string& name, bool several);
 
+  /// Values of an option that a shell may complete.
+  void words(const CLI::Option* option, std::vector<std::string> list) {
+    completions[option].words = std::move(list);
+  }
+
   /// An option whose every value is handed to `take`, which may find fault with it.
   void repeated(CLI::App* sub, const std::string& name, const char* type, const std::string& description,
                 std::function<tl::expected<void, std::string>(const std::string&)> take);
@@ -48,21 +56,20 @@ class Options {
   template <class Enum>
   CLI::Option* choice(CLI::App* sub, const std::string& name, Enum& value, std::map<std::string, Enum> names,
                       const std::string& description) {
-    return sub
-        ->add_option_function<std::string>(
-            name,
-            [&value, names, name](const std::string& text) {
-              const auto it = names.find(text);
-              if (it == names.end()) {
-                std::string known;
-                for (const auto& entry : names) known += (known.empty() ? "" : ", ") + entry.first;
-                throw CLI::ValidationError(fmt::format("{} knows {}; got '{}'", name, known, text));
-              }
-              value = it->second;
-            },
-            description)
-        ->type_name("WORD")
-        ->group("Output");
+    std::vector<std::string> list;
+    for (const auto& entry : names) list.push_back(entry.first);
+    CLI::Option* option = sub->add_option_function<std::string>(
+        name,
+        [&value, names, name, list](const std::string& text) {
+          const auto it = names.find(text);
+          if (it == names.end())
+            throw CLI::ValidationError(
+                fmt::format("{} knows {}; got '{}'", name, fmt::join(list, ", "), text));
+          value = it->second;
+        },
+        description);
+    words(option, std::move(list));
+    return option->type_name("WORD")->group("Output");
   }
 
  private:
@@ -75,5 +82,9 @@ void add_log_commands(Options& options);
 void add_law_commands(Options& options);
 void add_machine_commands(Options& options);
 void add_teach_commands(Options& options);
+void add_shell_commands(Options& options);
+
+/// The commands that were added, as plain data (emulator/cli/command_tree.h).
+Command describe_commands(const Options& options);
 
 }  // namespace kadr::cli

@@ -57,6 +57,10 @@ void check_document(const std::string& name) {
 
 TEST_CASE("README.md: every command gives the output that stands below it") { check_document("README.md"); }
 
+TEST_CASE("docs/install.md: every command gives the output that stands below it") {
+  check_document("docs/install.md");
+}
+
 TEST_CASE("docs/pipeline.md: every command gives the output that stands below it") {
   check_document("docs/pipeline.md");
 }
