@@ -4,6 +4,7 @@
 
 #include "emulator/log/log_info.h"
 #include "log_support.h"
+#include "machine/machine.h"
 
 using namespace kadr;
 using namespace kadr::emulator;
