@@ -39,11 +39,10 @@ void add_tube(Options& o) {
       ->type_name("");
   o.repeated(sub, "--method", "NAME",
              fmt::format("Only this method: {};\nrepeatable; default: all that the problem states",
-                         fmt::join(emulator::kLawMethods, ", ")),
+                         emulator::kLawMethods.list()),
              [&o](const std::string& text) -> tl::expected<void, std::string> {
-               if (!emulator::method_of(text))
-                 return tl::unexpected(
-                     fmt::format("knows {}; got '{}'", fmt::join(emulator::kLawMethods, ", "), text));
+               if (!emulator::kLawMethods.find(text))
+                 return tl::unexpected(fmt::format("knows {}; got '{}'", emulator::kLawMethods.list(), text));
                o.arguments.methods.push_back(text);
                return {};
              });
@@ -110,8 +109,7 @@ void add_law(Options& o) {
          [&q](double x) { q.load.gravity_m_s2 = x; });
   sub->add_flag("--printed-gravity", q.printed_gravity,
                 "Take 9.81 for K_g, as the paper does, whatever the time and way");
-  o.choice(sub, "--drive", q.drive,
-           {{"position", planner::Drive::position}, {"force", planner::Drive::force}},
+  o.choice(sub, "--drive", q.drive, planner::kDrives,
            "What moves the base: position (stiff, default) or force")
       ->group("Options");
   number(sub, "--uncertainty-pct", "U", "How well the frequency is known, for the advice (default 1)",

@@ -36,8 +36,7 @@ void add_diff(Options& o) {
            "Log written by kadr run")
         ->required()
         ->type_name("");
-  o.choice(sub, "--align", o.arguments.diff.align,
-           {{"tick", emulator::DiffAlign::tick}, {"path", emulator::DiffAlign::path}},
+  o.choice(sub, "--align", o.arguments.diff.align, emulator::kDiffAligns,
            "What is put side by side: tick|path (path: same path length, whatever the override)")
       ->group("Options");
   o.repeated(

@@ -9,26 +9,29 @@ CLI::App* Options::command(CLI::App& parent, const std::string& name, Run value,
   return sub;
 }
 
+std::string Options::unknown_word(const std::string& name, const std::string& words,
+                                  const std::string& text) {
+  std::vector<std::string> sorted = CLI::detail::split(words, ',');
+  std::sort(sorted.begin(), sorted.end());
+  return fmt::format("{} knows {}; got '{}'", name, fmt::join(sorted, ", "), text);
+}
+
 void Options::output(CLI::App* sub) {
   OutputOptions& out = arguments.output;
   sub->add_flag("--json", out.json, "One JSON document on standard output; keys carry units")
       ->group("Output");
   sub->add_flag("-q,--quiet", out.quiet, "Only data and errors: no notes, no progress, no tables")
       ->group("Output");
-  choice(sub, "--color", out.color,
-         {{"auto", When::automatic}, {"always", When::always}, {"never", When::never}},
-         "Colour messages: auto|always|never (auto: on a terminal; NO_COLOR and CLICOLOR_FORCE are kept)");
+  choice(sub, "--color", out.color, kWhens,
+         fmt::format("Colour messages: {} (auto: on a terminal; NO_COLOR and CLICOLOR_FORCE are kept)",
+                     kWhens.list("|")));
 }
 
 void Options::diagnostics(CLI::App* sub) {
   OutputOptions& out = arguments.output;
-  choice(sub, "--format", out.format,
-         {{"human", DiagnosticFormat::human},
-          {"gcc", DiagnosticFormat::gcc},
-          {"json", DiagnosticFormat::json},
-          {"sarif", DiagnosticFormat::sarif}},
-         "Form of diagnostics: human|gcc|json|sarif (json: one object a line; sarif: one SARIF 2.1.0 "
-         "document)");
+  choice(sub, "--format", out.format, kDiagnosticFormats,
+         fmt::format("Form of diagnostics: {} (json: one object a line; sarif: one SARIF 2.1.0 document)",
+                     kDiagnosticFormats.list("|")));
   sub->add_option("--max-errors", out.max_errors,
                   "Show that many diagnostics, 0: all (default 20; all with sarif)")
       ->type_name("N")
@@ -36,9 +39,9 @@ void Options::diagnostics(CLI::App* sub) {
 }
 
 void Options::progress(CLI::App* sub) {
-  choice(sub, "--progress", arguments.output.progress,
-         {{"auto", ProgressMode::automatic}, {"never", ProgressMode::never}, {"plain", ProgressMode::plain}},
-         "Progress on standard error: auto|never|plain (auto: a bar on a terminal, else a line every 10 s)");
+  choice(sub, "--progress", arguments.output.progress, kProgressModes,
+         fmt::format("Progress on standard error: {} (auto: a bar on a terminal, else a line every 10 s)",
+                     kProgressModes.list("|")));
 }
 
 void Options::machine(CLI::App* sub) {
@@ -74,12 +77,12 @@ void Options::reading(CLI::App* sub) {
   sub->add_option_function<std::string>(
          "--dialect",
          [this](const std::string& text) {
-           arguments.dialect = gcode::dialect_of(text);
+           arguments.dialect = gcode::kDialects.find(text);
            if (!arguments.dialect)
              throw CLI::ValidationError(
-                 fmt::format("--dialect knows linuxcnc, grbl, marlin, fanuc; got '{}'", text));
+                 fmt::format("--dialect knows {}; got '{}'", gcode::kDialects.list(), text));
          },
-         "How codes that controllers read differently are meant: linuxcnc|grbl|marlin|fanuc")
+         fmt::format("How codes that controllers read differently are meant: {}", gcode::kDialects.list("|")))
       ->type_name("WORD");
 }
 

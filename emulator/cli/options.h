@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <functional>
-#include <map>
 #include <string>
 #include <tl/expected.hpp>
 
 #include "emulator/cli/arguments.h"
+#include "machine/base/vocabulary.h"
 
 namespace kadr::cli {
 
@@ -44,26 +44,26 @@ class Options {
   void repeated(CLI::App* sub, const std::string& name, const char* type, const std::string& description,
                 std::function<tl::expected<void, std::string>(const std::string&)> take);
 
-  /// An option that takes one of a few words.
-  template <class Enum>
-  CLI::Option* choice(CLI::App* sub, const std::string& name, Enum& value, std::map<std::string, Enum> names,
-                      const std::string& description) {
+  /// An option that takes one word of a vocabulary.
+  template <class Enum, std::size_t kCount>
+  CLI::Option* choice(CLI::App* sub, const std::string& name, Enum& value,
+                      const Vocabulary<Enum, kCount>& vocabulary, const std::string& description) {
     return sub
         ->add_option_function<std::string>(
             name,
-            [&value, names, name](const std::string& text) {
-              const auto it = names.find(text);
-              if (it == names.end()) {
-                std::string known;
-                for (const auto& entry : names) known += (known.empty() ? "" : ", ") + entry.first;
-                throw CLI::ValidationError(fmt::format("{} knows {}; got '{}'", name, known, text));
-              }
-              value = it->second;
+            [&value, &vocabulary, name](const std::string& text) {
+              const auto found = vocabulary.find(text);
+              if (!found) throw CLI::ValidationError(unknown_word(name, vocabulary.list(","), text));
+              value = *found;
             },
             description)
         ->type_name("WORD")
         ->group("Output");
   }
+
+  /// "--color knows always, auto, never; got 'x'", the words in alphabetical order.
+  /// @param words  separated by commas
+  static std::string unknown_word(const std::string& name, const std::string& words, const std::string& text);
 
  private:
   void limit(const std::string& text);

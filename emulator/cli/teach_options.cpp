@@ -9,9 +9,6 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::PulseTiming;
-using emulator::TeachMode;
-
 constexpr std::size_t kMostCompared = 4;
 constexpr std::int64_t kMostSlots = 10'000'000;
 
@@ -44,7 +41,7 @@ void subject(Options& o, CLI::App* sub) {
       ->type_name("");
   emulator::TeachOptions& options = o.arguments.teach.options;
   bounded(sub, "--axes", o.arguments.teach.axes, 2, 9, "Axes of a polyline or Bezier (default 2)");
-  o.choice(sub, "--mode", options.mode, {{"cp", TeachMode::continuous}, {"ptp", TeachMode::point_to_point}},
+  o.choice(sub, "--mode", options.mode, emulator::kTeachModes,
            "cp: the axes together along the path; ptp: each at its own rate from node to node");
   bounded(sub, "--bits", options.method.fraction_bits, 1, 60,
           "Fraction bits of progression and newton (default 16)");
@@ -60,7 +57,7 @@ void subject(Options& o, CLI::App* sub) {
 void methods(Options& o, CLI::App* sub, std::size_t most) {
   std::string names;
   for (const auto& m : emulator::lattice::methods())
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", m.name);
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", m.name());
   o.repeated(sub, "--method", "NAME",
              most == 1
                  ? "Interpolator (default half_step); `kadr teach methods` lists them"
@@ -83,7 +80,7 @@ void add_table(Options& o, CLI::App* group) {
   subject(o, sub);
   methods(o, sub, 1);
   emulator::PulseTiming& timing = o.arguments.teach.timing;
-  o.choice(sub, "--timing", timing, {{"uniform", PulseTiming::uniform}, {"crossing", PulseTiming::crossing}},
+  o.choice(sub, "--timing", timing, emulator::kPulseTimings,
            "When pulses fire: uniform (a slot after the other) or crossing (where the path\n"
            "crosses the middle between two nodes, at a constant feed)");
   bounded(sub, "--feed", o.arguments.teach.feed_steps_s, 1e-3, 1e7,

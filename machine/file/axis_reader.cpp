@@ -4,6 +4,7 @@
 
 #include "machine/base/parse_number.h"
 #include "machine/file/machine_reader.h"
+#include "machine/words.h"
 
 namespace kadr::machine {
 
@@ -38,8 +39,8 @@ char read_letter(TableReader& r, ReadContext& context) {
 
 AxisKind read_kind(TableReader& r, char letter, ReadContext& context) {
   const bool rotary_letter = is_rotary_letter(letter);
-  const auto kind = r.choice("kind", {"linear", "rotary"}, rotary_letter ? 1 : 0);
-  const auto chosen = static_cast<AxisKind>(kind.value);
+  const auto kind = r.choice("kind", kAxisKinds, rotary_letter ? AxisKind::rotary : AxisKind::linear);
+  const AxisKind chosen = kind.value;
   const bool free_letter = letter == 0 || letter == 'U' || letter == 'V' || letter == 'W';
   if (!kind.valid || free_letter || (chosen == AxisKind::rotary) == rotary_letter) return chosen;
   Diagnostic d = file_diagnostic(Code::machine_axis_kind, kind.span,
@@ -123,7 +124,7 @@ TwoMassModel read_plant(const Node& table, const std::string& path, const AxisMo
   };
   TableReader r(&table, path, table.span, context);
   TwoMassModel m;
-  m.motor = static_cast<MotorModel>(r.choice("model", {"rigid", "spring", "stepper"}).value);
+  m.motor = r.choice("model", kMotorModels).value;
   m.base_mass_kg = r.number(key("base_mass", units.mass), kMassBounds).value;
   m.link_mass_kg = r.number(key("link_mass", units.mass), kMassBounds).value;
   m.link_stiffness_N_per_m = r.number(key("link_stiffness", units.stiffness), kStiffnessBounds).value;

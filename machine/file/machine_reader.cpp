@@ -7,6 +7,7 @@
 
 #include "machine/base/parse_number.h"
 #include "machine/file/technology.h"
+#include "machine/words.h"
 
 namespace kadr::machine {
 
@@ -113,18 +114,17 @@ PlannerSettings read_planner(const Node* table, const Span& place, ReadContext& 
   TableReader r(table, "planner", place, context);
   PlannerSettings s;
   s.whole_ticks = r.flag("whole_ticks", s.whole_ticks).value;
-  s.axis_limits = static_cast<AxisLimitRule>(r.choice("axis_limits", {"enforce", "report"}, 0).value);
-  s.tick_feed = static_cast<TickFeed>(r.choice("tick_feed", {"linear", "constant"}, 0).value);
+  s.axis_limits = r.choice("axis_limits", kAxisLimitRules, s.axis_limits).value;
+  s.tick_feed = r.choice("tick_feed", kTickFeeds, s.tick_feed).value;
   s.tool_change_s = r.number("tool_change_s", {0, 1e6}, s.tool_change_s).value;
-  s.scheduler = static_cast<SchedulerKind>(r.choice("scheduler", {"chained", "blockwise"}, 0).value);
-  s.block_ticks = static_cast<BlockTicks>(r.choice("block_ticks", {"exact", "kl"}, 0).value);
-  s.law = static_cast<RampLaw>(r.choice("law", {"jerk_limited", "quintic"}, 0).value);
-  s.method = static_cast<PlanMethod>(
-      r.choice("method", {"scheduler", "tube", "certified", "jerk-limited"}, 0).value);
+  s.scheduler = r.choice("scheduler", kSchedulers, s.scheduler).value;
+  s.block_ticks = r.choice("block_ticks", kBlockTicks, s.block_ticks).value;
+  s.law = r.choice("law", kRampLaws, s.law).value;
+  s.method = r.choice("method", kPlanMethods, s.method).value;
   s.node_mm = r.number("node_mm", {1e-3, 1e3}, s.node_mm).value;
   s.tube_levels = static_cast<int>(r.number("tube_levels", {3, 1000, false, true}, s.tube_levels).value);
-  const auto rapid = r.choice("rapid_law", {"scurve", "t-zero", "zv", "zvd", "auto"}, 0);
-  s.rapid_law = static_cast<RapidShape>(rapid.value);
+  const auto rapid = r.choice("rapid_law", kRapidShapes, s.rapid_law);
+  s.rapid_law = rapid.value;
   if (s.rapid_law != RapidShape::scurve && s.scheduler == SchedulerKind::blockwise) {
     Diagnostic d =
         file_diagnostic(Code::machine_rapid_law, rapid.span, "but planner.scheduler is \"blockwise\"");
@@ -138,23 +138,18 @@ PlannerSettings read_planner(const Node* table, const Span& place, ReadContext& 
 
 StepMethod read_interpolator(const Node* table, const Span& place, ReadContext& context) {
   TableReader r(table, "interpolator", place, context);
-  const auto method =
-      r.choice("method",
-               {"crossing", "classic", "half_step", "diagonal", "extra_points", "octant_midpoint", "dda",
-                "dda_preloaded", "dda_sequential", "dda_simultaneous", "progression", "chords", "ptp"},
-               0);
+  const auto method = r.choice("method", kMachineMethods, StepMethod::crossing);
   r.finish();
-  return static_cast<StepMethod>(method.value);
+  return method.value;
 }
 
 OverrideSettings read_override(const Node* table, const Span& place, ReadContext& context) {
   TableReader r(table, "override", place, context);
   OverrideSettings s;
-  s.mode = static_cast<OverrideMode>(r.choice("mode", {"corrected+", "corrected", "proportional"}, 0).value);
-  s.locked = static_cast<LockedFeed>(r.choice("locked", {"full", "freeze"}, 0).value);
-  s.disabled = static_cast<LockedFeed>(r.choice("disabled", {"full", "freeze"}, 1).value);
-  s.limiter =
-      static_cast<LimiterKind>(r.choice("limiter", {"off", "threshold", "paper", "matched"}, 0).value);
+  s.mode = r.choice("mode", kOverrideModes, s.mode).value;
+  s.locked = r.choice("locked", kLockedFeeds, s.locked).value;
+  s.disabled = r.choice("disabled", kLockedFeeds, s.disabled).value;
+  s.limiter = r.choice("limiter", kLimiters, s.limiter).value;
   s.predictive = r.flag("predictive", s.predictive).value;
   s.limiter_band_u_s = r.number("limiter_band_mm_s", {1e-3, 1e4}, s.limiter_band_u_s).value;
   r.finish();
@@ -195,8 +190,8 @@ PlantSettings read_plant_settings(const Node* table, const Span& place, const st
                                   ReadContext& context) {
   TableReader r(table, "plant", place, context);
   PlantSettings s;
-  const auto integrator = r.choice("integrator", {"smooth", "reference", "oracle"}, 0);
-  s.integrator = static_cast<IntegratorKind>(integrator.value);
+  const auto integrator = r.choice("integrator", kIntegrators, s.integrator);
+  s.integrator = integrator.value;
   s.tolerance_um = r.number("tolerance_um", {1e-12, 1e3}, s.tolerance_um).value;
   r.finish();
   if (s.integrator != IntegratorKind::oracle) return s;
@@ -211,11 +206,12 @@ PlantSettings read_plant_settings(const Node* table, const Span& place, const st
 std::optional<StockModel> read_stock(const Node* table, const Span& place, const MachineModel& model,
                                      ReadContext& context) {
   if (!table) return std::nullopt;
-  constexpr std::string_view kLinearLetters = "XYZUVW";
+  constexpr std::string_view kLinearAxes[] = {"X", "Y", "Z", "U", "V", "W"};
+  constexpr std::size_t kAxisZ = 2;
   TableReader r(table, "stock", place, context);
   StockModel stock;
-  const auto axis = r.choice("axis", {"X", "Y", "Z", "U", "V", "W"}, kLinearLetters.find('Z'));
-  stock.axis = kLinearLetters[axis.value];
+  const auto axis = r.word("axis", kLinearAxes, kAxisZ);
+  stock.axis = kLinearAxes[axis.value].front();
   stock.position_mm = r.number("position_mm", kPositionBounds).value;
   stock.below = r.flag("below", stock.below).value;
   r.finish();
@@ -270,7 +266,7 @@ MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
   MachineModel model;
   read_format(root);
   model.name = read_name(root);
-  model.on_alarm = static_cast<OnAlarm>(root.choice("on_alarm", {"report", "stop"}, 0).value);
+  model.on_alarm = root.choice("on_alarm", kOnAlarms, model.on_alarm).value;
   model.clock = read_clock(root.table("clock"), top, context);
   model.path = read_path_limits(root.table("path"), root.table("feed"), top, context);
   model.planner = read_planner(root.table("planner"), top, context);

@@ -7,6 +7,7 @@
 #include "machine/base/parse_number.h"
 #include "machine/file/technology.h"
 #include "machine/machine_file.h"
+#include "machine/words.h"
 
 namespace kadr::machine {
 
@@ -68,10 +69,9 @@ void write_plant(TomlWriter& w, const AxisModel& axis) {
   const auto key = [&](std::string_view stem, std::string_view linear, std::string_view turning) {
     return fmt::format("{}_{}", stem, rotary ? turning : linear);
   };
-  constexpr std::string_view models[] = {"rigid", "spring", "stepper"};
   const TwoMassModel& m = axis.plant;
   w.table("  [axis.plant]", fmt::format("axis.{}.plant", axis.letter));
-  w.word("model", models[static_cast<std::size_t>(m.motor)]);
+  w.word("model", kMotorModels.word(m.motor));
   w.number(key("base_mass", "kg", "kg_m2"), m.base_mass_kg);
   w.number(key("link_mass", "kg", "kg_m2"), m.link_mass_kg);
   w.number(key("link_stiffness", "N_per_m", "Nm_per_rad"), m.link_stiffness_N_per_m);
@@ -91,7 +91,7 @@ void write_axis(TomlWriter& w, const AxisModel& axis, double home2_u) {
   };
   w.table("[[axis]]", fmt::format("axis.{}", axis.letter));
   w.word("name", std::string(1, axis.letter));
-  w.word("kind", rotary ? "rotary" : "linear");
+  w.word("kind", kAxisKinds.word(axis.kind));
   w.number(key("step"), axis.step_u, fmt::format("steps_per_{}", unit));
   w.line(key("range"), fmt::format("[{}, {}]", number_text(axis.soft_min_u), number_text(axis.soft_max_u)));
   w.number(key("home"), axis.home_u);
@@ -105,13 +105,11 @@ void write_axis(TomlWriter& w, const AxisModel& axis, double home2_u) {
 }
 
 void write_override(TomlWriter& w, const OverrideSettings& s) {
-  constexpr std::string_view modes[] = {"corrected+", "corrected", "proportional"};
-  constexpr std::string_view limiters[] = {"off", "threshold", "paper", "matched"};
   w.table("[override]", "override");
-  w.word("mode", modes[static_cast<std::size_t>(s.mode)]);
-  w.word("locked", s.locked == LockedFeed::full ? "full" : "freeze");
-  w.word("disabled", s.disabled == LockedFeed::full ? "full" : "freeze");
-  w.word("limiter", limiters[static_cast<std::size_t>(s.limiter)]);
+  w.word("mode", kOverrideModes.word(s.mode));
+  w.word("locked", kLockedFeeds.word(s.locked));
+  w.word("disabled", kLockedFeeds.word(s.disabled));
+  w.word("limiter", kLimiters.word(s.limiter));
   w.flag("predictive", s.predictive);
   w.number("limiter_band_mm_s", s.limiter_band_u_s);
 }
@@ -144,30 +142,23 @@ void write_settings(TomlWriter& w, const MachineModel& m) {
   w.number("centripetal_acceleration_mm_s2", m.path.centripetal_accel_mm_s2);
   w.table("[planner]", "planner");
   w.flag("whole_ticks", m.planner.whole_ticks);
-  w.word("axis_limits", m.planner.axis_limits == AxisLimitRule::enforce ? "enforce" : "report");
-  w.word("tick_feed", m.planner.tick_feed == TickFeed::linear ? "linear" : "constant");
+  w.word("axis_limits", kAxisLimitRules.word(m.planner.axis_limits));
+  w.word("tick_feed", kTickFeeds.word(m.planner.tick_feed));
   w.number("tool_change_s", m.planner.tool_change_s);
-  w.word("scheduler", m.planner.scheduler == SchedulerKind::chained ? "chained" : "blockwise");
-  w.word("block_ticks", m.planner.block_ticks == BlockTicks::exact ? "exact" : "kl");
-  w.word("law", m.planner.law == RampLaw::jerk_limited ? "jerk_limited" : "quintic");
-  constexpr std::string_view methods[] = {"scheduler", "tube", "certified", "jerk-limited"};
-  w.word("method", methods[static_cast<std::size_t>(m.planner.method)]);
+  w.word("scheduler", kSchedulers.word(m.planner.scheduler));
+  w.word("block_ticks", kBlockTicks.word(m.planner.block_ticks));
+  w.word("law", kRampLaws.word(m.planner.law));
+  w.word("method", kPlanMethods.word(m.planner.method));
   w.number("node_mm", m.planner.node_mm);
   w.number("tube_levels", m.planner.tube_levels);
-  constexpr std::string_view rapids[] = {"scurve", "t-zero", "zv", "zvd", "auto"};
-  w.word("rapid_law", rapids[static_cast<std::size_t>(m.planner.rapid_law)]);
+  w.word("rapid_law", kRapidShapes.word(m.planner.rapid_law));
   w.number("rapid_frequency_pct", m.planner.rapid_frequency_pct);
   w.table("[interpolator]", "interpolator");
-  constexpr std::string_view steps[] = {
-      "crossing", "classic",       "half_step",      "diagonal",         "extra_points", "octant_midpoint",
-      "dda",      "dda_preloaded", "dda_sequential", "dda_simultaneous", "progression",  "chords",
-      "ptp"};
-  w.word("method", steps[static_cast<std::size_t>(m.interpolator)]);
+  w.word("method", kStepMethods.word(m.interpolator));
   write_override(w, m.feed_override);
   write_spindle(w, m.spindle);
-  constexpr std::string_view integrators[] = {"smooth", "reference", "oracle"};
   w.table("[plant]", "plant");
-  w.word("integrator", integrators[static_cast<std::size_t>(m.plant.integrator)]);
+  w.word("integrator", kIntegrators.word(m.plant.integrator));
   w.number("tolerance_um", m.plant.tolerance_um);
   for (const TechnologyRule& rule : m.technology) {
     w.table("[[technology]]", "technology");
@@ -195,7 +186,7 @@ std::string render_machine(const MachineFile& file) {
   TomlWriter w(file);
   w.line("format", "1");
   w.line("name", quoted(m.name));
-  w.word("on_alarm", m.on_alarm == OnAlarm::report ? "report" : "stop");
+  w.word("on_alarm", kOnAlarms.word(m.on_alarm));
   write_settings(w, m);
   for (const AxisModel& axis : m.axis)
     write_axis(w, axis, m.home2[static_cast<std::size_t>(axis_index(axis.letter))]);

@@ -138,8 +138,8 @@ Reading<bool> TableReader::flag(std::string_view key, bool otherwise) {
   return {entry->value.boolean, true, entry->value.span};
 }
 
-Reading<std::size_t> TableReader::choice(std::string_view key, std::initializer_list<std::string_view> words,
-                                         std::optional<std::size_t> otherwise) {
+Reading<std::size_t> TableReader::word(std::string_view key, std::span<const std::string_view> words,
+                                       std::optional<std::size_t> otherwise) {
   const Entry* entry = take(key, !otherwise);
   if (!entry) return {otherwise.value_or(0), otherwise.has_value(), header_};
   const Span& span = entry->value.span;
@@ -242,9 +242,12 @@ static std::string value_text(const Node& value) {
       return '"' + value.text + '"';
     case Node::Kind::boolean:
       return value.boolean ? "true" : "false";
-    default:
-      return "...";
+    case Node::Kind::table:
+    case Node::Kind::array:
+    case Node::Kind::date:
+      break;
   }
+  return "...";
 }
 
 /// A number, or a list of numbers, in another unit with 12 digits; nothing if it is neither.

@@ -1,12 +1,14 @@
 #pragma once
-#include <initializer_list>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "machine/base/vocabulary.h"
 #include "machine/file/tree.h"
 #include "machine/machine_file.h"
 
@@ -54,8 +56,19 @@ class TableReader {
   Reading<std::string> text(std::string_view key, std::optional<std::string> otherwise = {});
   Reading<bool> flag(std::string_view key, bool otherwise);
   /// One of several words, by its index in `words`.
-  Reading<std::size_t> choice(std::string_view key, std::initializer_list<std::string_view> words,
-                              std::optional<std::size_t> otherwise = {});
+  Reading<std::size_t> word(std::string_view key, std::span<const std::string_view> words,
+                            std::optional<std::size_t> otherwise = {});
+  /// One word of a vocabulary.
+  template <class Enum, std::size_t kCount>
+  Reading<Enum> choice(std::string_view key, const Vocabulary<Enum, kCount>& vocabulary,
+                       std::optional<std::type_identity_t<Enum>> otherwise = {}) {
+    std::string_view words[kCount];
+    for (std::size_t i = 0; i < kCount; ++i) words[i] = vocabulary.words[i].word;
+    std::optional<std::size_t> index;
+    if (otherwise) index = static_cast<std::size_t>(*otherwise);
+    const auto read = word(key, words, index);
+    return {vocabulary.words[read.value].value, read.valid, read.span};
+  }
   /// A table inside this one; nullptr if it is missing.
   const Node* table(std::string_view key);
   /// An array of tables inside this one; empty if it is missing.

@@ -18,8 +18,8 @@ using Key = ToleranceKey;
 std::int64_t whole(std::int64_t v) { return v; }
 
 std::string_view limit_word(std::int64_t number) {
-  if (number < 0 || number > static_cast<std::int64_t>(LimitedBy::limiter)) return "unknown";
-  return limited_by_name(static_cast<LimitedBy>(number));
+  const auto reason = kLimitedBy.at(number);
+  return reason ? kLimitedBy.word(*reason) : "unknown";
 }
 
 // a new field of KADR_TICKS is one line here, in tick_fields or in axis_fields
@@ -194,12 +194,6 @@ std::string_view channel_name(DiffChannel channel) {
       return kSummaryChannel;
   }
   return "";
-}
-
-std::string_view tolerance_name(ToleranceKey key) {
-  constexpr std::array<std::string_view, kToleranceKeys + 1> kNames = {
-      "base", "link", "base_rate", "link_rate", "force", "feed", ""};
-  return kNames[static_cast<std::size_t>(key)];
 }
 
 bool same_value(const FieldValue& a, const FieldValue& b) {

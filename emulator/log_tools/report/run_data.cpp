@@ -36,8 +36,7 @@ namespace {
 
 Json limited_by_names() {
   Json names = Json::array();
-  for (int reason = 0; reason <= static_cast<int>(LimitedBy::limiter); ++reason)
-    names.push_back(limited_by_name(static_cast<LimitedBy>(reason)));
+  for (const auto& reason : kLimitedBy) names.push_back(reason.word);
   return names;
 }
 
