@@ -12,42 +12,42 @@ namespace {
 using gcode::Block;
 using gcode::BlockKind;
 
-const char* event_kind(BlockKind kind) {
+EventKind event_kind(BlockKind kind) {
   switch (kind) {
     case BlockKind::dwell:
-      return "dwell";
+      return EventKind::dwell;
     case BlockKind::spindle_speed:
     case BlockKind::spindle_clockwise:
     case BlockKind::spindle_counterclockwise:
     case BlockKind::spindle_stop:
     case BlockKind::spindle_mode:
-      return "spindle";
+      return EventKind::spindle;
     case BlockKind::sync_start:
     case BlockKind::sync_stop:
-      return "sync";
+      return EventKind::sync;
     case BlockKind::mist_on:
     case BlockKind::mist_off:
     case BlockKind::flood_on:
     case BlockKind::flood_off:
-      return "coolant";
+      return EventKind::coolant;
     case BlockKind::select_tool:
     case BlockKind::change_tool:
     case BlockKind::set_tool_number:
-      return "tool";
+      return EventKind::tool;
     case BlockKind::digital_output:
     case BlockKind::analog_output:
-      return "output";
+      return EventKind::output;
     case BlockKind::wait_input:
-      return "wait";
+      return EventKind::wait;
     case BlockKind::probe:
-      return "probe";
+      return EventKind::probe;
     case BlockKind::message:
-      return "message";
+      return EventKind::message;
     case BlockKind::feed_override:
     case BlockKind::speed_override:
-      return "lock";
+      return EventKind::lock;
     default:
-      return "stop";
+      return EventKind::stop;
   }
 }
 

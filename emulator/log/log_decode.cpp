@@ -195,7 +195,7 @@ Decoded<EventRecord> decode_event(WireReader in) {
   r.block = u32(in.i32());
   r.span.line = u32(in.i32());
   r.span.column = u32(in.i32());
-  r.kind = in.string();
+  r.kind = StoredWord<kEventKinds>::read(in.string());
   const std::string code = in.string();
   if (!code.empty()) r.code = parse_code(code).value_or(Code{});
   r.axis = in.i32();
@@ -265,7 +265,7 @@ Decoded<LogSummary> decode_summary(WireReader in) {
   RunSummary& r = s.run;
   r.ticks = Ticks{in.i64()};
   in.f64();  // t_s
-  r.outcome = in.string();
+  r.outcome = StoredWord<kOutcomes>::read(in.string());
   r.control_ticks = ControlTicks{in.i64()};
   r.blocks = u32(in.i32());
   for (double* field : {&r.path_u, &r.mean_feed_u_s, &r.peak_feed_u_s, &r.motion_s, &r.dwell_s})

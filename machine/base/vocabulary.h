@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace kadr {
@@ -97,6 +98,33 @@ struct Vocabulary {
     }
     return text;
   }
+};
+
+/// A word that was stored: of a vocabulary, or one that a newer or foreign writer knows. That one keeps its
+/// text, and is equal to no enumerator.
+template <const auto& kWords>
+class StoredWord {
+ public:
+  using Enum = typename std::remove_cvref_t<decltype(kWords)>::Value;
+
+  StoredWord(Enum value) : value_(value) {}
+  /// A text as it was read.
+  static StoredWord read(std::string text) {
+    StoredWord word{Enum{}};
+    word.value_ = kWords.find(text);
+    if (!word.value_) word.foreign_ = std::move(text);
+    return word;
+  }
+
+  /// Nothing for a foreign word.
+  std::optional<Enum> value() const { return value_; }
+  std::string text() const { return value_ ? std::string(kWords.word(*value_)) : foreign_; }
+  bool operator==(const StoredWord&) const = default;
+  bool operator==(Enum value) const { return value_ == value; }
+
+ private:
+  std::optional<Enum> value_;
+  std::string foreign_;
 };
 
 }  // namespace kadr

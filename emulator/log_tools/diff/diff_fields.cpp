@@ -67,7 +67,8 @@ constexpr std::array kAxisFields = {
 constexpr std::array kEventFields = {
     LogField<EventRecord>{"tick", Unit::none,
                           [](const EventRecord& e) -> FieldValue { return e.tick.value; }},
-    LogField<EventRecord>{"kind", Unit::none, [](const EventRecord& e) -> FieldValue { return e.kind; }},
+    LogField<EventRecord>{"kind", Unit::none,
+                          [](const EventRecord& e) -> FieldValue { return e.kind.text(); }},
     LogField<EventRecord>{
         "code", Unit::none,
         [](const EventRecord& e) -> FieldValue { return e.code == Code{} ? "" : code_name(e.code); }},
@@ -136,7 +137,8 @@ constexpr std::array kDiagnosticFields = {
 
 // peaks and means follow from the ticks: they are not compared again
 constexpr std::array kSummaryFields = {
-    LogField<RunSummary>{"outcome", Unit::none, [](const RunSummary& s) -> FieldValue { return s.outcome; }},
+    LogField<RunSummary>{"outcome", Unit::none,
+                         [](const RunSummary& s) -> FieldValue { return s.outcome.text(); }},
     LogField<RunSummary>{"tick", Unit::none, [](const RunSummary& s) -> FieldValue { return s.ticks.value; }},
     LogField<RunSummary>{"blocks", Unit::none,
                          [](const RunSummary& s) -> FieldValue { return whole(s.blocks); }},

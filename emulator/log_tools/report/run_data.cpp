@@ -73,8 +73,10 @@ Json block_columns(const PageData& data) {
 Json events_json(const PageData& data) {
   Json out = Json::array();
   for (const EventRecord& e : data.events)
-    out.push_back(
-        {{"t_s", data.header.seconds(e.tick)}, {"line", e.span.line}, {"kind", e.kind}, {"text", e.text}});
+    out.push_back({{"t_s", data.header.seconds(e.tick)},
+                   {"line", e.span.line},
+                   {"kind", e.kind.text()},
+                   {"text", e.text}});
   return out;
 }
 

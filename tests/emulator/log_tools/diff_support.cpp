@@ -34,7 +34,7 @@ emulator::BlockRecord block_record(Ticks tick, std::uint32_t block, std::uint32_
 }  // namespace
 
 void write_changed(const std::string& path, const emulator::RunHeader& header, std::int64_t control_ticks,
-                   const ChangeTick& change, const std::string& outcome) {
+                   const ChangeTick& change, emulator::Outcome outcome) {
   const machine::MachineModel& machine = *header.machine;
   const auto log = open(path);
   check(log->begin(header));

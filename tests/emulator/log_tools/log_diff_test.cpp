@@ -65,7 +65,7 @@ TEST_CASE("a log does not differ from itself: whole, interrupted, cut off anywhe
   CHECK(diff.load_peaks.empty());
   for (const ChannelTotals& totals : diff.channels) CHECK(totals.differing == 0);
 
-  write_changed(folder / "i", log_header(machine), kTicks, {}, "interrupted");
+  write_changed(folder / "i", log_header(machine), kTicks, {}, Outcome::interrupted);
   CHECK(!compare(folder / "i.part", folder / "i.part").differ());
 
   const auto bytes = test::read_bytes(whole);
