@@ -22,6 +22,9 @@ struct Bounds {
   bool whole = false;     ///< whole numbers only
 };
 
+/// "1 to 100 %, or inf", in the unit of the key.
+std::string bounds_text(const Bounds& bounds, std::string_view key);
+
 /// What was read from a key. `value` can be used even if it is not valid (then it is some allowed number), so
 /// that the rest of the file is still checked.
 template <class T>
@@ -83,6 +86,11 @@ class TableReader {
   /// Tells unknown and missing keys.
   void finish();
 
+  /// Place of a key's value; of one that is not given the table's header.
+  Span place(std::string_view key) const {
+    const Entry* entry = table_ ? table_->find(key) : nullptr;
+    return entry ? entry->value.span : header_;
+  }
   const std::string& path() const { return path_; }
   std::string path_of(std::string_view key) const;
   /// Place for a mistake of the table as a whole.
