@@ -148,7 +148,9 @@ KeyDocument document(const Key<Model, Value>& key) {
   if constexpr (std::is_same_v<Value, bool>) {
     d.otherwise = value ? "true" : "false";
   } else {
-    d.allowed = bounds_text(key.bounds, spelled(key.name, AxisKind::linear));
+    // an axis's keys carry two units: the bounds are in that of the key
+    const bool one_unit = key.name.find('{') == std::string_view::npos;
+    d.allowed = bounds_text(key.bounds, one_unit ? key.name : "");
     d.otherwise = default_text(static_cast<double>(value), key.bounds.whole);
   }
   if (!key.otherwise.empty()) d.otherwise = key.otherwise;
