@@ -22,9 +22,13 @@ Quantity quantity_of(Key key) {
       return Quantity::position;
     case Key::force:
       return Quantity::force;
-    default:
-      return Quantity::rate;
+    case Key::base_rate:
+    case Key::link_rate:
+    case Key::feed:
+    case Key::none:
+      break;
   }
+  return Quantity::rate;
 }
 
 struct UnitEntry {
