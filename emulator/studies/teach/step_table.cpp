@@ -26,14 +26,14 @@ std::string refusal_text(Refusal refusal, const Curve& curve, Method method, con
     case Refusal::in_line:
       return fmt::format("{}: the control points are in line, so it is no conic; use --method crossing",
                          kind);
-    default: {
-      std::string known;
-      for (const lattice::MethodEntry& m : lattice::methods())
-        if (lattice::knows(m.method, curve))
-          known += fmt::format("{}{}", known.empty() ? "" : ", ", m.name());
-      return fmt::format("{} is not followed by {}; methods for it: {}", kind, name, known);
-    }
+    case Refusal::none:
+    case Refusal::other_curve:
+      break;
   }
+  std::string known;
+  for (const lattice::MethodEntry& m : lattice::methods())
+    if (lattice::knows(m.method, curve)) known += fmt::format("{}{}", known.empty() ? "" : ", ", m.name());
+  return fmt::format("{} is not followed by {}; methods for it: {}", kind, name, known);
 }
 
 }  // namespace
