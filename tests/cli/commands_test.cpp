@@ -519,7 +519,7 @@ TEST_CASE("usage mistakes: exit 2, a complaint and nothing on standard output") 
       {{"run", "square.ngc", "-o", "no/such/folder/x.lcmlog"}, "No such file or directory"},
       {{"run", "square.ngc", "--no-log", "--publish", "bogus://x"}, "bogus://x"},
       {{"canon", "square.ngc", "--lines", "5-2"}, "--lines takes"},
-      {{"machine"}, "kadr machine: which command? show, list, check, new\n"},
+      {{"machine"}, "kadr machine: which command? show, list, keys, check, new\n"},
       {{"check", "square.ngc", "--format", "xml"}, "--format knows"},
   };
   for (const auto& [arguments, complaint] : cases) {

@@ -45,6 +45,18 @@ TEST_CASE("a stored number is a value of the enumeration, or nothing") {
   CHECK_FALSE(kHues.at(-1));
 }
 
+TEST_CASE("a stored word that no enumerator has keeps its text") {
+  using Stored = StoredWord<kHues>;
+  CHECK(Stored::read("green") == Hue::green);
+  CHECK(Stored::read("green").text() == "green");
+  CHECK(Stored::read("green") == Stored(Hue::green));
+  const Stored foreign = Stored::read("violet");
+  CHECK(foreign.text() == "violet");
+  CHECK_FALSE(foreign.value());
+  for (const auto& hue : kHues) CHECK_FALSE(foreign == hue.value);
+  CHECK_FALSE(foreign == Stored::read("pink"));
+}
+
 TEST_CASE("a machine runs the methods up to ptp; those behind are the laboratory's") {
   CHECK(machine::kMachineMethods.find("ptp") == machine::StepMethod::ptp);
   CHECK_FALSE(machine::kMachineMethods.find("newton"));
