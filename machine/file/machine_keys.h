@@ -4,7 +4,7 @@
 #include "machine/words.h"
 
 /// The keys of a machine file, each declared once: from here they are read, printed and documented
-/// (`kadr machine keys`, docs/machine_file.md).
+/// (`kadr machine keys`, docs/machine_keys.md).
 namespace kadr::machine {
 
 // Bounds of the settings, in the unit of the key. The outer ends are far beyond any machine: they guard
