@@ -8,6 +8,7 @@
 
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/options.h"
+#include "emulator/cli/usage.h"
 
 namespace kadr::cli {
 namespace {
@@ -16,6 +17,7 @@ class Reader {
  public:
   Reader() : app_("kadr runs a control program on a simulated machine, exactly and repeatably.", "kadr") {
     app_.require_subcommand(1);
+    app_.formatter(help_formatter());
     app_.footer(
         "`kadr COMMAND --help` tells more. `-` is standard input. Data go to standard output, messages to "
         "standard\n"
@@ -31,8 +33,8 @@ class Reader {
   }
 
   std::variant<Arguments, int> read(int argc, const char* const* argv) {
-    if (argc > 1 && argv[1][0] != '-' && !known(argv[1])) {
-      fmt::print(stderr, "kadr: there is no command '{}'; commands: {}\n", argv[1], command_names(app_));
+    if (const std::string mistake = usage_mistake(app_, {argv + 1, argv + argc}); !mistake.empty()) {
+      fmt::print(stderr, "{0}\n{1} --help tells more\n", mistake, mistake.substr(0, mistake.find(':')));
       return kNotStarted;
     }
     try {
@@ -72,11 +74,6 @@ class Reader {
       names += (names.empty() ? "" : ", ") + sub->get_name();
     return names;
   }
-  bool known(const std::string& name) const {
-    const auto all = app_.get_subcommands({});
-    return std::any_of(all.begin(), all.end(), [&](const CLI::App* sub) { return sub->get_name() == name; });
-  }
-
   CLI::App app_;
   Arguments arguments_;
   Options options_{app_, arguments_};

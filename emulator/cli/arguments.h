@@ -12,6 +12,7 @@
 #include "emulator/studies/teach/pulses.h"
 #include "gcode/gcode.h"
 #include "machine/base/vocabulary.h"
+#include "machine/file/data_sheet.h"
 #include "machine/infinity.h"
 #include "scenarios/generator/wind.h"
 
@@ -94,6 +95,8 @@ struct Arguments {
       files;            ///< programs, logs, machine files, scenarios, codes: what the command works on
   std::string machine;  ///< -m: file or shipped name; empty: the default machine
   std::vector<std::string> settings;  ///< --set key=value
+  machine::DataSheetWords sheet;      ///< machine new --axes and the others
+  bool ask = false;                   ///< machine new --ask
   std::string tools;                  ///< tool table; empty: none
   std::optional<gcode::Dialect> dialect;
   gcode::ReadingBounds bounds;           ///< --limit

@@ -60,11 +60,23 @@ int end_of(const LogSamples& log, const std::string& path, Console& console) {
   return kNo;
 }
 
+/// What the values of codes mean, a signal a paragraph.
+std::string code_legend(const LogSamples& log) {
+  std::string out;
+  for (const emulator::Signal& s : log.signals()) {
+    if (s.words.empty()) continue;
+    out += fmt::format("\n{}:", s.name);
+    for (std::size_t i = 0; i < s.words.size(); ++i)
+      out += fmt::format("{} {} {}", i == 0 ? "" : ",", i, s.words[i]);
+  }
+  return out.empty() ? out : out + '\n';
+}
+
 std::string signal_list(const LogSamples& log) {
   emulator::TextTable table(
       {{"signal", emulator::TextTable::Align::left}, {"unit", emulator::TextTable::Align::left}});
   for (const emulator::Signal& s : log.signals()) table.add({s.name, s.unit.empty() ? "-" : s.unit});
-  return table.render();
+  return table.render() + code_legend(log);
 }
 
 void write(LogSamples& log, ExportForm form, const emulator::Sink& sink) {

@@ -38,7 +38,7 @@ void add_tube(Options& o) {
       ->expected(1)
       ->type_name("");
   o.repeated(sub, "--method", "NAME",
-             fmt::format("Only this method: {};\nrepeatable; default: all that the problem states",
+             fmt::format("Use only this method: {};\nrepeatable (default: all that the problem states)",
                          emulator::kLawMethods.list()),
              [&o](const std::string& text) -> tl::expected<void, std::string> {
                if (!emulator::kLawMethods.find(text))
@@ -46,10 +46,10 @@ void add_tube(Options& o) {
                o.arguments.methods.push_back(text);
                return {};
              });
-  sub->add_option(
-         "--csv", o.arguments.csv_path,
-         "Write a row a node: s in mm, highest speed and what holds it, speed in mm/s and time in s\n"
-         "of every law")
+  sub->add_option("--csv", o.arguments.csv_path,
+                  "Write a CSV file, a row per node: s in mm, highest speed and what holds it, speed in mm/s "
+                  "and time\n"
+                  "in s of every law")
       ->type_name("FILE");
   sub->add_option("--page", o.arguments.page_path, "Write charts and tables as one HTML file")
       ->type_name("FILE");
@@ -61,11 +61,11 @@ void add_tube(Options& o) {
            o.arguments.first_level = range->first;
            o.arguments.last_level = range->second;
          },
-         "Run the tube with each number of levels from A to B in place of the methods: time, gap, passes;\n"
+         "Instead, run the tube with each number of levels from A to B, 3 to 2000: time, gap, passes;\n"
          "--csv and --page then show the sweep")
       ->type_name("A..B")
       ->excludes("--method");
-  sub->add_flag("--timing", o.arguments.timing, "A column of wall times; two runs are then not the same");
+  sub->add_flag("--timing", o.arguments.timing, "Add a column of wall times, which differ from run to run");
   o.diagnostics(sub);
   o.output(sub);
   sub->footer("Example: kadr tube docs/tube/laying.toml --page laying.html");
@@ -90,31 +90,33 @@ void add_law(Options& o) {
                             "Compare motions from rest to rest: energy in J, residual vibration in mm, how\n"
                             "sensitive to the frequency; the default question is Table 1 of paper 001");
   emulator::PointQuestion& q = o.arguments.point;
-  number(sub, "--distance-m", "M", "Way (default 3.5)", [&q](double x) { q.task.distance_u = x; });
-  number(sub, "--time-s", "S", "Time of the motion (default 4)", [&q](double x) { q.time_s = x; });
-  sub->add_flag("--time-optimal", q.time_optimal, "As fast as the limits allow, instead");
-  number(sub, "--accel-m-s2", "A", "Largest acceleration (default 1)",
+  number(sub, "--distance-m", "M", "Distance in m (default 3.5)", [&q](double x) { q.task.distance_u = x; });
+  number(sub, "--time-s", "S", "Time of the motion in s (default 4)", [&q](double x) { q.time_s = x; });
+  sub->add_flag("--time-optimal", q.time_optimal, "As fast as the limits allow, instead of --time-s");
+  number(sub, "--accel-m-s2", "A", "Largest acceleration in m/s2 (default 1)",
          [&q](double x) { q.task.accel_limit_u_s2 = x; });
-  number(sub, "--speed-m-s", "V", "Largest speed (default 3)",
+  number(sub, "--speed-m-s", "V", "Largest speed in m/s (default 3)",
          [&q](double x) { q.task.speed_limit_u_s = x; });
-  number(sub, "--omega-rad-s", "W", "Frequency of the load on its base (default 100 pi/3)",
+  number(sub, "--omega-rad-s", "W", "Natural frequency of the load on its base in rad/s (default 100 pi/3)",
          [&q](double x) { q.mode.omega_rad_s = x; });
-  number(sub, "--zeta", "Z", "Its damping ratio (default 0)", [&q](double x) { q.mode.zeta = x; });
-  number(sub, "--mass-kg", "M", "Mass m of the load (default 1)", [&q](double x) { q.load.mass_kg = x; });
-  number(sub, "--drive-ratio", "P", "Inertia of the drive, of m (default 4)",
+  number(sub, "--zeta", "Z", "Damping ratio of the load (default 0)", [&q](double x) { q.mode.zeta = x; });
+  number(sub, "--mass-kg", "M", "Mass m of the load in kg (default 1)",
+         [&q](double x) { q.load.mass_kg = x; });
+  number(sub, "--drive-ratio", "P", "Inertia of the drive as a multiple of m (default 4)",
          [&q](double x) { q.load.drive_ratio = x; });
-  number(sub, "--counterweight-ratio", "K", "Counterweight, of m (default 0.5)",
+  number(sub, "--counterweight-ratio", "K", "Counterweight as a multiple of m (default 0.5)",
          [&q](double x) { q.load.counterweight_ratio = x; });
-  number(sub, "--gravity-m-s2", "G", "Gravity along the axis (default 9.81; 0: level)",
+  number(sub, "--gravity-m-s2", "G", "Gravity along the axis in m/s2 (default 9.81; 0: level)",
          [&q](double x) { q.load.gravity_m_s2 = x; });
   sub->add_flag("--printed-gravity", q.printed_gravity,
-                "Take 9.81 for K_g, as the paper does, whatever the time and way");
+                "Take 9.81 for K_g, as the paper does, whatever time and distance are");
   o.choice(sub, "--drive", q.drive, planner::kDrives,
-           "What moves the base: position (stiff, default) or force")
+           fmt::format("What moves the base: {} (default position: stiff)", planner::kDrives.list("|")))
       ->group("Options");
-  number(sub, "--uncertainty-pct", "U", "How well the frequency is known, for the advice (default 1)",
+  number(sub, "--uncertainty-pct", "U",
+         "How far off the natural frequency may be, in %, for the advice (default 1)",
          [&q](double x) { q.omega_uncertainty = x / 100; });
-  o.repeated(sub, "--xi", "XI", "A T law to compare besides; repeatable",
+  o.repeated(sub, "--xi", "XI", "Add the T law of this xi to the comparison; repeatable",
              [&q](const std::string& text) -> tl::expected<void, std::string> {
                const auto value = parse_number(text);
                if (!value) return tl::unexpected(fmt::format("takes a number; got '{}'", text));
@@ -122,8 +124,8 @@ void add_law(Options& o) {
                return {};
              });
   sub->add_flag("--paper", o.arguments.table2,
-                "Table 2 of the paper instead: printed, reproduced, and by physics");
-  sub->add_option("--csv", o.arguments.csv_path, "Write the table, a row a law")->type_name("FILE");
+                "Show Table 2 of the paper instead: printed, reproduced, and by physics");
+  sub->add_option("--csv", o.arguments.csv_path, "Write the table as CSV, a row per law")->type_name("FILE");
   sub->add_option("--page", o.arguments.page_path, "Write charts and table as one HTML file")
       ->type_name("FILE");
   o.output(sub);
@@ -158,7 +160,7 @@ void add_wind(Options& o) {
       o.arguments.wind_kind = kind.name;
     });
     for (const scenarios::WindParameter& p : kind.parameters) wind_parameter(o, sub, p);
-    sub->add_option("-o,--output", o.arguments.program_path, "Program to write; default: standard output")
+    sub->add_option("-o,--output", o.arguments.program_path, "Program to write (default: standard output)")
         ->type_name("FILE");
     o.output(sub);
     sub->footer(fmt::format("Example: kadr wind {0} --length-mm 120 -o {0}.ngc", kind.name));

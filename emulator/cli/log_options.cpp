@@ -9,7 +9,7 @@ namespace {
 
 void add_info(Options& o) {
   CLI::App* sub =
-      o.command(o.app, "info", log_info, "Tell what a log holds: run, channels, span in s, hashes");
+      o.command(o.app, "info", log_info, "Show what a log holds: run, channels, span in s, hashes");
   sub->add_option("LOG", o.arguments.files, "Logs written by kadr run")->required()->type_name("");
   o.output(sub);
 }
@@ -37,12 +37,15 @@ void add_diff(Options& o) {
         ->required()
         ->type_name("");
   o.choice(sub, "--align", o.arguments.diff.align, emulator::kDiffAligns,
-           "What is put side by side: tick|path (path: same path length, whatever the override)")
+           fmt::format(
+               "Compare at the same tick or at the same path length: {} (default tick; path: whatever the\n"
+               "override)",
+               emulator::kDiffAligns.list("|")))
       ->group("Options");
   o.repeated(
       sub, "--tolerance", "KEY=VALUE",
-      "Allowed difference with unit, e.g. load=0.5um; keys load, base, link, base_rate, link_rate, force,\n"
-      "and with --align path feed; default: none; repeatable",
+      "Allow a difference, with unit, e.g. load=0.5um; keys: load, base, link, base_rate, link_rate, force,\n"
+      "and with --align path feed; repeatable (default: none allowed)",
       [&o](const std::string& text) { return emulator::add_tolerance(o.arguments.diff.tolerance, text); });
   o.repeated(
       sub, "--ignore", "CHANNEL/FIELD",
@@ -56,10 +59,11 @@ void add_diff(Options& o) {
              throw CLI::ValidationError(fmt::format("--context takes a whole number from 0 to {}; got '{}'",
                                                     emulator::kMostContext, text));
          },
-         "Control ticks shown before and after the first difference (default 2)")
+         fmt::format("Control ticks to show before and after the first difference, 0 to {} (default 2)",
+                     emulator::kMostContext))
       ->type_name("N");
-  sub->add_flag("--all", o.arguments.diff.all, "Every difference, not only the first");
-  sub->add_flag("--strict", o.arguments.strict, "Inputs that differ count too (exit 1)");
+  sub->add_flag("--all", o.arguments.diff.all, "Show every difference, not only the first");
+  sub->add_flag("--strict", o.arguments.strict, "Count differing inputs, too (exit 1)");
   o.output(sub);
   sub->footer("Example: kadr diff golden.lcmlog new.lcmlog --tolerance load=0.5um");
 }
@@ -86,41 +90,44 @@ void add_choice(Options& o, CLI::App* sub, const char* signals_help) {
   emulator::SampleChoice& choice = o.arguments.exported.choice;
   sub->add_option("--signals", choice.signals, signals_help)->type_name("NAME,...");
   sub->add_option_function<std::string>("--from", number_option("--from", choice.from_s, 0),
-                                        "Begin at that time of the run, s (default 0)")
+                                        "Begin at this time of the run, s (default 0)")
       ->type_name("S");
   sub->add_option_function<std::string>("--to", number_option("--to", choice.to_s, 0),
-                                        "End at that time of the run, s (default: its end)")
+                                        "End at this time of the run, s (default: its end)")
       ->type_name("S");
 }
 
 void add_export(Options& o) {
   ExportOptions& out = o.arguments.exported;
   CLI::App* sub = o.command(o.app, "export", export_log,
-                            "Write a log in a form of other tools: CSV, JSON lines, VCD, SVG");
+                            "Write a log in a form that other tools read: CSV, JSON lines, VCD, SVG");
   sub->add_option("LOG", o.arguments.files, "Log written by kadr run")
       ->required()
       ->expected(1)
       ->type_name("");
   CLI::Option_group* forms = sub->add_option_group("Form");
   forms->add_flag_callback(
-      "--csv", [&out] { out.form = ExportForm::csv; }, "A row a sample: comma, decimal point");
+      "--csv", [&out] { out.form = ExportForm::csv; },
+      "CSV with comma and decimal point, a row per control tick");
   forms->add_flag_callback(
       "--excel", [&out] { out.form = ExportForm::excel; },
-      "CSV with semicolon, decimal comma and byte order mark");
+      "CSV with semicolon, decimal comma and byte order mark, for spreadsheets");
   forms->add_flag_callback(
       "--json", [&out] { out.form = ExportForm::json; },
-      "An object a line: run, blocks, events, samples, summary");
+      "JSON lines, an object per line: run, blocks, events, samples, summary");
   forms->add_flag_callback(
       "--vcd", [&out] { out.form = ExportForm::vcd; },
       "Value change dump: step and direction wires, chosen signals as reals");
   forms->add_flag_callback(
-      "--svg", [&out] { out.form = ExportForm::svg; }, "Charts over time");
-  forms->add_flag("--list", o.arguments.list, "Only name the log's signals with their units");
+      "--svg", [&out] { out.form = ExportForm::svg; }, "SVG: charts over time");
+  forms->add_flag("--list", o.arguments.list,
+                  "List the log's signals with their units, and what the values of codes mean");
   forms->require_option(1);
-  add_choice(o, sub, "Signals, `*` for any text: 'feed.*,axis.X.load_mm' (default: all; vcd, svg: a few)");
+  add_choice(o, sub,
+             "Signals, `*` for any text, e.g. 'feed.*,axis.X.load_mm' (default: all; vcd, svg: a few)");
   sub->add_option_function<std::string>(
          "--rate-hz", number_option("--rate-hz", out.choice.rate_hz, 1e-6),
-         "Take every n-th control tick, as near to this rate as it goes (default: all)")
+         "Take every n-th control tick, as near to this rate in Hz as possible (default: every one)")
       ->type_name("HZ");
   sub->add_option("-o,--output", out.output_path, "File to write (default: standard output)")
       ->type_name("FILE");
@@ -137,12 +144,13 @@ void add_plot(Options& o) {
       ->expected(1)
       ->type_name("");
   add_choice(o, sub, "Signals, `*` for any text (default: feed and path error)");
-  sub->add_flag("--path", out.path, "The commanded path seen along Z instead");
+  sub->add_flag("--path", out.path, "Draw the commanded path, seen along Z, instead of signals");
   sub->add_option_function<std::string>("--width", cells_option("--width", out.plot.width, 24),
-                                        "Columns of the picture (default 80)")
+                                        "Columns of the picture, 24 to 1000 (default 80)")
       ->type_name("N");
-  sub->add_option_function<std::string>("--height", cells_option("--height", out.plot.height, 3),
-                                        "Rows of each picture (default 10)")
+  sub->add_option_function<std::string>(
+         "--height", cells_option("--height", out.plot.height, 3),
+         "Rows of each picture, 3 to 1000 (default 10); of a path at most (default 20)")
       ->type_name("N");
   sub->add_flag("--ascii", out.plot.ascii, "Draw with # instead of Braille dots");
   sub->footer("Example: kadr plot part.lcmlog --signals 'axis.*.following*' --from 1.2 --to 1.4");
@@ -160,13 +168,14 @@ void add_report(Options& o) {
   sub->add_option("-o,--output", out.output_path, "Page to write (default: the log's name with .html)")
       ->type_name("FILE");
   sub->add_option_function<std::string>("--from", number_option("--from", out.choice.from_s, 0),
-                                        "Begin at that time of the run, s (default 0)")
+                                        "Begin at this time of the run, s (default 0)")
       ->type_name("S");
   sub->add_option_function<std::string>("--to", number_option("--to", out.choice.to_s, 0),
-                                        "End at that time of the run, s (default: its end)")
+                                        "End at this time of the run, s (default: its end)")
       ->type_name("S");
-  sub->add_option_function<std::string>("--max-size-mb", number_option("--max-size-mb", out.max_size_mb, 0.2),
-                                        "Size of the page, MB (default 10): a longer run shows extremes only")
+  sub->add_option_function<std::string>(
+         "--max-size-mb", number_option("--max-size-mb", out.max_size_mb, 0.2),
+         "Largest size of the page in MB, at least 0.2 (default 10); a longer run shows extremes only")
       ->type_name("MB");
   sub->add_flag("-q,--quiet", o.arguments.output.quiet, "Only errors")->group("Output");
   sub->footer("Example: kadr report part.lcmlog -o part.html");
@@ -176,7 +185,7 @@ void add_compare(Options& o) {
   ExportOptions& out = o.arguments.exported;
   CLI::App* sub = o.command(o.app, "compare", compare_logs,
                             "Put runs of one program side by side: time, vibration, path error, work");
-  sub->add_option("LOG", o.arguments.files, "Two or more logs written by kadr run")
+  sub->add_option("LOG", o.arguments.files, "2 to 16 logs written by kadr run, of one program")
       ->required()
       ->expected(2, 16)
       ->type_name("");

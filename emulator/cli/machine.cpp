@@ -6,7 +6,6 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
-#include "emulator/cli/write_file.h"
 #include "emulator/text/text.h"
 
 namespace kadr::cli {
@@ -26,28 +25,6 @@ std::string description(std::string_view toml) {
   const std::string_view line = toml.substr(0, toml.find('\n'));
   if (line.empty() || line.front() != '#') return {};
   return emulator::one_line(line.substr(1), 100);
-}
-
-/// The machine's text with `name = "..."` replaced.
-std::string renamed(std::string_view toml, const std::string& name) {
-  std::string out;
-  bool done = false;
-  while (!toml.empty()) {
-    const auto end = std::min(toml.find('\n'), toml.size() - 1) + 1;
-    const std::string_view line = toml.substr(0, end);
-    toml.remove_prefix(end);
-    const auto key_end = line.find_first_of(" =");
-    if (!done && line.substr(0, key_end) == "name" && line.find('=') != std::string_view::npos) {
-      const auto open = line.find('"'), close = line.find('"', open + 1);
-      if (open != std::string_view::npos && close != std::string_view::npos) {
-        out += fmt::format("{}\"{}\"{}", line.substr(0, open), name, line.substr(close + 1));
-        done = true;
-        continue;
-      }
-    }
-    out += line;
-  }
-  return out;
 }
 
 Json machine_json(const std::string& file, bool good, const emulator::Job& job,
@@ -161,32 +138,6 @@ int machine_check(const Arguments& arguments, Console& console) {
   }
   if (console.options().json) console.document(documents);
   return worst;
-}
-
-int machine_new(const Arguments& arguments, Console& console) {
-  const std::string& name = arguments.files.front();
-  const bool plain = !name.empty() && name.find_first_not_of(
-                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                          "0123456789_-") == std::string::npos;
-  if (!plain)
-    throw WorldError(
-        fmt::format("machine name '{}': letters, digits, _ and - make a name; the file is NAME.toml in "
-                    "the current folder",
-                    name));
-  emulator::Job job;
-  Diagnostics diagnostics;
-  if (!load_machine(arguments.machine, {}, job, diagnostics)) {
-    console.diagnostics(diagnostics, job.sources, "the machine file", Console::Where::errors);
-    return kNotStarted;
-  }
-  const std::string path = name + ".toml";
-  write_file(path, renamed(job.machine.text, name), arguments.force);
-  if (console.options().json)
-    console.document(Json({{"file", path}, {"name", name}, {"copied_from", job.machine.model.name}}));
-  else if (!console.options().quiet)
-    console.data(fmt::format("wrote {}, a copy of {}; change it, then: kadr machine check {}\n", path,
-                             job.machine.model.name, path));
-  return kYes;
 }
 
 }  // namespace kadr::cli

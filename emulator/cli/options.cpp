@@ -18,35 +18,37 @@ std::string Options::unknown_word(const std::string& name, const std::string& wo
 
 void Options::output(CLI::App* sub) {
   OutputOptions& out = arguments.output;
-  sub->add_flag("--json", out.json, "One JSON document on standard output; keys carry units")
+  sub->add_flag("--json", out.json, "Write one JSON document to standard output; its keys carry units")
       ->group("Output");
   sub->add_flag("-q,--quiet", out.quiet, "Only data and errors: no notes, no progress, no tables")
       ->group("Output");
   choice(sub, "--color", out.color, kWhens,
-         fmt::format("Colour messages: {} (auto: on a terminal; NO_COLOR and CLICOLOR_FORCE are kept)",
+         fmt::format("Colour messages: {} (default auto: on a terminal, as NO_COLOR and CLICOLOR_FORCE say)",
                      kWhens.list("|")));
 }
 
 void Options::diagnostics(CLI::App* sub) {
   OutputOptions& out = arguments.output;
   choice(sub, "--format", out.format, kDiagnosticFormats,
-         fmt::format("Form of diagnostics: {} (json: one object a line; sarif: one SARIF 2.1.0 document)",
+         fmt::format("Form of diagnostics: {} (default human; json: one object per line; sarif: one SARIF "
+                     "2.1.0 document)",
                      kDiagnosticFormats.list("|")));
   sub->add_option("--max-errors", out.max_errors,
-                  "Show that many diagnostics, 0: all (default 20; all with sarif)")
+                  "Show at most N diagnostics; 0: all (default 20; with sarif all)")
       ->type_name("N")
       ->group("Output");
 }
 
 void Options::progress(CLI::App* sub) {
   choice(sub, "--progress", arguments.output.progress, kProgressModes,
-         fmt::format("Progress on standard error: {} (auto: a bar on a terminal, else a line every 10 s)",
-                     kProgressModes.list("|")));
+         fmt::format(
+             "Progress on standard error: {} (default auto: a bar on a terminal, else a line every 10 s)",
+             kProgressModes.list("|")));
 }
 
 void Options::machine(CLI::App* sub) {
   sub->add_option("-m,--machine", arguments.machine,
-                  "Machine file, or the name of a shipped machine (`kadr machine list`); default: mill3")
+                  "Machine file, or the name of a shipped one: `kadr machine list` (default mill3)")
       ->type_name("FILE|NAME");
   sub->add_option("--set", arguments.settings,
                   "Change one value of the machine file, e.g. feed.max_mm_s=80; repeatable")
@@ -56,9 +58,9 @@ void Options::machine(CLI::App* sub) {
 }
 
 void Options::reading(CLI::App* sub) {
-  sub->add_flag("--block-delete", arguments.block_delete, "Leave out lines that begin with /");
+  sub->add_flag("--block-delete", arguments.block_delete, "Skip lines that begin with / (block delete)");
   sub->add_option("--subs", arguments.sub_folders,
-                  "Folder in which called files are looked for after the program's own; repeatable")
+                  "Folder to search for called files, after the program's own; repeatable")
       ->type_name("DIR")
       ->allow_extra_args(false)
       ->take_all();
@@ -67,12 +69,13 @@ void Options::reading(CLI::App* sub) {
          [this](const std::vector<std::string>& texts) {
            for (const std::string& text : texts) limit(text);
          },
-         "Bound on a program: blocks, call_depth, loop_passes, file_bytes, line_bytes; 0: none; repeatable")
+         "Set a bound on programs: blocks, call_depth, loop_passes, file_bytes or line_bytes; 0: no bound;\n"
+         "repeatable")
       ->type_name("NAME=N")
       ->allow_extra_args(false)
       ->take_all();
   sub->add_option("--tools", arguments.tools,
-                  "Tool table, LinuxCNC's .tbl text with lengths in mm; default: tools without length")
+                  "Tool table: LinuxCNC's .tbl text, lengths in mm (default: every tool has length 0)")
       ->type_name("TABLE");
   sub->add_option_function<std::string>(
          "--dialect",
@@ -82,7 +85,8 @@ void Options::reading(CLI::App* sub) {
              throw CLI::ValidationError(
                  fmt::format("--dialect knows {}; got '{}'", gcode::kDialects.list(), text));
          },
-         fmt::format("How codes that controllers read differently are meant: {}", gcode::kDialects.list("|")))
+         fmt::format("Read codes on which controllers differ as this one does: {} (default linuxcnc)",
+                     gcode::kDialects.list("|")))
       ->type_name("WORD");
 }
 
@@ -97,7 +101,7 @@ void Options::limit(const std::string& text) {
 }
 
 void Options::strict(CLI::App* sub) {
-  sub->add_flag("--strict", arguments.strict, "Warnings count as errors (exit 1)");
+  sub->add_flag("--strict", arguments.strict, "Count warnings as errors (exit 1)");
 }
 
 CLI::Option* Options::programs(CLI::App* sub, const std::string& name, bool several) {

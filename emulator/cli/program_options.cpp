@@ -18,19 +18,19 @@ void add_run(Options& o) {
   });
   o.machine(sub);
   o.reading(sub);
-  sub->add_option(
-         "-s,--scenario", o.arguments.scenario,
-         "Scenario: gives PROG, machine and settings that the command line does not (`kadr scenario run`\n"
-         "compares its expectations)")
+  sub->add_option("-s,--scenario", o.arguments.scenario,
+                  "Take PROG, machine and settings from this scenario where the command line gives none "
+                  "(`kadr scenario\n"
+                  "run` also compares its expectations)")
       ->type_name("FILE");
   sub->add_option("-o,--log", o.arguments.log_path,
-                  "Log to write; default: PROG.lcmlog in the current folder")
+                  "Log to write (default: PROG.lcmlog in the current folder)")
       ->type_name("LOG");
   sub->add_flag_function(
       "--no-log", [&o](std::int64_t) { o.arguments.log = false; }, "Write no log");
   sub->add_flag_function(
       "--no-plant", [&o](std::int64_t) { o.arguments.plant = false; },
-      "Step pulses only; do not simulate the flexible machine");
+      "Make step pulses only; do not simulate the flexible machine");
   sub->add_option_function<std::string>(
          "--until",
          [&o](const std::string& text) {
@@ -39,16 +39,17 @@ void add_run(Options& o) {
              throw CLI::ValidationError(
                  fmt::format("--until takes seconds of machine time above 0, e.g. 12.5; got '{}'", text));
          },
-         "Stop after that many seconds of machine time")
+         "Stop after S seconds of machine time (default: run to the end)")
       ->type_name("S");
-  sub->add_option("--threads", o.arguments.threads, "1, or 2: a second thread writes the log; same bytes")
+  sub->add_option("--threads", o.arguments.threads,
+                  "Threads, 1 or 2 (default 1); with 2, the second one writes the log. Same bytes either way")
       ->type_name("N")
       ->check([](const std::string& text) {
         return text == "1" || text == "2" ? std::string() : "takes 1 or 2, got '" + text + "'";
       });
-  sub->add_option(
-         "--publish", o.arguments.publish_url,
-         "Send the log live over LCM besides, e.g. udpm://239.255.76.67:7667 (ttl 0 unless it says ttl=N)")
+  sub->add_option("--publish", o.arguments.publish_url,
+                  "Also send the log live over LCM, e.g. to udpm://239.255.76.67:7667 (ttl 0 unless the URL "
+                  "says ttl=N)")
       ->type_name("URL");
   o.strict(sub);
   o.progress(sub);
@@ -73,12 +74,12 @@ void add_check(Options& o) {
 void add_plan(Options& o) {
   CLI::App* sub =
       o.command(o.app, "plan", plan_program,
-                "Plan a program: a row a block with length in mm or deg, time in s, peak and end feed in\n"
+                "Plan a program: a row per block with length in mm or deg, time in s, peak and end feed in\n"
                 "mm/s or deg/s, and what limited it");
   o.programs(sub, "PROG", false);
   o.machine(sub);
   o.reading(sub);
-  sub->add_flag("--csv", o.arguments.csv, "Comma-separated values with full precision");
+  sub->add_flag("--csv", o.arguments.csv, "Write comma-separated values with full precision");
   o.strict(sub);
   o.diagnostics(sub);
   o.output(sub);
@@ -97,15 +98,15 @@ void read_lines(Arguments& arguments, const std::string& text) {
 }
 
 void add_canon(Options& o) {
-  CLI::App* sub =
-      o.command(o.app, "canon", canon_program,
-                "Print what a program means: one machining call a line, machine coordinates in mm and deg,\n"
-                "feeds in mm/min, dwells in s");
+  CLI::App* sub = o.command(
+      o.app, "canon", canon_program,
+      "Print what a program means: one machining call per line, machine coordinates in mm and deg,\n"
+      "feeds in mm/min, dwells in s");
   o.programs(sub, "PROG", false);
   o.reading(sub);
   sub->add_option_function<std::string>(
          "--lines", [&o](const std::string& text) { read_lines(o.arguments, text); },
-         "Only calls of these program lines")
+         "Print only the calls of these program lines, e.g. 10-40 or 12 (default: all)")
       ->type_name("FIRST-LAST");
   o.diagnostics(sub);
   o.output(sub);

@@ -27,7 +27,7 @@ void bounded(CLI::App* sub, const std::string& name, T& value, double least, dou
                                                     text));
            value = static_cast<T>(*number);
          },
-         description)
+         fmt::format("{}; {}{:g} to {:g}", description, std::is_integral_v<T> ? "whole, " : "", least, most))
       ->type_name("N");
 }
 
@@ -41,17 +41,22 @@ void subject(Options& o, CLI::App* sub) {
       ->type_name("");
   emulator::TeachOptions& options = o.arguments.teach.options;
   bounded(sub, "--axes", o.arguments.teach.axes, 2, 9, "Axes of a polyline or Bezier (default 2)");
-  o.choice(sub, "--mode", options.mode, emulator::kTeachModes,
-           "cp: the axes together along the path; ptp: each at its own rate from node to node");
+  o.choice(
+       sub, "--mode", options.mode, emulator::kTeachModes,
+       fmt::format(
+           "How axes move: {} (default cp: together along the path; ptp: each at its own rate from node to\n"
+           "node)",
+           emulator::kTeachModes.list("|")))
+      ->group("Options");
   bounded(sub, "--bits", options.method.fraction_bits, 1, 60,
           "Fraction bits of progression and newton (default 16)");
   bounded(sub, "--tolerance", options.method.chord_tolerance, 1e-3, 1e6,
-          "Largest sagitta of chords, in steps (default 0.1)");
+          "Largest sagitta of chords in steps (default 0.1)");
   sub->add_flag("--tie-to-y", options.method.tie_to_y,
-                "half_step: a line through a corner steps Y, as the way back of one that steps X");
+                "half_step: where a line passes through a corner, step Y instead of X, as its way back does");
   bounded(sub, "--most", options.most_slots, 1, static_cast<double>(kMostSlots),
-          "Slots at most (default 100000)");
-  sub->add_flag("--csv", o.arguments.csv, "Comma-separated values instead of a table")->group("Output");
+          "Largest number of slots (default 100000)");
+  sub->add_flag("--csv", o.arguments.csv, "Write comma-separated values instead of a table")->group("Output");
 }
 
 void methods(Options& o, CLI::App* sub, std::size_t most) {
@@ -81,14 +86,16 @@ void add_table(Options& o, CLI::App* group) {
   methods(o, sub, 1);
   emulator::PulseTiming& timing = o.arguments.teach.timing;
   o.choice(sub, "--timing", timing, emulator::kPulseTimings,
-           "When pulses fire: uniform (a slot after the other) or crossing (where the path\n"
-           "crosses the middle between two nodes, at a constant feed)");
+           fmt::format("When pulses fire: {} (default uniform: slot after slot; crossing: where the path\n"
+                       "crosses the middle between two nodes, at a constant feed)",
+                       emulator::kPulseTimings.list("|")))
+      ->group("Options");
   bounded(sub, "--feed", o.arguments.teach.feed_steps_s, 1e-3, 1e7,
-          "Slots a second, or steps a second along the path (default 1000)");
+          "Slots per second, or steps per second along the path (default 1000)");
   sub->add_option("--vcd", o.arguments.teach.vcd_path,
-                  "Write STEP and DIR as a value change dump, 0.1 us a tick")
+                  "Also write STEP and DIR as a value change dump with ticks of 0.1 us")
       ->type_name("FILE");
-  sub->add_flag("--spacing", o.arguments.teach.spacing, "Add the times between pulses of each axis, in us");
+  sub->add_flag("--spacing", o.arguments.teach.spacing, "Add the times between pulses of each axis in us");
   o.output(sub);
   sub->footer("Example: kadr teach table line 7 4 --method half_step");
 }
@@ -111,12 +118,12 @@ void add_page(Options& o, CLI::App* group) {
   CLI::App* sub = o.command(*group, "page", teach_page,
                             "Write the teaching page: the same interpolators, to be clicked through in a\n"
                             "browser; one file, no network");
-  sub->add_option("CASE", o.arguments.files, "What it opens with, as in `kadr teach table`, in two axes")
+  sub->add_option("CASE", o.arguments.files, "Case to open with, as in `kadr teach table`, of two axes")
       ->expected(0, 4096)
       ->type_name("");
   methods(o, sub, kMostCompared);
   sub->add_option("-o,--output", o.arguments.teach.page_path,
-                  "The page (default teach.html); -: standard output")
+                  "Page to write (default teach.html); `-`: standard output")
       ->type_name("FILE");
   o.output(sub);
   sub->footer("Example: kadr teach page arc 7 0 0 7 ccw -o arc.html");
@@ -126,7 +133,7 @@ void add_sweep(Options& o, CLI::App* group) {
   CLI::App* sub = o.command(*group, "sweep", teach_sweep,
                             "One hash over the traces of many cases by all methods: the same in every build\n"
                             "and on the page");
-  bounded(sub, "--cases", o.arguments.teach.cases, 1, 10'000'000, "Cases (default 20000)");
+  bounded(sub, "--cases", o.arguments.teach.cases, 1, 10'000'000, "Number of cases (default 20000)");
   o.output(sub);
 }
 
@@ -141,11 +148,11 @@ void add_bezier(Options& o, CLI::App* group) {
       ->required()
       ->expected(1, 4096)
       ->type_name("");
-  bounded(sub, "--feed", o.arguments.teach.feed_mm_s, 1e-6, 1e9, "Feed to be checked, mm/s");
+  bounded(sub, "--feed", o.arguments.teach.feed_mm_s, 1e-6, 1e9, "Feed to check in mm/s");
   bounded(sub, "--accel", o.arguments.teach.acceleration_mm_s2, 1e-6, 1e12,
-          "Acceleration that the machine allows, mm/s2");
+          "Acceleration that the machine allows in mm/s2");
   sub->add_flag("--paper", o.arguments.teach.paper,
-                "Errors of t(S) by Newton's polynomials, minimax polynomials and the quintic table");
+                "Show errors of t(S) by Newton's polynomials, minimax polynomials and the quintic table");
   o.output(sub);
   sub->footer("Example: kadr teach bezier '0,0,0 2,2,4 5,-0.5,2' --feed 1000 --accel 500000");
 }

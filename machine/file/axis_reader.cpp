@@ -111,20 +111,27 @@ void read_range(TableReader& r, AxisModel& axis, double& home2_u, const AxisKeys
   if (r.has(keys.of("home2"))) check(home2, "second reference position", keys.of("home2"));
 }
 
-TwoMassModel read_plant(const Node& table, const std::string& path, const AxisModel& axis,
-                        ReadContext& context) {
+/// The plant of an axis; nothing for a rigid motor that carries no flexible link: the axis then follows its
+/// steps exactly, and neither mass nor spring is needed.
+std::optional<TwoMassModel> read_plant(const Node& table, const std::string& path, const AxisModel& axis,
+                                       ReadContext& context) {
   TableReader r(&table, path, table.span, context);
   TwoMassModel m;
   read_key(r, m, kMotor);
+  const auto any_given = [&](const auto&... each) {
+    return ((each.need == Need::link && r.has(spelled(each.name, axis.kind))) || ...);
+  };
+  const bool link = m.motor != MotorModel::rigid || std::apply(any_given, kPlantKeys);
   const bool spring = m.motor == MotorModel::spring, stepper = m.motor == MotorModel::stepper;
   const auto read = [&](const auto& key) {
-    const bool by_motor = (key.need == Need::spring && spring) || (key.need == Need::stepper && stepper) ||
-                          (key.need == Need::motor && (spring || stepper));
-    read_key(r, m, key, axis.kind, key.need == Need::always || by_motor);
+    const bool needed = (key.need == Need::link && link) || (key.need == Need::spring && spring) ||
+                        (key.need == Need::stepper && stepper) ||
+                        (key.need == Need::motor && (spring || stepper));
+    read_key(r, m, key, axis.kind, needed);
   };
   std::apply([&](const auto&... each) { (read(each), ...); }, kPlantKeys);
   r.finish();
-  return m;
+  return link ? std::optional(m) : std::nullopt;
 }
 
 }  // namespace
@@ -152,8 +159,9 @@ AxisModel read_axis(const Node& table, std::size_t index, const ClockModel& cloc
   check_step_rate(axis, step, feed, clock, keys, context);
 
   if (const Node* plant = r.table("plant")) {
-    axis.has_plant = true;
-    axis.plant = read_plant(*plant, r.path() + ".plant", axis, context);
+    const auto model = read_plant(*plant, r.path() + ".plant", axis, context);
+    axis.has_plant = model.has_value();
+    axis.plant = model.value_or(TwoMassModel{});
   }
   r.finish();
   return axis;

@@ -41,6 +41,8 @@ std::string need_text(Need need) {
       break;
     case Need::always:
       return "required";
+    case Need::link:
+      return "required with a link";
     case Need::spring:
       return "required by \"spring\"";
     case Need::motor:

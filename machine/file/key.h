@@ -18,6 +18,7 @@ namespace kadr::machine {
 enum class Need : std::uint8_t {
   never,    ///< its default is what the member holds before reading
   always,   ///< in every table of its kind
+  link,     ///< unless the motor is `rigid` and none of these is given: then there is no flexible link
   spring,   ///< by the motor `spring`; other motors ignore it
   motor,    ///< by the motors `spring` and `stepper`
   stepper,  ///< by the motor `stepper`

@@ -171,18 +171,20 @@ inline constexpr auto kJunctionJerk =
 inline constexpr auto kAxisLimitKeys = keys_of(kMaxFeed, kMaxAccel, kMaxJerk, kJunctionAccel, kJunctionJerk);
 
 inline constexpr auto kMotor =
-    key("model", &TwoMassModel::motor, kMotorModels, "the motor; keys of other motors are ignored")
+    key("model", &TwoMassModel::motor, kMotorModels,
+        "the motor; keys of other motors are ignored; \"rigid\" without a link follows its steps exactly")
         .required();
 inline constexpr auto kPlantKeys = keys_of(
-    key("base_mass_{mass}", &TwoMassModel::base_mass_kg, kMassBounds, "motor and carriage").required(),
+    key("base_mass_{mass}", &TwoMassModel::base_mass_kg, kMassBounds, "motor and carriage")
+        .required(Need::link),
     key("link_mass_{mass}", &TwoMassModel::link_mass_kg, kMassBounds, "flexible part with the tool")
-        .required(),
+        .required(Need::link),
     key("link_stiffness_{stiffness}", &TwoMassModel::link_stiffness_N_per_m, kStiffnessBounds,
         "spring between the two; frequency = sqrt(stiffness / mass) / 2 pi")
-        .required(),
+        .required(Need::link),
     key("link_damping_{damping}", &TwoMassModel::link_damping_Ns_per_m, kDampingBounds,
         "damper between the two; ratio = damping / (2 sqrt(stiffness mass))")
-        .required(),
+        .required(Need::link),
     key("base_friction_{damping}", &TwoMassModel::base_friction_Ns_per_m, kDampingBounds,
         "viscous friction of the guide"),
     key("motor_stiffness_{stiffness}", &TwoMassModel::motor_stiffness_N_per_m, kStiffnessBounds,

@@ -110,6 +110,13 @@ KeyParts split_key(std::string_view key) {
   return best;
 }
 
+const Unit* find_unit(std::string_view suffix) {
+  const Unit* best = nullptr;
+  for (const Unit& unit : kUnits)
+    if (same_letters(unit.suffix, suffix) && (!best || unit.suffix == suffix)) best = &unit;
+  return best;
+}
+
 std::optional<double> convert(double value, const Unit& from, const Unit& to) {
   if (from.quantity != to.quantity) return std::nullopt;
   return value * from.factor / to.factor;

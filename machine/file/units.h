@@ -44,6 +44,9 @@ struct KeyParts {
 /// Splits a key at the longest known unit suffix, upper and lower case alike.
 KeyParts split_key(std::string_view key);
 
+/// A unit by its suffix, upper and lower case alike; nullptr if there is none.
+const Unit* find_unit(std::string_view suffix);
+
 /// The value of one unit in another; nothing if they measure different quantities.
 std::optional<double> convert(double value, const Unit& from, const Unit& to);
 

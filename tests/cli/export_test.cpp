@@ -205,3 +205,39 @@ TEST_CASE("kadr plot draws within the width asked for, in Braille or ASCII, the 
                  "path in X and Y   X 0.000 .. 30.000 mm, Y 0.000 .. 30.000 mm\n"));
   CHECK(square().kadr({"plot"}).out == square().kadr({"plot"}).out);
 }
+
+TEST_CASE("kadr plot --path fills the rows asked for and no more, and calls a low end of dust 0") {
+  const Scratch scratch;
+  // 100 mm by 20 mm, from a home that is 0 but for rounding
+  scratch.write("flat.ngc", "G21 G90\nG1 X100 Y10 F6000\nX0 Y20\nM2\n");
+  REQUIRE(call({"run", "flat.ngc", "--set", "axis.Y.home_mm=7.07e-6", "-q"}, scratch.path()).code == 0);
+  for (const std::string ascii : {"", "--ascii"}) {
+    CAPTURE(ascii);
+    // 69 columns for 100 mm: 20 mm are 6.8 cells of double height up from the first: 28 Braille dots, or 8
+    // cells
+    const std::size_t rows = ascii.empty() ? 7 : 8;
+    std::vector<std::string> plot = {"plot", "flat.lcmlog", "--path"};
+    if (!ascii.empty()) plot.push_back(ascii);
+    const auto wide = split(call(plot, scratch.path()).out, '\n');
+    REQUIRE(wide.size() == 2 + rows);
+    CHECK(wide[1].size() > 12);
+    CHECK(wide[rows].rfind("        0 ┤", 0) == 0);
+    CHECK(wide[rows].size() > 12);
+    plot.insert(plot.end(), {"--height", "4"});
+    CHECK(split(call(plot, scratch.path()).out, '\n').size() == 2 + 4);
+  }
+}
+
+TEST_CASE("kadr export --list ends with the meaning of every code that the log can hold") {
+  const auto list = square().kadr({"export", "--list"}).out;
+  CHECK(contains(list, "\nfeed.limited_by: 0 program, 1 rapid, 2 path feed, "));
+  const auto at = list.find("\nfeed.limited_by: ");
+  REQUIRE(at != std::string::npos);
+  const std::string line = list.substr(at + 1, list.find('\n', at + 1) - at - 1);
+  std::map<std::string, int> seen;
+  for (const std::string& value :
+       split(square().kadr({"export", "--csv", "--signals", "feed.limited_by"}).out, '\n'))
+    if (const auto comma = value.find(','); value.rfind("t_s", 0) != 0) ++seen[value.substr(comma + 1)];
+  CHECK(seen.size() >= 3);
+  for (const auto& [code, count] : seen) CHECK(contains(line, " " + code + " "));
+}

@@ -104,13 +104,14 @@ Finished run_kadr(const Launch& launch) {
   const int child_err = launch.terminal ? child_terminal : err.write;
   const pid_t child = ::fork();
   REQUIRE(child >= 0);
-  if (child == 0) become(launch, in.read, child_out, child_err);
+  if (child == 0) become(launch, launch.terminal_input ? child_terminal : in.read, child_out, child_err);
   for (const int fd : {in.read, out.write, err.write, file, child_terminal})
     if (fd >= 0) ::close(fd);
   // a program that does not read all of its input must not end this one
   std::signal(SIGPIPE, SIG_IGN);
   if (!launch.input.empty()) {
-    const ssize_t written = ::write(in.write, launch.input.data(), launch.input.size());
+    const ssize_t written =
+        ::write(launch.terminal_input ? terminal : in.write, launch.input.data(), launch.input.size());
     (void)written;
   }
   ::close(in.write);

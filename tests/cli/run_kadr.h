@@ -25,6 +25,7 @@ struct Launch {
   std::int64_t file_size_limit = -1;     ///< bytes (ulimit -f); -1: none
   std::string stdout_path;               ///< standard output goes there instead of `out`
   bool terminal = false;                 ///< standard output and error are one terminal (both in `out`)
+  bool terminal_input = false;           ///< with `terminal`: `input` is typed there
   /// Called about every millisecond while the program runs; may send it signals.
   std::function<void(pid_t)> watch;
 };

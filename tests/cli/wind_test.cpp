@@ -106,7 +106,7 @@ TEST_CASE("a parameter of a winding that can't be is refused: exit 2, no file, n
       {{"hoop", "--radius-mm", "50", "--radius-mm", "60"}, "--radius-mm"},
       {{"hoop", "--angle-deg", "45"}, "--angle-deg"},
       {{"hoop", "--radius", "50"}, "--radius"},
-      {{"knot"}, "kadr wind: which command? hoop, helix, dome\n"},
+      {{"knot"}, "kadr wind: there is no command 'knot'; commands: hoop, helix, dome\n"},
   };
   for (auto [arguments, complaint] : cases) {
     CAPTURE(complaint);

@@ -93,6 +93,14 @@ TEST_CASE("docs/report.md: every command gives the output that stands below it")
   check_document("docs/report.md");
 }
 
+TEST_CASE("docs/machine_file.md: every command gives the output that stands below it") {
+  check_document("docs/machine_file.md");
+}
+
+TEST_CASE("docs/programs.md: every command gives the output that stands below it") {
+  check_document("docs/programs.md");
+}
+
 TEST_CASE("an output that differs from the document is seen") {
   const auto document = split_lines(
       "text\n```console\n$ echo one\n> echo two\none\ntwo\n$ false\n(exit 1)\n```\n```\n$ no\n```\n");

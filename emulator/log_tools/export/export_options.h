@@ -23,7 +23,7 @@ enum class CsvForm : std::uint8_t {
 /// What a plot in the terminal looks like.
 struct PlotForm {
   int width = 80;      ///< cells, with the axis
-  int height = 10;     ///< cells of each picture
+  int height = 0;      ///< cells of each picture, of a path at most; 0: 10, of a path 20
   bool ascii = false;  ///< `#` instead of Braille dots
 };
 

@@ -18,8 +18,9 @@ namespace kadr::emulator {
 /// KADR_FEED.commanded is "feed.commanded_mm_s", KADR_AXIS_X.load is "axis.X.load_mm".
 struct Signal {
   std::string name;
-  std::string unit;    ///< "mm/s"; empty: a count or a code
-  bool whole = false;  ///< a whole number
+  std::string unit;                  ///< "mm/s"; empty: a count or a code
+  bool whole = false;                ///< a whole number
+  std::vector<std::string> words{};  ///< of a code: what its values 0, 1 ... mean; else empty
 };
 
 /// One control tick, at its end.

@@ -13,6 +13,9 @@ namespace kadr::emulator {
 namespace {
 
 constexpr int kMargin = 11;  ///< cells of the axis' numbers
+constexpr int kRows = 10, kPathRows = 20;
+constexpr int kLeastRows = 3;
+constexpr double kNoDigit = 1e-4;  ///< part of a range that its numbers of four digits can't show
 
 /// Dots in cells of 2 x 4 Braille dots, or one a cell.
 class Canvas {
@@ -95,6 +98,14 @@ std::string footing(const std::string& left, const std::string& right, int width
   return std::string(kMargin, ' ') + left + std::string(used < inner ? inner - used : 1, ' ') + right + '\n';
 }
 
+/// An end of a range that is zero but for rounding beside the other end.
+ChartRange without_dust(ChartRange range) {
+  const double least = kNoDigit * (range.high - range.low);
+  if (std::fabs(range.low) < least) range.low = 0;
+  if (std::fabs(range.high) < least) range.high = 0;
+  return range;
+}
+
 ChartRange not_empty(ChartRange range) {
   if (!(range.high > range.low)) {
     const double half = range.low == 0 ? 1 : std::fabs(range.low) * 0.1;
@@ -114,10 +125,12 @@ std::string picture(const Signal& signal, const std::vector<Envelope::Piece>& pi
   }
   const std::string unit = signal.unit.empty() ? "" : " " + signal.unit;
   if (first) return signal.name + "   nothing to draw\n";
+  y = without_dust(y);
   std::string out =
       fmt::format("{}   {} .. {}{}\n", signal.name, significant(y.low), significant(y.high), unit);
   y = not_empty(y);
-  Canvas canvas(form.width - kMargin, form.height, form.ascii);
+  const int rows = form.height > 0 ? form.height : kRows;
+  Canvas canvas(form.width - kMargin, rows, form.ascii);
   const auto down = [&](double value) {
     return static_cast<int>(std::floor((value - y.low) / (y.high - y.low) * (canvas.height() - 1) + 0.5));
   };
@@ -140,7 +153,7 @@ std::string picture(const Signal& signal, const std::vector<Envelope::Piece>& pi
     last_low = down(p.low);
     last_high = down(p.high);
   }
-  return out + framed(canvas, form.height, y) +
+  return out + framed(canvas, rows, y) +
          footing(fmt::format("{} s", fixed(t.low, 3)), fmt::format("{} s", fixed(t.high, 3)), form.width);
 }
 
@@ -188,12 +201,17 @@ std::string render_path_plot(LogSamples& log, const PlotForm& form) {
   std::string out = fmt::format("path in {0} and {1}   {0} {2} .. {3} mm, {1} {4} .. {5} mm\n",
                                 header.axis[axes[0]].name, header.axis[axes[1]].name, fixed(x.low, 3),
                                 fixed(x.high, 3), fixed(y.low, 3), fixed(y.high, 3));
-  const int rows = 2 * form.height, columns = form.width - kMargin;
-  Canvas canvas(columns, rows, form.ascii);
   // a terminal's cell is twice as high as wide: a Braille dot is square, an ASCII cell is not
   const double tall = form.ascii ? 2 : 1;
-  const double scale = std::min((canvas.width() - 1) / std::max(x.high - x.low, 1e-9),
-                                (canvas.height() - 1) * tall / std::max(y.high - y.low, 1e-9));
+  const int columns = form.width - kMargin, most_rows = form.height > 0 ? form.height : kPathRows;
+  const Canvas room(columns, most_rows, form.ascii);
+  const double scale = std::min((room.width() - 1) / std::max(x.high - x.low, 1e-9),
+                                (room.height() - 1) * tall / std::max(y.high - y.low, 1e-9));
+  // no more rows than the path fills
+  const int dots = static_cast<int>((y.high - y.low) * scale / tall + 0.5) + 1,
+            down = room.height() / most_rows;
+  const int rows = std::clamp((dots + down - 1) / down, std::min(kLeastRows, most_rows), most_rows);
+  Canvas canvas(columns, rows, form.ascii);
   int px = 0, py = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const int cx = static_cast<int>((points[i][0] - x.low) * scale + 0.5);
@@ -202,7 +220,7 @@ std::string render_path_plot(LogSamples& log, const PlotForm& form) {
     px = cx;
     py = cy;
   }
-  const ChartRange shown{y.low, y.low + (canvas.height() - 1) * tall / scale};
+  const ChartRange shown = without_dust({y.low, y.low + (canvas.height() - 1) * tall / scale});
   return out + framed(canvas, rows, shown) +
          footing(fmt::format("{} mm", fixed(x.low, 3)),
                  fmt::format("{} mm", fixed(x.low + (canvas.width() - 1) / scale, 3)), form.width);
