@@ -43,6 +43,13 @@ enum class OverrideNote : std::uint8_t {
   locked,    ///< thread, tap, M49
   limited,   ///< the axis limiter lowers the feed
 };
+inline constexpr Vocabulary<OverrideNote, 4> kOverrideNotes{{
+    {OverrideNote::none, "in force"},
+    {OverrideNote::deferred, "deferred: braking", "the motion brakes for a place ahead"},
+    {OverrideNote::locked, "locked", "thread, tap, M49"},
+    {OverrideNote::limited, "axis limiter", "the axis limiter lowers the feed"},
+}};
+static_assert(kOverrideNotes.complete());
 
 /// How s moves in one control tick. Exact at both ends of the tick; between them the feed runs linearly over
 /// [move_begin, move_end] (base ticks within the tick, fractions allowed) and the path rests outside of it,
