@@ -33,7 +33,8 @@ print_times() {
 build_preset() {
   local preset=$1 options=() option stale=no
   shift
-  [[ -f build/$preset/build.ninja ]] || stale=yes
+  # also as long as a page is left out: what it needs may be there by now
+  [[ -f build/$preset/build.ninja && ! -f build/$preset/pages/missing ]] || stale=yes
   while [[ ${1-} == -D* ]]; do
     option=${1#-D}
     grep -qE "^${option%%=*}:[A-Z]+=${option#*=}\$" "build/$preset/CMakeCache.txt" 2>/dev/null || stale=yes

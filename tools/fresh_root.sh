@@ -28,10 +28,15 @@ base_root() {
     'Created-By: Packages' 'Origin: Debian' | grep ' bookworm' | sort -u >"$base/etc/apt/sources.list"
   # how this machine reaches its package registries
   apt-config dump | grep -E '^Acquire::(http|https|Check|Retries)' >"$base/etc/apt/apt.conf.d/90machine" || true
-  for line in /etc/resolv.conf /etc/hosts /etc/npmrc "$HOME/.npmrc"; do
+  for line in /etc/resolv.conf /etc/hosts /etc/npmrc; do
     [[ -e $line ]] && cp --parents -L "$line" "$base"
   done
-  [[ $HOME == /root || ! -e $HOME/.npmrc ]] || cp "$HOME/.npmrc" "$base/root/.npmrc"
+  [[ ! -e $HOME/.npmrc ]] || cp "$HOME/.npmrc" "$base/root/.npmrc"
+  # and whom it trusts there: the package ca-certificates would write over its own place
+  if [[ -e /etc/ssl/certs/ca-certificates.crt ]]; then
+    cp /etc/ssl/certs/ca-certificates.crt "$base/etc/machine-certificates.crt"
+    sed -i 's|^cafile *=.*|cafile=/etc/machine-certificates.crt|' "$base/etc/npmrc" "$base/root/.npmrc" 2>/dev/null || true
+  fi
   # the root is thrown away: no need to wait for the disk after each file
   echo force-unsafe-io >"$base/etc/dpkg/dpkg.cfg.d/90throwaway"
   touch "$base.done"
@@ -72,7 +77,8 @@ in_root() {
       mount -t tmpfs -o mode=1777 tmpfs "$FRESH_AT/dev/shm"
       mkdir -p "$FRESH_AT/fresh"
       mount --bind "$FRESH_DISK" "$FRESH_AT/fresh"
-      exec chroot "$FRESH_AT" /usr/bin/env -i HOME=/root USER=root LANG=C.UTF-8 TERM=dumb KADR_FRESH=/fresh ${CI:+CI=$CI} \
+      exec chroot "$FRESH_AT" /usr/bin/env -i HOME=/root USER=root LANG=C.UTF-8 TERM=dumb KADR_FRESH=/fresh \
+        NODE_EXTRA_CA_CERTS=/etc/machine-certificates.crt ${CI:+CI=$CI} \
         PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin bash -c '\''cd && exec "$@"'\'' bash "$@"' \
       in_root "$@"
 }

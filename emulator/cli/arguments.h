@@ -85,6 +85,7 @@ struct ExportOptions {
   bool path = false;        ///< plot --path
   std::string output_path;  ///< -o; empty: standard output
   double max_size_mb = 10;  ///< of a report page, MB
+  bool plain = false;       ///< a report page without script
 };
 
 /// The command line as read. Fields that a command does not have keep their defaults.

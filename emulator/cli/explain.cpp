@@ -5,6 +5,7 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/log/log_types.h"
+#include "emulator/log_tools/report/built_pages.h"
 #include "emulator/text/text.h"
 #include "machine/base/codes.h"
 #include "machine/base/utf8.h"
@@ -100,6 +101,18 @@ int explain_codes(const Arguments& arguments, Console& console) {
   return code;
 }
 
+namespace {
+
+/// null, or why this build is without the page.
+Json pages() {
+  Json list = Json::object();
+  for (const emulator::BuiltPage& page : emulator::built_pages())
+    list[std::string(page.name)] = page.missing.empty() ? Json() : Json(page.missing);
+  return list;
+}
+
+}  // namespace
+
 int print_version(const Arguments&, Console& console) {
 #if defined(__clang__)
   const std::string compiler =
@@ -108,11 +121,13 @@ int print_version(const Arguments&, Console& console) {
   const std::string compiler = fmt::format("gcc {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
 #endif
   if (console.options().json)
-    console.document(
-        Json({{"kadr", KADR_VERSION}, {"compiler", compiler}, {"log_format", emulator::kLogFormat}}));
+    console.document(Json({{"kadr", KADR_VERSION},
+                           {"compiler", compiler},
+                           {"log_format", emulator::kLogFormat},
+                           {"pages", pages()}}));
   else
-    console.data(
-        fmt::format("kadr {}\ncompiler {}\nlog format {}\n", KADR_VERSION, compiler, emulator::kLogFormat));
+    console.data(fmt::format("kadr {}\ncompiler {}\nlog format {}\npages {}\n", KADR_VERSION, compiler,
+                             emulator::kLogFormat, emulator::pages_text()));
   return kYes;
 }
 

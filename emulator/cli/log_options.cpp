@@ -177,6 +177,7 @@ void add_report(Options& o) {
          "--max-size-mb", number_option("--max-size-mb", out.max_size_mb, 0.2),
          "Largest size of the page in MB, at least 0.2 (default 10); a longer run shows extremes only")
       ->type_name("MB");
+  sub->add_flag("--plain", out.plain, "Tables and drawings alone, without script");
   sub->add_flag("-q,--quiet", o.arguments.output.quiet, "Only errors")->group("Output");
   sub->footer("Example: kadr report part.lcmlog -o part.html");
 }

@@ -36,7 +36,9 @@ int report_log(const Arguments& arguments, Console& console) {
     return read ? std::move(*read) : emulator::FullRate{};
   };
   const std::string page =
-      emulator::render_report_page(std::move(*data), static_cast<std::size_t>(out.max_size_mb * 1e6), again);
+      out.plain ? emulator::render_plain_page(*data)
+                : emulator::render_report_page(std::move(*data),
+                                               static_cast<std::size_t>(out.max_size_mb * 1e6), again);
   if (!failure.empty()) {
     console.error(fmt::format("{}: {}", path, failure));
     return kNotStarted;

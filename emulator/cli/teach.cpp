@@ -3,6 +3,7 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/output_file.h"
+#include "emulator/log_tools/report/built_pages.h"
 #include "emulator/studies/teach/bezier_report.h"
 #include "emulator/studies/teach/sweep.h"
 #include "emulator/studies/teach/teach_page.h"
@@ -92,10 +93,10 @@ int teach_compare(const Arguments& arguments, Console& console) {
 
 int teach_page(const Arguments& arguments, Console& console) {
   if (emulator::teach_template().empty()) {
-    console.error(
-        "this build has no teaching page (KADR_WEB=OFF); `kadr teach table` and `kadr teach compare` print "
-        "the "
-        "same numbers");
+    console.error(fmt::format(
+        "this build has no teaching page: {}. `kadr teach table` and `kadr teach compare` print the "
+        "same numbers",
+        emulator::page_missing("teaching")));
     return kNotStarted;
   }
   // a case that can't be read or followed is refused here, not by the page

@@ -21,6 +21,7 @@ ChartRange all_of(const LineChart& chart, double ChartPoint::*of) {
   bool first = true;
   const auto take = [&](const std::vector<ChartPoint>& points) {
     for (const ChartPoint& p : points) {
+      if (std::isnan(p.*of)) continue;
       range.low = first ? p.*of : std::min(range.low, p.*of);
       range.high = first ? p.*of : std::max(range.high, p.*of);
       first = false;
@@ -66,7 +67,7 @@ class Drawing {
     for (const ChartLine& line : chart_.lines)
       out += fmt::format("<path class=\"line {}\"{} d=\"{}\"/>\n", line.style,
                          line.opacity < 1 ? fmt::format(" opacity=\"{:.2f}\"", line.opacity) : "",
-                         path(line.points, 'M'));
+                         broken_path(line.points));
     return out + "</g>\n</svg>\n";
   }
   /// Of the whole drawing; known once its text is.
@@ -159,6 +160,18 @@ class Drawing {
       // far outside the frame a line goes on in the right direction, and its numbers stay short
       const double y = std::clamp(down(p.y), top_ - 4 * kPlotHeight, top_ + 5 * kPlotHeight);
       out += fmt::format("{}{:.1f} {:.1f}", out.empty() ? begin : 'L', across(p.x), y);
+    }
+    return out;
+  }
+
+  /// A path for each run of points between those that are not numbers.
+  std::string broken_path(const std::vector<ChartPoint>& points) const {
+    const auto no_value = [](const ChartPoint& p) { return std::isnan(p.y); };
+    std::string out;
+    for (auto begin = points.begin(); begin != points.end();) {
+      const auto end = std::find_if(begin, points.end(), no_value);
+      out += path({begin, end}, 'M');
+      begin = std::find_if_not(end, points.end(), no_value);
     }
     return out;
   }

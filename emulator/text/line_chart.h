@@ -12,7 +12,7 @@ struct ChartPoint {
   double x = 0, y = 0;
 };
 
-/// A line through points of ascending x.
+/// A line through points of ascending x; a y that is not a number breaks it.
 struct ChartLine {
   std::string label;  ///< in the legend; empty: none
   std::string style;  ///< class of the style sheet

@@ -495,6 +495,11 @@ TEST_CASE("kadr version names version, compiler and log format") {
   CHECK(version.out.substr(0, 5) == "kadr ");
   const Json j = Json::parse(call({"version", "--json"}).out);
   CHECK(j["log_format"] == 2);
+  for (const char* page : {"report", "compare", "teaching"}) {
+    REQUIRE(j["pages"].contains(page));
+    const bool built = j["pages"][page].is_null();
+    CHECK(contains(version.out, built ? page : j["pages"][page].get<std::string>()));
+  }
   CHECK(version.out.substr(0, 10) == call({"--version"}).out.substr(0, 10));
 }
 

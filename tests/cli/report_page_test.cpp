@@ -1,7 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/cli/programs.h"
 #include "tests/cli/run_kadr.h"
@@ -72,14 +77,66 @@ TEST_CASE("an alarm of a page has its code, instant and line, with a caret below
 }
 
 TEST_CASE(
-    "without script a page has its tables and charts; a page of a build without Node has nothing else") {
+    "without script a page has its tables, path and charts; --plain has nothing else, as a build without "
+    "Node") {
   const std::string& html = page().html;
-  const bool interactive = contains(html, "id=\"meta\"");
-  const auto charts = interactive ? html.find("<noscript>") : html.find("<svg ");
-  REQUIRE(charts != std::string::npos);
-  CHECK(contains(html.substr(charts), ">feed.commanded_mm_s<"));
-  CHECK(contains(html.substr(charts), ">path.error_um<"));
-  if (!interactive) CHECK_FALSE(contains(html, "<script"));
+  const std::string plain = call({"report", "p.lcmlog", "--plain", "-o", "-"}, page().scratch.path()).out;
+  const Json pages = Json::parse(call({"version", "--json"}).out).at("pages");
+  const bool interactive = pages.at("report").is_null();
+  CHECK(contains(html, "id=\"meta\"") == interactive);
+  if (!interactive) CHECK(html == plain);
+  CHECK_FALSE(contains(plain, "<script"));
+  CHECK(contains(plain, "this build has no interactive page: ") == !interactive);
+  for (const std::string& text : {html.substr(html.find(interactive ? "<noscript>" : "</table>")), plain}) {
+    CHECK(contains(text, ">feed.commanded_mm_s<"));
+    CHECK(contains(text, ">path.error_um<"));
+    CHECK(contains(text, "Tool path as commanded, Y over X"));
+  }
+}
+
+TEST_CASE(
+    "a page without script draws the path to scale, rapids apart, and no programmed feed where there is "
+    "none") {
+  const Scratch scratch;
+  scratch.write("p.ngc", "G21 G90 G94 G61\nG1 X40 F3000\nG0 Y20\nG1 X20\nM2\n");
+  REQUIRE(call({"run", "p.ngc", "-m", "mill3", "-o", "p.lcmlog", "-q"}, scratch.path()).code == 0);
+  REQUIRE(call({"report", "p.lcmlog", "--plain", "-q"}, scratch.path()).code == 0);
+  const std::string html = scratch.read("p.html");
+  // 40 mm and a margin of 4 % of them on either side are 858 pixels; X-1.6 is at 76 and Y21.6 at 32
+  const double scale = 858 / 43.2;
+  const std::string picture = html.substr(html.find("<svg "), html.find("</svg>") - html.find("<svg "));
+  // strokes of a style in mm; the one before the last is the legend's
+  const auto strokes = [&](const std::string& style) {
+    const std::string begin = "<path class=\"line " + style + "\" d=\"";
+    const auto from = picture.rfind(begin) + begin.size();
+    std::vector<std::vector<std::array<double, 2>>> out;
+    for (const char* at = picture.c_str() + from; *at == 'M' || *at == 'L';) {
+      if (*at == 'M') out.emplace_back();
+      char* end = nullptr;
+      const double across = std::strtod(at + 1, &end), down = std::strtod(end, &end);
+      out.back().push_back({(across - 76) / scale - 1.6, 21.6 - (down - 32) / scale});
+      at = end;
+    }
+    return out;
+  };
+  const auto near = [](const std::array<double, 2>& point, double x_mm, double y_mm) {
+    return std::hypot(point[0] - x_mm, point[1] - y_mm) < 0.02;
+  };
+  const auto feed = strokes("s0"), rapid = strokes("s1");
+  REQUIRE(feed.size() == 2);
+  REQUIRE(rapid.size() == 1);
+  CHECK(near(feed[0].front(), 0, 0));
+  CHECK(near(feed[0].back(), 40, 0));
+  CHECK(near(rapid[0].front(), 40, 0));
+  CHECK(near(rapid[0].back(), 40, 20));
+  CHECK(near(feed[1].front(), 40, 20));
+  CHECK(near(feed[1].back(), 20, 20));
+  // the second line of the chart of feeds: two programmed stretches, nothing through the rapid
+  const std::string chart = html.substr(html.find("</svg>") + 6);
+  const std::string begin = "<path class=\"line s1\" d=\"";
+  const auto from = chart.find(begin, chart.find("<g clip-path")) + begin.size();
+  const std::string programmed = chart.substr(from, chart.find('"', from) - from);
+  CHECK(std::count(programmed.begin(), programmed.end(), 'M') == 2);
 }
 
 TEST_CASE("a page of a log that breaks off says so, and the answer is no") {
@@ -104,10 +161,10 @@ TEST_CASE("a page keeps within its size: control ticks are gathered in twos, fou
   if (!contains(whole, "id=\"meta\"")) return;  // the plain form has no data to gather
   CHECK(contains(whole, "\"every\":1,"));
   REQUIRE(
-      call({"report", "a.lcmlog", "-o", "small.html", "-q", "--max-size-mb", "0.23"}, scratch.path()).code ==
+      call({"report", "a.lcmlog", "-o", "small.html", "-q", "--max-size-mb", "0.24"}, scratch.path()).code ==
       0);
   const std::string small = scratch.read("small.html");
-  CHECK(small.size() <= 230'000);
+  CHECK(small.size() <= 240'000);
   CHECK_FALSE(contains(small, "\"every\":1,"));
   // each one round what matters all the same
   CHECK(contains(whole, "\"windows\":[],"));

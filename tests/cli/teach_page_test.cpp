@@ -11,7 +11,9 @@ using kadr::test::Finished;
 using kadr::test::Scratch;
 using Json = nlohmann::json;
 
-TEST_CASE("kadr teach page writes one file, or says that this build has no page and what prints the same") {
+TEST_CASE(
+    "kadr teach page writes one file, or says why this build has no page, how to get it, what prints the "
+    "same") {
   const Scratch folder;
   const Finished run = call({"teach", "page", "line", "7", "4", "-o", "seven.html"}, folder.path());
   // without a word behind it the same, as teach.html; another word is no command
@@ -19,10 +21,12 @@ TEST_CASE("kadr teach page writes one file, or says that this build has no page 
   CHECK(folder.has("teach.html") == (run.code == 0));
   CHECK(call({"teach", "pages"}, folder.path()).code == 2);
   if (run.code == 2) {
-    CHECK(run.err ==
-          "kadr: this build has no teaching page (KADR_WEB=OFF); `kadr teach table` and `kadr teach compare` "
-          "print "
-          "the same numbers\n");
+    const Json missing = Json::parse(call({"version", "--json"}).out).at("pages").at("teaching");
+    REQUIRE(missing.is_string());
+    CHECK(contains(missing.get<std::string>(), "; "));
+    CHECK(contains(missing.get<std::string>(), "tools/run"));
+    CHECK(run.err == "kadr: this build has no teaching page: " + missing.get<std::string>() +
+                         ". `kadr teach table` and `kadr teach compare` print the same numbers\n");
     CHECK(!folder.has("seven.html"));
     return;
   }

@@ -44,13 +44,13 @@ export class Browser {
     return new Promise((done, fail) => this.waiting.set(id, { done, fail }));
   }
 
-  async page(url, { width = 1440, height = 1000, script = true, scheme = 'light' } = {}) {
+  async page(url, { width = 1440, height = 1000, scale = 1, script = true, scheme = 'light' } = {}) {
     const { targetId } = await this.send('Target.createTarget', { url: 'about:blank' });
     const { sessionId } = await this.send('Target.attachToTarget', { targetId, flatten: true });
     const page = new Page(this, sessionId, targetId);
     this.pages.set(sessionId, page);
     for (const domain of ['Page', 'Runtime', 'Network', 'Log']) await page.send(`${domain}.enable`);
-    await page.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor: 1, mobile: false });
+    await page.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor: scale, mobile: false });
     await page.send('Emulation.setEmulatedMedia', { features: [{ name: 'prefers-color-scheme', value: scheme }] });
     if (!script) await page.send('Emulation.setScriptExecutionDisabled', { value: true });
     const loaded = new Promise((done) => { page.loaded = done; });

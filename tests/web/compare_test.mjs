@@ -57,6 +57,8 @@ test('charts fill a window whose width changes', async () => {
     return last / width;
   })()`);
   assert.ok(await reach() > 0.95);
+  // buttons of a narrow page are one line high and within it
+  assert.deepEqual(await view.value('[...document.querySelectorAll("nav button")].map((b) => b.getBoundingClientRect()).filter((b) => b.right > 400 || b.height > 40)'), []);
   await view.send('Emulation.setDeviceMetricsOverride', { width: 1440, height: 3300, deviceScaleFactor: 1, mobile: false });
   await view.until('kadr.charts.plots[0].width > 1000');
   await view.frames();

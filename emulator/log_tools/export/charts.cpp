@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include "emulator/log_tools/export/export.h"
@@ -13,6 +15,7 @@ namespace {
 
 constexpr std::size_t kPieces = 2048;  ///< of a line: at least one a pixel column
 constexpr std::size_t kStyles = 6;
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr double kGap = 12;  ///< pixels between charts
 
 constexpr std::string_view kStyle = R"css(
@@ -24,13 +27,17 @@ text.x { text-anchor: middle; } text.y { text-anchor: end; } text.name { fill: #
 .s3 { stroke: #a8487f; stroke-dasharray: 10 3 2 3; } .s4 { stroke: #8a5a00; } .s5 { stroke: #1c2024; stroke-dasharray: 4 2; }
 )css";
 
-/// Lowest and highest value of every piece, at its first and second half: as a pen would draw it.
+/// Lowest and highest value of every piece, at its first and second half: as a pen would draw it. It lifts
+/// where there is no value.
 std::vector<ChartPoint> points_of(const std::vector<Envelope::Piece>& pieces) {
   std::vector<ChartPoint> points;
   points.reserve(2 * pieces.size());
   double before = 0;
   for (const Envelope::Piece& p : pieces) {
-    if (p.empty) continue;
+    if (p.empty) {
+      if (!points.empty() && !std::isnan(points.back().y)) points.push_back({p.end_s, kNoValue});
+      continue;
+    }
     const double width = p.end_s - p.begin_s;
     if (p.low == p.high) {
       points.push_back({p.end_s, p.low});
@@ -42,6 +49,7 @@ std::vector<ChartPoint> points_of(const std::vector<Envelope::Piece>& pieces) {
     }
     before = points.back().y;
   }
+  if (!points.empty() && std::isnan(points.back().y)) points.pop_back();
   return points;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "emulator/log_tools/diff/diff_fields.h"
+#include "emulator/log_tools/report/built_pages.h"
 #include "emulator/log_tools/report/page_style.h"
 #include "emulator/log_tools/report/report_page.h"
 #include "emulator/log_tools/report/run_data.h"
@@ -202,8 +203,8 @@ std::string render_compare_page(std::vector<ComparedRun> runs, std::size_t max_b
                              chart(runs, "error", "Path error over the path", "path.error*", true, "um");
   if (report_template().empty())
     return fmt::format(
-        "{}<title>{}</title>\n</head>\n<body>\n<h1>{}</h1>\n{}{}<p>kadr {}</p>\n</body>\n</html>\n",
-        kPlainHead, title, title, table, charts, KADR_VERSION);
+        "{}<title>{}</title>\n</head>\n<body>\n<h1>{}</h1>\n{}{}<p>kadr {}{}</p>\n</body>\n</html>\n",
+        kPlainHead, title, title, table, charts, KADR_VERSION, plain_note("compare"));
   const std::size_t frame = report_template().size() + table.size() + charts.size();
   const std::size_t room = max_bytes > frame ? max_bytes - frame : 0;
   Json letters = Json::array();

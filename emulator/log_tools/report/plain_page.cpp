@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "emulator/log_tools/report/built_pages.h"
 #include "emulator/log_tools/report/page_style.h"
 #include "emulator/log_tools/report/report_page.h"
 #include "emulator/log_tools/report/summary_html.h"
@@ -10,8 +11,8 @@ std::string render_plain_page(const PageData& data) {
   const std::string title = xml_text(page_title(data));
   return fmt::format(
       "{}<title>{}</title>\n</head>\n<body>\n<h1>{}</h1>\n{}{}"
-      "<p>kadr {}; this build has no interactive page (KADR_WEB=OFF)</p>\n</body>\n</html>\n",
-      kPlainHead, title, title, summary_html(data), chart_html(data), KADR_VERSION);
+      "<p>kadr {}{}</p>\n</body>\n</html>\n",
+      kPlainHead, title, title, summary_html(data), chart_html(data), KADR_VERSION, plain_note("report"));
 }
 
 }  // namespace kadr::emulator

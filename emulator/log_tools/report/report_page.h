@@ -8,8 +8,8 @@
 
 namespace kadr::emulator {
 
-/// The page's frame with script and style, made from emulator/pages/report at build time; empty in a build
-/// with KADR_WEB=OFF.
+/// The page's frame with script and style, made from emulator/pages/report at build time; empty where
+/// page_missing("report") says why.
 std::string_view report_template();
 
 /// Reads stretches of the run's log once more (read_full_rate); empty: there is none to read.
@@ -30,7 +30,7 @@ std::string fitted_run(PageData& data, std::size_t most_bytes, const std::string
 std::string filled_template(const std::string& title, const std::string& summary, const std::string& charts,
                             const std::string& data);
 
-/// The plain form, whatever the build.
+/// The plain form, whatever the build: tables and drawings, no script.
 std::string render_plain_page(const PageData& data);
 
 }  // namespace kadr::emulator

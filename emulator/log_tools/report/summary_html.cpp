@@ -7,6 +7,7 @@
 
 #include "emulator/log_tools/diff/diff_fields.h"
 #include "emulator/log_tools/export/charts.h"
+#include "emulator/log_tools/report/path_svg.h"
 #include "emulator/text/text.h"
 #include "machine/base/hash.h"
 
@@ -278,7 +279,7 @@ std::string chart_html(const PageData& data) {
     signals.push_back(track.signal);
     pieces.push_back(envelope.pieces());
   }
-  std::string out;
+  std::string out = path_svg(data);
   for (const LineChart& chart : charts_of(signals, pieces)) out += render_svg(chart);
   return out;
 }

@@ -10,7 +10,7 @@ namespace kadr::emulator {
 /// `data-line`, so that a script can jump there. Text from programs is escaped.
 std::string summary_html(const PageData& data);
 
-/// Charts as SVG that need no script: feed and path error.
+/// Drawings as SVG that need no script: path, feed, path error.
 std::string chart_html(const PageData& data);
 
 /// "part.ngc on mill3", for title and heading; not escaped.

@@ -1,9 +1,10 @@
-# Makes teach_template.cpp: the bundled teaching page with its core, or an empty one with KADR_WEB=OFF. The core is kadr's own
-# C++, compiled to WebAssembly without exceptions: neither LCM nor CVODE nor fmt reaches it.
+# Makes teach_template.cpp: the bundled teaching page with its core, or an empty one where cmake/pages.cmake leaves it out. The
+# core is kadr's own C++, compiled to WebAssembly without exceptions: neither LCM nor CVODE nor fmt reaches it.
 set(teach_template ${PROJECT_BINARY_DIR}/generated/teach_template.cpp)
-if(NOT KADR_WEB OR NOT KADR_CLI)
+if(teach_page_missing)
+  set(teach_template ${PROJECT_BINARY_DIR}/generated/no_teach_template.cpp)
   file(CONFIGURE OUTPUT ${teach_template} CONTENT [[
-// Generated: built with KADR_WEB=OFF.
+// Generated: built without the page.
 #include "emulator/studies/teach/teach_page.h"
 
 std::string_view kadr::emulator::teach_template() { return {}; }
@@ -11,14 +12,7 @@ std::string_view kadr::emulator::teach_template() { return {}; }
   return()
 endif()
 
-find_program(WASM_CXX NAMES clang++-14 clang++)
-find_program(WASM_LD NAMES wasm-ld wasm-ld-14)
-if(NOT WASM_CXX OR NOT WASM_LD OR NOT EXISTS /usr/include/wasm32-wasi)
-  message(FATAL_ERROR "the teaching page needs clang, lld and the wasm32 packages that tools/packages lists under web; "
-    "-DKADR_WEB=OFF builds kadr without it")
-endif()
-set(core_folder ${PROJECT_BINARY_DIR}/pages/core)
-set(core ${core_folder}/core.wasm)
+set(core ${wasm_folder}/core.wasm)
 file(GLOB core_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/interpolator/lattice/*.cpp)
 list(APPEND core_sources ${CMAKE_CURRENT_SOURCE_DIR}/pages/teach/core.cpp)
 foreach(name arc_length bezier_curve joint paper_table)
@@ -31,14 +25,13 @@ set(core_objects)
 foreach(source ${core_sources})
   file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
   string(REPLACE "/" "_" name ${name})
-  set(object ${core_folder}/${name}.o)
+  set(object ${wasm_folder}/${name}.o)
   list(APPEND core_objects ${object})
   add_custom_command(OUTPUT ${object}
-    COMMAND ${WASM_CXX} --target=wasm32-wasi -std=c++20 -Os -fno-exceptions -fno-rtti -ffp-contract=off -fno-fast-math
-      -Wall -Wextra -Wpedantic -Wshadow -Werror -I${PROJECT_SOURCE_DIR} -MD -MF ${object}.d -c ${source} -o ${object}
+    COMMAND ${WASM_CXX} ${kadr_wasm_flags} -Wall -Wextra -Wpedantic -Wshadow -Werror
+      -I${PROJECT_SOURCE_DIR} -MD -MF ${object}.d -c ${source} -o ${object}
     DEPENDS ${source} DEPFILE ${object}.d COMMENT "WebAssembly: ${name}" VERBATIM)
 endforeach()
-file(MAKE_DIRECTORY ${core_folder})
 add_custom_command(OUTPUT ${core}
   COMMAND ${WASM_CXX} --target=wasm32-wasi -mexec-model=reactor -Wl,--strip-all -Wl,--gc-sections ${core_objects} -o ${core}
   DEPENDS ${core_objects} COMMENT "core of the teaching page" VERBATIM)
@@ -52,7 +45,7 @@ add_custom_command(OUTPUT ${teach_template}
   COMMAND ${CMAKE_COMMAND} -E copy ${teach_web}/tsconfig.json ${teach_work}
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${teach_work}/src
   COMMAND ${CMAKE_COMMAND} -E copy_directory ${teach_web}/src ${teach_work}/src
-  COMMAND ${NODE} ${work}/node_modules/typescript/bin/tsc --noEmit -p ${teach_work}
-  COMMAND ${NODE} ${work}/build.mjs ${teach_work}/template.html ${teach_template} teach ${core}
+  COMMAND ${NODE} ${report_web}/node_modules/typescript/bin/tsc --noEmit -p ${teach_work}
+  COMMAND ${NODE} ${report_web}/build.mjs ${teach_work}/template.html ${teach_template} teach ${core}
   DEPENDS ${report_template} ${core} ${teach_web}/tsconfig.json ${teach_web_sources}
   COMMENT "teaching page" VERBATIM)

@@ -6,7 +6,7 @@
 namespace kadr::emulator {
 
 /// The teaching page with script, style and the core in WebAssembly, made from emulator/pages/teach at build
-/// time; empty in a build with KADR_WEB=OFF.
+/// time; empty where page_missing("teaching") says why.
 std::string_view teach_template();
 
 /// What the page opens with, as its address has it: "line,7,4,half_step",

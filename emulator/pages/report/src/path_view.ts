@@ -7,7 +7,7 @@ import { type Run, type Track, alike, one, tickAt } from './data';
 import type { State } from './state';
 import { fixed, made, say } from './text';
 
-const MOST_DETAIL = 60_000, MOST_WIDE = 6_000, MOST_2D = 20_000, RAMP = 16;
+const MOST_DETAIL = 60_000, MOST_STROKES = 150_000, MOST_2D = 20_000, RAMP = 16;
 
 const VERTEX = `
 attribute vec3 position; attribute float value; uniform mat4 view; uniform vec2 squeeze; uniform vec2 shift; uniform vec2 range; uniform vec3 ramp[${RAMP}]; varying vec3 colour;
@@ -215,9 +215,11 @@ export class PathView {
     setUniforms(program!, { view: this.matrix(), squeeze: this.squeeze(), range: this.range, ramp: Array.from({ length: RAMP }, (_, k) => ramp(k / (RAMP - 1))).flat() });
     const strip = (buffer: BufferInfo, first: number, end: number, flat_colour: number[]): void => {
       setBuffersAndAttributes(gl, program!, buffer);
-      // lines of WebGL are one pixel wide: drawn thrice, a little aside, they are two; a path of so many lines is seen anyway
-      const aside = flat_colour[3] > 0 || end - first > MOST_WIDE ? [[0, 0]] : [[0, 0], [1, 0], [0, 1]];
-      for (const [x, y] of aside) {
+      // lines of WebGL are one pixel wide: drawn several times, a little aside, they are two, on a dense screen three; a path of so many
+      // lines is seen anyway
+      const aside = this.canvas.width > 1.2 * this.canvas.clientWidth ? [[0, 0], [1, 0], [0, 1], [-1, 0], [0, -1]] : [[0, 0], [1, 0], [0, 1]];
+      const few = flat_colour[3] > 0 || (end - first) * aside.length > MOST_STROKES;
+      for (const [x, y] of few ? [[0, 0]] : aside) {
         setUniforms(program!, { flat_colour, shift: [2 * x / this.canvas.width, 2 * y / this.canvas.height] });
         gl.drawArrays(gl.LINE_STRIP, first, end - first);
       }

@@ -3,7 +3,7 @@ import type { Followed } from './core';
 import { drawing, shape } from './svg';
 import { fixed, say } from './words';
 
-const LEFT = 74, LANE = 21, GAP = 7;
+const LEFT = 74, LANE = 21, GAP = 7, CHARACTER = 6.4;  // pixels
 const MOST_SHOWN = 64;  // slots in the window
 
 /** @param timed whether the case has crossings
@@ -16,7 +16,9 @@ export function pulseView(f: Followed, row: number, timed: boolean, width: numbe
   let top = 4;
   const group = (title: string, from: number, to: number, at: (slot: number) => number, high: number, cursor: number, ticks: [number, string][]): void => {
     const X = (t: number): number => LEFT + ((t - from) / (to - from)) * (width - LEFT - 12);
-    add(shape('text', { x: LEFT, y: top + 11, class: 'soft' }, title));
+    // a long title begins at the edge of a narrow picture, and is set narrower rather than cut off
+    const wide = title.length * CHARACTER, at_edge = LEFT + wide > width - 4;
+    add(shape('text', { x: at_edge ? 4 : LEFT, y: top + 11, class: 'soft', ...(wide > width - 8 ? { textLength: width - 8, lengthAdjust: 'spacingAndGlyphs' } : {}) }, title));
     top += 16;
     const begin = top;
     for (const axis of [0, 1]) {
