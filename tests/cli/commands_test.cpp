@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -245,12 +246,11 @@ TEST_CASE("the summary of a log has the warnings of the program and the answer o
     auto reader = kadr::emulator::LogReader::open(scratch.file(log));
     REQUIRE(reader.has_value());
     kadr::emulator::LogMessage message;
-    kadr::emulator::RunSummary found;
-    found.outcome = "none";
+    std::optional<kadr::emulator::RunSummary> found;
     while (reader->next(message))
       if (const auto* last = std::get_if<kadr::emulator::LogSummary>(&message)) found = last->run;
-    REQUIRE(found.outcome != "none");
-    return found;
+    REQUIRE(found);
+    return *found;
   };
   const Finished far = call({"run", "far.ngc", "--no-plant", "--until", "20", "--json"}, scratch.path());
   CHECK(far.code == 3);
