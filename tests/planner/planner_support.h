@@ -6,8 +6,9 @@
 #include <initializer_list>
 #include <string>
 
-#include "machine/axis.h"
+#include "gcode/block.h"
 #include "machine/base/numbers.h"
+#include "machine/machine.h"
 #include "planner/planner.h"
 
 /// Machines, blocks and random programs for the planner's tests.

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "emulator/interpolator/interpolator.h"
-#include "machine/axis.h"
 #include "machine/base/numbers.h"
+#include "machine/machine.h"
+#include "planner/path/path.h"
 
 /// Paths and tick motions made by hand, without planner, for the interpolator's tests.
 namespace kadr::test {
