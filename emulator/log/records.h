@@ -39,11 +39,11 @@ struct BlockRecord {
   double programmed_u_s = 0;
   double planned_peak_u_s = 0;
   double planned_end_u_s = 0;
-  double planned_s = 0;          ///< duration
-  std::string limited_by;        ///< e.g. "program", "axis X speed"
-  double entry_u_s = 0;          ///< feed at its beginning, as run
-  double planned_entry_u_s = 0;  ///< F_KK of the block before, as planned at 100 %
-  ControlTicks deferred_ticks;   ///< that a percent has been waiting for the motion before it
+  double planned_s = 0;           ///< duration
+  std::string limited_by;         ///< e.g. "program", "axis X speed"
+  double entry_u_s = 0;           ///< feed at its beginning, as run
+  double planned_entry_u_s = 0;   ///< F_KK of the block before, as planned at 100 %
+  ControlTicks deferred_ticks{};  ///< that a percent has been waiting for the motion before it
 };
 
 /// What a motion block did, at the first control tick at which another block has begun; only of blocks that

@@ -244,7 +244,7 @@ std::int64_t write_log(const std::string& path, const machine::MachineModel& mac
       check((*log)->event({Ticks{k * tau + 9},
                            number,
                            {0, 3, 4, 5},
-                           "alarm",
+                           emulator::EventKind::alarm,
                            all_codes().back().code,
                            1,
                            2.5,

@@ -259,7 +259,7 @@ TEST_CASE("the residual vibration of a stop has the tolerance of the link") {
         tick.events.push_back({Ticks{tick.number * 10'000},
                                3,
                                {0, 0, 0, 0},
-                               "residual",
+                               EventKind::residual,
                                Code{},
                                1,
                                value_u,
