@@ -2,10 +2,14 @@
 # no contraction to FMA, no value-changing optimisation; sqrt may be inlined since no code here reads errno or traps.
 add_library(kadr_flags INTERFACE)
 target_include_directories(kadr_flags INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
-target_compile_options(kadr_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
+# Conversions that may lose a value are explicit; those of sign alone (array indices) are not asked for.
+target_compile_options(kadr_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+  -Wconversion -Wno-sign-conversion $<$<BOOL:${KADR_WERROR}>:-Werror>
   -ffp-contract=off -fno-fast-math -fno-math-errno -fno-trapping-math)
 target_compile_definitions(kadr_flags INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY
   KADR_VERSION="${PROJECT_VERSION}")
+# a broken promise names its file as it lies in the tree, and builds in two folders are the same bytes
+target_compile_options(kadr_flags INTERFACE -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND KADR_OPTIMIZE MATCHES "O3")
   # GCC 12 at -O3 inlines std::string and fmt so deep that it reports overlaps, bounds and overflows that can't happen; a
   # precompiled header takes away that these are the library's. The sanitizers see what is real.

@@ -51,8 +51,9 @@ kadr_package(ZLIB zlib1g-dev kadr)
 if(KADR_CLI)
   kadr_package(CLI11 libcli11-dev "the program kadr")
 endif()
-# SUNDIALS' package file asks for MPI, and for OpenMP of the compiler in use; CVODE with serial vectors needs neither
-kadr_library(cvode cvode/cvode.h sundials_cvode sundials_nvecserial sundials_generic PACKAGE libsundials-dev PURPOSE kadr)
+# SUNDIALS' package file asks for MPI, and for OpenMP of the compiler in use; CVODE with serial vectors needs neither. It is
+# linked in: the shared library brings Fortran's run-time library for an interface that nobody calls here.
+kadr_library(cvode cvode/cvode.h libsundials_cvode.a PACKAGE libsundials-dev PURPOSE kadr)
 file(STRINGS ${cvode_INCLUDE}/sundials/sundials_config.h sundials_major REGEX "#define SUNDIALS_VERSION_MAJOR")
 string(REGEX REPLACE "[^0-9]" "" sundials_major "${sundials_major}")
 if(sundials_major LESS 6)

@@ -99,10 +99,20 @@ struct Job {
 /// (`kadr run`: the emulator shows what happens and raises an alarm there).
 enum class SoftLimitRule : std::uint8_t { error, warning };
 
-/// Reads and interprets job.sources[job.program] for job.machine, plans it and checks soft limits.
-/// Diagnostics go to `diagnostics`, all of the program at once.
+/// planner::plan, or what a test puts in its place.
+using PlanFunction = std::function<tl::expected<planner::FeedPlan, planner::PlanError>(
+    const planner::Path&, const machine::MachineModel&)>;
+
+/// Reads and interprets job.sources[job.program] for job.machine, checks soft limits, plans it, and verifies
+/// the plan (require_sound_plan). Diagnostics go to `diagnostics`, all of the program at once.
 /// @return false if there were errors before planning; job.plan is not valid then
-bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = SoftLimitRule::error);
+/// @throws BrokenPromise for a plan that breaks a limit or its own law
+bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = SoftLimitRule::error,
+             const PlanFunction& plan = planner::plan);
+
+/// planner::verify() of job.plan before its pauses are put in, as planner::production_check() says.
+/// @throws BrokenPromise with program line, place on the path, and what was measured and allowed
+void require_sound_plan(const Job& job);
 
 /// The first part of it: path and events of the program, soft limits checked; nothing is planned.
 /// @return false if there were errors before the soft limits were looked at

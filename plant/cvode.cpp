@@ -212,7 +212,7 @@ struct Cvode::Impl {
   }
 };
 
-Cvode::Cvode(std::vector<double> tolerance, Equations equations, const void* self)
+Cvode::Cvode(const std::vector<double>& tolerance, Equations equations, const void* self)
     : impl_(std::make_unique<Impl>()) {
   impl_->equations = equations;
   impl_->self = self;

@@ -25,7 +25,7 @@ class Cvode {
 
   /// @param tolerance  [n], absolute local error allowed per state; n is a multiple of 4 up to 36
   /// Any failure of SUNDIALS while making it is kept and told by the first start().
-  Cvode(std::vector<double> tolerance, Equations equations, const void* self);
+  Cvode(const std::vector<double>& tolerance, Equations equations, const void* self);
   Cvode(const Cvode&) = delete;
   Cvode& operator=(const Cvode&) = delete;
   ~Cvode();

@@ -59,8 +59,8 @@ double power(double base, double exponent) {
 }  // namespace
 
 /// The whole program's pow, of + - * / alone: glibc picks an FMA variant when the CPU has one, and CVODE's
-/// step sizes would follow. An executable's symbol goes before the library's, so libsundials_cvode.so takes
-/// this one.
+/// step sizes would follow. The linker takes the first definition it meets, so CVODE's calls end here
+/// (cvode.cpp names this file, which brings it in before libm).
 extern "C" double pow(double base, double exponent) noexcept;
 extern "C" double pow(double base, double exponent) noexcept {
   calls.fetch_add(1, std::memory_order_relaxed);

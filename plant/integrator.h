@@ -60,7 +60,7 @@ Vector4 local_tolerance(const AxisEquations& equations, double tolerance_um);
 
 /// CVODE on a smooth command plus the exact response to the residual staircase; all spring axes as one
 /// system.
-std::unique_ptr<Integrator> make_smooth(std::vector<AxisMotion*> axes, double tolerance_um);
+std::unique_ptr<Integrator> make_smooth(const std::vector<AxisMotion*>& axes, double tolerance_um);
 /// CVODE begun anew at every pulse; spring or stepper, one axis.
 std::unique_ptr<Integrator> make_reference(AxisMotion& axis, double tolerance_um);
 /// Matrix exponential from pulse to pulse; spring, one axis.

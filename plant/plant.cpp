@@ -83,7 +83,7 @@ void Plant::Impl::make_integrators(const machine::MachineModel& machine) {
       smooth.push_back(axis.get());
     }
   }
-  if (!unusable && !smooth.empty()) integrator.push_back(make_smooth(std::move(smooth), tolerance_um));
+  if (!unusable && !smooth.empty()) integrator.push_back(make_smooth(smooth, tolerance_um));
 }
 
 // work and losses come from the series, begun at each tick in the integrator's own state

@@ -25,7 +25,7 @@ constexpr double kCredibleSteps = 2;           // a command further off the latt
 /// is parked: its state is handed to the closed form, which then carries everything.
 class Smooth final : public Integrator {
  public:
-  Smooth(std::vector<AxisMotion*> axes, double tolerance_um) {
+  Smooth(const std::vector<AxisMotion*>& axes, double tolerance_um) {
     std::vector<std::pair<AxisEquations, std::shared_ptr<const LinearResponse>>> known;
     for (AxisMotion* motion : axes) {
       Axis axis;
@@ -40,7 +40,7 @@ class Smooth final : public Integrator {
       tolerance.insert(tolerance.end(), one.begin(), one.end());
     }
     y_.assign(tolerance.size(), 0.0);
-    cvode_ = std::make_unique<Cvode>(std::move(tolerance), equations, this);
+    cvode_ = std::make_unique<Cvode>(tolerance, equations, this);
     cvode_->set_max_step(static_cast<double>(kLookAhead));
     reset();
   }
@@ -219,8 +219,8 @@ class Smooth final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_smooth(std::vector<AxisMotion*> axes, double tolerance_um) {
-  return std::make_unique<Smooth>(std::move(axes), tolerance_um);
+std::unique_ptr<Integrator> make_smooth(const std::vector<AxisMotion*>& axes, double tolerance_um) {
+  return std::make_unique<Smooth>(axes, tolerance_um);
 }
 
 }  // namespace kadr::plant

@@ -18,19 +18,23 @@ class Reader {
   Reader() : app_("kadr runs a control program on a simulated machine, exactly and repeatably.", "kadr") {
     app_.require_subcommand(1);
     app_.formatter(help_formatter());
+    std::string codes;
+    for (const ExitCode& c : kExitCodes)
+      codes += fmt::format("{}{} {}", codes.empty() ? "" : c.code == "3" ? ",\n" : ", ", c.code, c.meaning);
     app_.footer(
-        "`kadr COMMAND --help` tells more. `-` is standard input. Data go to standard output, messages to "
-        "standard\n"
-        "error. Exit codes: 0 yes, 1 no (the program has errors), 2 could not start (usage, unreadable or "
-        "bad file),\n"
-        "3 the run ended with an alarm, 70 a fault of kadr, 130 and 143 stopped by a signal.");
+        fmt::format("`kadr COMMAND --help` tells more. `-` is standard input. Data go to standard output, "
+                    "messages to standard\nerror. Exit codes: {}.",
+                    codes));
     app_.set_version_flag("--version", "kadr " KADR_VERSION);
     add_program_commands(options_);
     add_log_commands(options_);
     add_law_commands(options_);
     add_machine_commands(options_);
     add_teach_commands(options_);
+    add_shell_commands(options_);
   }
+
+  Command tree() const { return describe_commands(options_); }
 
   std::variant<Arguments, int> read(int argc, const char* const* argv) {
     if (const std::string mistake = usage_mistake(app_, {argv + 1, argv + argc}); !mistake.empty()) {
@@ -84,5 +88,7 @@ class Reader {
 std::variant<Arguments, int> read_arguments(int argc, const char* const* argv) {
   return Reader().read(argc, argv);
 }
+
+Command command_tree() { return Reader().tree(); }
 
 }  // namespace kadr::cli

@@ -36,5 +36,7 @@ int teach_page(const Arguments& arguments, Console& console);
 int teach_sweep(const Arguments& arguments, Console& console);
 int teach_bezier(const Arguments& arguments, Console& console);
 int print_version(const Arguments& arguments, Console& console);
+int print_manual(const Arguments& arguments, Console& console);
+int print_completion(const Arguments& arguments, Console& console);
 
 }  // namespace kadr::cli

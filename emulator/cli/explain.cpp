@@ -4,13 +4,11 @@
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
-#include "emulator/log/log_types.h"
-#include "emulator/log_tools/report/built_pages.h"
 #include "emulator/text/text.h"
 #include "machine/base/codes.h"
 #include "machine/base/utf8.h"
 
-/// `kadr explain` and `kadr version`.
+/// `kadr explain`.
 namespace kadr::cli {
 namespace {
 
@@ -99,36 +97,6 @@ int explain_codes(const Arguments& arguments, Console& console) {
   }
   if (console.options().json) console.document(list);
   return code;
-}
-
-namespace {
-
-/// null, or why this build is without the page.
-Json pages() {
-  Json list = Json::object();
-  for (const emulator::BuiltPage& page : emulator::built_pages())
-    list[std::string(page.name)] = page.missing.empty() ? Json() : Json(page.missing);
-  return list;
-}
-
-}  // namespace
-
-int print_version(const Arguments&, Console& console) {
-#if defined(__clang__)
-  const std::string compiler =
-      fmt::format("clang {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
-#else
-  const std::string compiler = fmt::format("gcc {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
-#endif
-  if (console.options().json)
-    console.document(Json({{"kadr", KADR_VERSION},
-                           {"compiler", compiler},
-                           {"log_format", emulator::kLogFormat},
-                           {"pages", pages()}}));
-  else
-    console.data(fmt::format("kadr {}\ncompiler {}\nlog format {}\npages {}\n", KADR_VERSION, compiler,
-                             emulator::kLogFormat, emulator::pages_text()));
-  return kYes;
 }
 
 }  // namespace kadr::cli

@@ -68,6 +68,7 @@ void add_tube(Options& o) {
   sub->add_flag("--timing", o.arguments.timing, "Add a column of wall times, which differ from run to run");
   o.diagnostics(sub);
   o.output(sub);
+  o.words(sub->get_option("--method"), emulator::kLawMethods.strings());
   sub->footer("Example: kadr tube docs/tube/laying.toml --page laying.html");
 }
 

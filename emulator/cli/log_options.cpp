@@ -47,6 +47,8 @@ void add_diff(Options& o) {
       "Allow a difference, with unit, e.g. load=0.5um; keys: load, base, link, base_rate, link_rate, force,\n"
       "and with --align path feed; repeatable (default: none allowed)",
       [&o](const std::string& text) { return emulator::add_tolerance(o.arguments.diff.tolerance, text); });
+  o.words(sub->get_option("--tolerance"),
+          {"load=", "base=", "link=", "base_rate=", "link_rate=", "force=", "feed="});
   o.repeated(
       sub, "--ignore", "CHANNEL/FIELD",
       "Leave out a channel (KADR_EVENT), a field (KADR_EVENT/text) or a group (load, feed); repeatable",

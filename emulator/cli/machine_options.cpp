@@ -112,7 +112,8 @@ void add_machine_commands(Options& o) {
   add_machine(o);
   add_explain(o);
   add_scenario(o);
-  o.output(o.command(o.app, "version", print_version, "Print version, compiler, log format and pages"));
+  o.output(o.command(o.app, "version", print_version,
+                     "Print version, commit, compiler, libraries, log format and pages"));
 }
 
 }  // namespace kadr::cli

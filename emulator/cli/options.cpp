@@ -1,19 +1,26 @@
 #include "emulator/cli/options.h"
 
 namespace kadr::cli {
+namespace {
+
+/// "blocks=", "call_depth=", ... of "blocks call_depth ..."
+std::vector<std::string> names_with_equals(std::string_view names) {
+  std::vector<std::string> list;
+  while (!names.empty()) {
+    const auto end = std::min(names.find(' '), names.size());
+    list.push_back(std::string(names.substr(0, end)) + '=');
+    names.remove_prefix(std::min(end + 1, names.size()));
+  }
+  return list;
+}
+
+}  // namespace
 
 CLI::App* Options::command(CLI::App& parent, const std::string& name, Run value,
                            const std::string& description) {
   CLI::App* sub = parent.add_subcommand(name, description);
   sub->callback([this, value] { arguments.command = value; });
   return sub;
-}
-
-std::string Options::unknown_word(const std::string& name, const std::string& words,
-                                  const std::string& text) {
-  std::vector<std::string> sorted = CLI::detail::split(words, ',');
-  std::sort(sorted.begin(), sorted.end());
-  return fmt::format("{} knows {}; got '{}'", name, fmt::join(sorted, ", "), text);
 }
 
 void Options::output(CLI::App* sub) {
@@ -88,6 +95,8 @@ void Options::reading(CLI::App* sub) {
          fmt::format("Read codes on which controllers differ as this one does: {} (default linuxcnc)",
                      gcode::kDialects.list("|")))
       ->type_name("WORD");
+  words(sub->get_option("--limit"), names_with_equals(gcode::kBoundNames));
+  words(sub->get_option("--dialect"), gcode::kDialects.strings());
 }
 
 void Options::limit(const std::string& text) {

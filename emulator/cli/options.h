@@ -9,6 +9,7 @@
 #include <tl/expected.hpp>
 
 #include "emulator/cli/arguments.h"
+#include "emulator/cli/command_tree.h"
 #include "machine/base/vocabulary.h"
 
 namespace kadr::cli {
@@ -29,6 +30,8 @@ class Options {
 
   CLI::App& app;
   Arguments& arguments;
+  /// Of options whose values are words of a vocabulary; others are completed by the name of their value.
+  std::map<const CLI::Option*, Completion> completions;
 
   CLI::App* command(CLI::App& parent, const std::string& name, Run run, const std::string& description);
 
@@ -40,6 +43,11 @@ class Options {
   void strict(CLI::App* sub);
   CLI::Option* programs(CLI::App* sub, const std::string& name, bool several);
 
+  /// Values of an option that a shell may complete.
+  void words(const CLI::Option* option, std::vector<std::string> list) {
+    completions[option].words = std::move(list);
+  }
+
   /// An option whose every value is handed to `take`, which may find fault with it.
   void repeated(CLI::App* sub, const std::string& name, const char* type, const std::string& description,
                 std::function<tl::expected<void, std::string>(const std::string&)> take);
@@ -48,22 +56,21 @@ class Options {
   template <class Enum, std::size_t kCount>
   CLI::Option* choice(CLI::App* sub, const std::string& name, Enum& value,
                       const Vocabulary<Enum, kCount>& vocabulary, const std::string& description) {
-    return sub
-        ->add_option_function<std::string>(
-            name,
-            [&value, &vocabulary, name](const std::string& text) {
-              const auto found = vocabulary.find(text);
-              if (!found) throw CLI::ValidationError(unknown_word(name, vocabulary.list(","), text));
-              value = *found;
-            },
-            description)
-        ->type_name("WORD")
-        ->group("Output");
+    std::vector<std::string> list = vocabulary.strings();
+    std::sort(list.begin(), list.end());
+    CLI::Option* option = sub->add_option_function<std::string>(
+        name,
+        [&value, &vocabulary, name, list](const std::string& text) {
+          const auto found = vocabulary.find(text);
+          if (!found)
+            throw CLI::ValidationError(
+                fmt::format("{} knows {}; got '{}'", name, fmt::join(list, ", "), text));
+          value = *found;
+        },
+        description);
+    words(option, std::move(list));
+    return option->type_name("WORD")->group("Output");
   }
-
-  /// "--color knows always, auto, never; got 'x'", the words in alphabetical order.
-  /// @param words  separated by commas
-  static std::string unknown_word(const std::string& name, const std::string& words, const std::string& text);
 
  private:
   void limit(const std::string& text);
@@ -75,5 +82,9 @@ void add_log_commands(Options& options);
 void add_law_commands(Options& options);
 void add_machine_commands(Options& options);
 void add_teach_commands(Options& options);
+void add_shell_commands(Options& options);
+
+/// The commands that were added, as plain data (emulator/cli/command_tree.h).
+Command describe_commands(const Options& options);
 
 }  // namespace kadr::cli

@@ -55,6 +55,7 @@ void add_run(Options& o) {
   o.progress(sub);
   o.diagnostics(sub);
   o.output(sub);
+  o.words(sub->get_option("--threads"), {"1", "2"});
   sub->footer("Example: kadr run part.ngc -m winder4 --until 20 -o first20.lcmlog");
 }
 

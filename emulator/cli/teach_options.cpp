@@ -31,6 +31,13 @@ void bounded(CLI::App* sub, const std::string& name, T& value, double least, dou
       ->type_name("N");
 }
 
+/// What may follow where a case is wanted.
+void case_words(Options& o, const CLI::App* sub) {
+  std::vector<std::string> names;
+  for (const emulator::TeachKind& k : emulator::teach_kinds()) names.emplace_back(k.name);
+  o.words(sub->get_option("CASE"), std::move(names));
+}
+
 void subject(Options& o, CLI::App* sub) {
   std::string kinds;
   for (const emulator::TeachKind& k : emulator::teach_kinds())
@@ -39,6 +46,7 @@ void subject(Options& o, CLI::App* sub) {
       ->required()
       ->expected(1, 4096)
       ->type_name("");
+  case_words(o, sub);
   emulator::TeachOptions& options = o.arguments.teach.options;
   bounded(sub, "--axes", o.arguments.teach.axes, 2, 9, "Axes of a polyline or Bezier (default 2)");
   o.choice(
@@ -77,6 +85,9 @@ void methods(Options& o, CLI::App* sub, std::size_t most) {
                o.arguments.methods.push_back(text);
                return {};
              });
+  std::vector<std::string> list;
+  for (const auto& m : emulator::lattice::methods()) list.emplace_back(m.name);
+  o.words(sub->get_option("--method"), std::move(list));
 }
 
 void add_table(Options& o, CLI::App* group) {
@@ -121,6 +132,7 @@ void add_page(Options& o, CLI::App* group) {
   sub->add_option("CASE", o.arguments.files, "Case to open with, as in `kadr teach table`, of two axes")
       ->expected(0, 4096)
       ->type_name("");
+  case_words(o, sub);
   methods(o, sub, kMostCompared);
   sub->add_option("-o,--output", o.arguments.teach.page_path,
                   "Page to write (default teach.html); `-`: standard output")

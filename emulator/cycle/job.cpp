@@ -113,18 +113,19 @@ bool lay_out(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
   return true;
 }
 
-bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
+bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits, const PlanFunction& plan_path) {
   if (!lay_out(job, diagnostics, soft_limits)) return false;
   const std::size_t errors = diagnostics.errors();
   place_on_path(job, diagnostics);
   if (diagnostics.errors() != errors) return false;
 
-  auto plan = planner::plan(job.path, job.machine.model);
+  auto plan = plan_path(job.path, job.machine.model);
   if (!plan) {
     diagnostics.add(plan.error().diagnostic);
     return false;
   }
   job.plan = std::move(*plan);
+  require_sound_plan(job);
   job.motion_s = job.plan.law.duration_s;
   job.dwell_s = 0;
   insert_pauses(job);

@@ -11,7 +11,8 @@
 namespace kadr::emulator {
 
 void limit_places(Job& job, Diagnostics& diagnostics) {
-  const auto refuse = [&](const PlaceLimit& point, std::string label, std::string allowed, std::string help) {
+  const auto refuse = [&](const PlaceLimit& point, std::string label, const std::string& allowed,
+                          std::string help) {
     Diagnostic d{};
     d.code = Code::scenario_technology;
     d.span = point.span;

@@ -9,6 +9,7 @@
 #include "emulator/cycle/monitor.h"
 #include "emulator/cycle/operator_panel.h"
 #include "emulator/cycle/program_event.h"
+#include "emulator/cycle/sound_nodes.h"
 #include "emulator/emulator.h"
 #include "emulator/interpolator/interpolator.h"
 #include "plant/plant.h"
@@ -30,6 +31,10 @@ Ticks tick_at(const planner::TickMotion& m, double s_u, const machine::ClockMode
   return {begin + std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(ticks)), 0,
                                            clock.control_tick.value)};
 }
+
+// every so many control ticks the interpolator is checked; a prime, so that no repeating program hides from
+// it
+constexpr std::int64_t kNodeCheckTicks = 127;
 
 /// The run loop: one control tick after the other, from the motion source through interpolator and plant to
 /// the log.
@@ -116,7 +121,10 @@ class Cycle {
       motion_ = source_->advance(planner::OperatorInput{});
     }
     batch_.tick = motion_.tick;
+    const bool check = checks_nodes_ && k % kNodeCheckTicks == 0;
+    interpolator_.set_self_check(check);
     interpolator_.advance(motion_, batch_);
+    if (check) require_sound_nodes(k, interpolator_, job_);
     hash_.add(batch_);
     now_ = Ticks{(k + 1) * machine_.clock.control_tick.value};
     collect_inputs();
@@ -381,6 +389,7 @@ class Cycle {
   const Job& job_;
   const machine::MachineModel& machine_;
   const RunOptions& options_;
+  const bool checks_nodes_ = machine_.interpolator == machine::StepMethod::crossing;
   RunLog* log_;
   std::unique_ptr<planner::MotionSource> source_;
   OperatorPanel panel_;

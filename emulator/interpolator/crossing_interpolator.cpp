@@ -342,6 +342,7 @@ void CrossingInterpolator::set_self_check(bool on) { impl_->checking = on; }
 const std::vector<double>& CrossingInterpolator::worst_node_error_steps() const {
   return impl_->check.worst_steps();
 }
+std::size_t CrossingInterpolator::worst_node_segment() const { return impl_->check.worst_segment(); }
 void CrossingInterpolator::set_trace(bool on) { impl_->tracing = on; }
 const std::vector<StepEvent>& CrossingInterpolator::trace() const { return impl_->events; }
 

@@ -51,9 +51,12 @@ class CrossingInterpolator {
   std::size_t segment() const;
   bool passed_joint() const;
   /// Largest |node - x(t_event)| in steps seen so far, per axis, less what the rounding of s and x themselves
-  /// makes (4 ulp of path length and position); at most 1/2 + 1e-9. Only kept when check is on. Slow.
+  /// makes (4 ulp of path length and position); at most 1/2 + 1e-9. Kept for the ticks that are
+  /// advanced while the check is on. Slow.
   void set_self_check(bool on);
   const std::vector<double>& worst_node_error_steps() const;
+  /// Segment of the largest of them.
+  std::size_t worst_node_segment() const;
   /// The last tick's pulses of all axes in path order: by segment, place, axis number. Only kept when trace
   /// is on. Slow.
   void set_trace(bool on);

@@ -47,20 +47,24 @@ void NodeCheck::add(const planner::TickMotion& motion, const std::vector<std::in
       reach_u_[static_cast<std::size_t>(arc.second_axis)] =
           std::fabs(arc.center_second_u) + arc.radius_begin_u;
     }
-    for (std::size_t axis = 0; axis < nodes_.size(); ++axis) measure(axis, nodes_[axis], motion.s_end_u);
+    for (std::size_t axis = 0; axis < nodes_.size(); ++axis)
+      measure(event.segment, axis, nodes_[axis], motion.s_end_u);
     const auto stepped = static_cast<std::size_t>(event.axis);
     nodes_[stepped] += event.sign;
-    measure(stepped, nodes_[stepped], motion.s_end_u);
+    measure(event.segment, stepped, nodes_[stepped], motion.s_end_u);
   }
 }
 
-void NodeCheck::measure(std::size_t axis, std::int64_t node, double s_u) {
+void NodeCheck::measure(std::size_t segment, std::size_t axis, std::int64_t node, double s_u) {
   const double step_u = machine_.axis[axis].step_u;
   // no double can tell places nearer than this on a path of that length and at that position
   const double blur_u =
       4.0 * std::numeric_limits<double>::epsilon() * (s_u + std::fabs(position_u_[axis]) + reach_u_[axis]);
   const double error = std::fabs(static_cast<double>(node) - position_u_[axis] / step_u) - blur_u / step_u;
   worst_steps_[axis] = std::max(worst_steps_[axis], error);
+  if (error <= worst_) return;
+  worst_ = error;
+  worst_segment_ = segment;
 }
 
 }  // namespace kadr::emulator

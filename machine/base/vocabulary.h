@@ -6,6 +6,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace kadr {
 
@@ -89,6 +90,11 @@ struct Vocabulary {
   constexpr const Word<Enum>* end() const { return words + kCount; }
   static constexpr std::size_t size() { return kCount; }
 
+  std::vector<std::string> strings() const {
+    std::vector<std::string> list;
+    for (const Word<Enum>& entry : words) list.emplace_back(entry.word);
+    return list;
+  }
   /// "linear, rotary"
   std::string list(std::string_view separator = ", ") const {
     std::string text;

@@ -114,7 +114,7 @@ Reading<std::pair<double, double>> TableReader::pair(std::string_view key, const
   return {{*low, *high}, true, list.span};
 }
 
-Reading<std::string> TableReader::text(std::string_view key, std::optional<std::string> otherwise) {
+Reading<std::string> TableReader::text(std::string_view key, const std::optional<std::string>& otherwise) {
   const Entry* entry = take(key, !otherwise);
   if (!entry) return {otherwise.value_or(""), otherwise.has_value(), header_};
   if (entry->value.kind != Node::Kind::text) {

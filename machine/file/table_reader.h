@@ -56,7 +56,7 @@ class TableReader {
   /// Two numbers [low, high].
   Reading<std::pair<double, double>> pair(std::string_view key, const Bounds& bounds,
                                           std::optional<std::pair<double, double>> otherwise = {});
-  Reading<std::string> text(std::string_view key, std::optional<std::string> otherwise = {});
+  Reading<std::string> text(std::string_view key, const std::optional<std::string>& otherwise = {});
   Reading<bool> flag(std::string_view key, bool otherwise);
   /// One of several words, by its index in `words`.
   Reading<std::size_t> word(std::string_view key, std::span<const std::string_view> words,

@@ -131,6 +131,7 @@ double MinimaxOfLength::operator()(double u) const {
 
 std::vector<double> exact_places(const ArcLength& arc) {
   std::vector<double> out;
+  out.reserve(kErrorPlaces);
   for (int i = 0; i < kErrorPlaces; ++i) out.push_back(arc.t(error_place(i) * arc.length_u()));
   out.back() = 1;
   return out;
@@ -138,6 +139,7 @@ std::vector<double> exact_places(const ArcLength& arc) {
 
 std::vector<double> places_of(const NewtonOfLength& newton) {
   std::vector<double> out;
+  out.reserve(kErrorPlaces);
   for (int i = 0; i < kErrorPlaces; ++i) out.push_back(newton(error_place(i)));
   return out;
 }

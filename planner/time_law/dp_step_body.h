@@ -3,6 +3,8 @@
 // not become the one that the rest of the program calls.
 #include "planner/time_law/dp_step.h"
 
+// NOLINTBEGIN(misc-definitions-in-headers): a body, included once per instruction set
+
 namespace kadr::planner {
 namespace {
 
@@ -121,3 +123,4 @@ std::uint64_t KADR_DP_STEP(const DpStep& d) {
 }
 
 }  // namespace kadr::planner
+// NOLINTEND(misc-definitions-in-headers)

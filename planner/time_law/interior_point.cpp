@@ -16,7 +16,7 @@ constexpr double kBelow = 0.9;  ///< of the known law's squared speeds, to begin
 }  // namespace
 
 LawResult InteriorPointOptimum::solve(const LawProblem& problem) {
-  const LawResult greedy = GreedyOptimum().solve(problem);
+  LawResult greedy = GreedyOptimum().solve(problem);
   if (!greedy) return greedy;
   return solve_from(problem, *greedy);
 }

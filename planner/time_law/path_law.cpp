@@ -195,7 +195,7 @@ LawResult solve(const LawProblem& problem, const machine::MachineModel& machine)
   if (law) return law;
   // levels over the whole range can be too coarse for short intervals: then the tube begins round the time
   // optimum
-  const LawResult known = GreedyOptimum().solve(problem);
+  LawResult known = GreedyOptimum().solve(problem);
   if (!known) return known;
   const double fastest = *std::max_element(known->speed_u_s.begin(), known->speed_u_s.end());
   return tube.refine(problem, *known, options.relative_half_width * fastest);

@@ -8,6 +8,7 @@
 #include "machine/machine.h"
 #include "planner/path/path.h"
 #include "planner/verify/verify_blocks.h"
+#include "planner/verify/verify_curve.h"
 
 namespace kadr::planner {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 using AxisVector = std::array<double, kProgramAxes>;
 
 // of a piece's time: until both ends are neighbours
-constexpr int kTimeHalvings = 70;
+constexpr int kTimeSteps = 70;
 // a curve's ends may miss the path's nodes by the rounding of its powers
 constexpr double kCurveEnd_u = 1e-9;
 
@@ -23,40 +24,7 @@ using State = VerifiedState;
 State at(const JerkPiece& p, double t) { return verified_state(p, t); }
 
 /// x', x'', x''' with respect to s, from the definition of the shapes in path.h.
-struct Derivatives {
-  AxisVector d1{}, d2{}, d3{};
-};
-/// With f(t) = x(t), w = dt/ds = 1/|f'|:  x' = w f',  w' = -w^4 (f'.f''),
-/// x'' = w^2 f'' + w w' f' and so on, by the chain rule; another way than PathCurve::by_length.
-Derivatives curve_derivatives(const PathCurve& curve, double local_s) {
-  const double t = curve.t(local_s);
-  AxisVector f1{}, f2{}, f3{};
-  double p11 = 0, p12 = 0, p22 = 0, p13 = 0;
-  for (std::size_t k = 0; k < curve.axes(); ++k) {
-    double p1 = 1, p2 = 0, p3 = 0;  // t^(n-1), t^(n-2), t^(n-3), 0 for negative powers
-    for (std::size_t n = 1; n < PathCurve::kPowers; ++n) {
-      const double c = curve.coefficient(k, n), m = static_cast<double>(n);
-      f1[k] += c * m * p1;
-      f2[k] += c * m * (m - 1) * p2;
-      f3[k] += c * m * (m - 1) * (m - 2) * p3;
-      p3 = p2, p2 = p1, p1 *= t;
-    }
-    p11 += f1[k] * f1[k], p12 += f1[k] * f2[k], p22 += f2[k] * f2[k], p13 += f1[k] * f3[k];
-  }
-  // derivatives of w by t, then by s: d/ds = w d/dt
-  const double w = 1 / std::sqrt(p11);
-  const double w_t = -w * w * w * p12;
-  const double w_tt = 3 * w * w * w * w * w * p12 * p12 - w * w * w * (p22 + p13);
-  Derivatives d;
-  for (std::size_t k = 0; k < curve.axes(); ++k) {
-    d.d1[k] = w * f1[k];
-    const double slope = w_t * f1[k] + w * f2[k];  // of x' by t
-    d.d2[k] = w * slope;
-    d.d3[k] = w * (w_t * slope + w * (w_tt * f1[k] + 2 * w_t * f2[k] + w * f3[k]));
-  }
-  return d;
-}
-
+using Derivatives = VerifiedDerivatives;
 Derivatives derivatives(const Path& path, std::size_t segment, double local_s) {
   const PathSegment& seg = path.segments[segment];
   const double length = seg.length_u;
@@ -65,7 +33,7 @@ Derivatives derivatives(const Path& path, std::size_t segment, double local_s) {
     const auto i = static_cast<std::size_t>(k);
     d.d1[i] = (path.node(segment + 1)[i] - path.node(segment)[i]) / length;
   }
-  if (seg.kind == SegmentKind::curve) return curve_derivatives(path.curve_of(segment), local_s);
+  if (seg.kind == SegmentKind::curve) return verified_curve(path.curve_of(segment), local_s);
   if (seg.kind == SegmentKind::line) return d;
   const ArcShape& arc = path.arc_of(segment);
   const double u = std::clamp(local_s / length, 0.0, 1.0);
@@ -107,11 +75,14 @@ class Verifier {
       report("path without law", 0.0, 0, -1, 0.0, path_.length_u());
       return std::move(found_);
     }
-    check_curves();
     check_ends();
-    for (std::size_t k = 0; k < law_.pieces.size() && !full(); ++k) {
-      check_piece(k);
-      check_link(k);
+    for (std::size_t k = 0; k < law_.pieces.size() && !full(); ++k) check_link(k);
+    if (path_.size() <= options_.whole_up_to) {
+      check_window(0, path_.size());
+    } else {
+      for (std::size_t i = 0; i < path_.size() && !full(); i += options_.stride)
+        check_window(i, std::min(i + options_.window, path_.size()));
+      check_window(path_.size() - std::min(options_.window, path_.size()), path_.size());
     }
     check_stops();
     check_table();
@@ -136,31 +107,29 @@ class Verifier {
            16.0 * kUlp * time * std::fabs(a);
   }
 
-  /// Curves: their ends are the path's nodes, their length is that of 256 chords, within what chords lose.
-  void check_curves() {
-    constexpr int kChords = 256;
+  /// A curve's ends are the path's nodes, its length is that of its chords, within what chords lose.
+  void check_curve(std::size_t i) {
+    const int chords = options_.chords;
+    const double loss = 6.5 / (static_cast<double>(chords) * chords);
     const std::size_t axes = machine_.axis.size();
-    for (std::size_t i = 0; i < path_.size() && !full(); ++i) {
-      if (path_.segments[i].kind != SegmentKind::curve) continue;
-      const PathCurve& curve = path_.curve_of(i);
-      const double length = path_.segments[i].length_u;
-      AxisVector from{}, to{};
-      double sum = 0, off = 0;
-      for (int k = 0; k <= kChords; ++k) {
-        curve.position(static_cast<double>(k) / kChords, {to.data(), axes});
-        double square = 0;
-        for (std::size_t j = 0; j < axes; ++j) {
-          square += (to[j] - from[j]) * (to[j] - from[j]);
-          if (k == 0) off = std::max(off, std::fabs(to[j] - path_.node(i)[j]));
-          if (k == kChords) off = std::max(off, std::fabs(to[j] - path_.node(i + 1)[j]));
-        }
-        if (k > 0) sum += std::sqrt(square);
-        from = to;
+    const PathCurve& curve = path_.curve_of(i);
+    const double length = path_.segments[i].length_u;
+    AxisVector from{}, to{};
+    double sum = 0, off = 0;
+    for (int k = 0; k <= chords; ++k) {
+      curve.position(static_cast<double>(k) / chords, {to.data(), axes});
+      double square = 0;
+      for (std::size_t j = 0; j < axes; ++j) {
+        square += (to[j] - from[j]) * (to[j] - from[j]);
+        if (k == 0) off = std::max(off, std::fabs(to[j] - path_.node(i)[j]));
+        if (k == chords) off = std::max(off, std::fabs(to[j] - path_.node(i + 1)[j]));
       }
-      if (!(off <= kCurveEnd_u)) report("ends of a curve", 0.0, i, -1, off, kCurveEnd_u);
-      if (!(std::fabs(sum - length) <= 1e-4 * length) || curve.length_u() != length)
-        report("length of a curve", 0.0, i, -1, length, sum);
+      if (k > 0) sum += std::sqrt(square);
+      from = to;
     }
+    if (!(off <= kCurveEnd_u)) report("ends of a curve", 0.0, i, -1, off, kCurveEnd_u);
+    if (!(std::fabs(sum - length) <= loss * length) || curve.length_u() != length)
+      report("length of a curve", 0.0, i, -1, length, sum);
   }
 
   // --- the law by itself
@@ -184,8 +153,8 @@ class Verifier {
       report("duration", law_.duration_s, segment, -1, last.begin_s + last.duration_s, law_.duration_s);
   }
 
-  double way_tolerance(const JerkPiece& p) const {
-    const State end = at(p, p.duration_s);
+  double way_tolerance(const JerkPiece& p) const { return way_tolerance(p, at(p, p.duration_s)); }
+  double way_tolerance(const JerkPiece& p, const State& end) const {
     return tolerance_s_ + 16.0 * kUlp * law_.duration_s * std::max(p.speed_u_s, end.v) +
            1e-3 * options_.relative_tolerance * (end.s - p.s_u);
   }
@@ -198,7 +167,7 @@ class Verifier {
     const State end = at(p, p.duration_s);
     if (!(std::fabs(p.begin_s + p.duration_s - q.begin_s) <= 4.0 * kUlp * q.begin_s))
       report("gap in time", q.begin_s, segment_, -1, p.begin_s + p.duration_s, q.begin_s);
-    if (!(std::fabs(end.s - q.s_u) <= way_tolerance(p)))
+    if (!(std::fabs(end.s - q.s_u) <= way_tolerance(p, end)))
       report("continuity of s", q.begin_s, segment_, -1, end.s, q.s_u);
     const double steep = std::fabs(end.a) + std::fabs(end.j) * p.duration_s;
     const double jump = blocks_.stated_jump_u_s(q.begin_s);
@@ -211,7 +180,8 @@ class Verifier {
     if (!(std::fabs(end.a - q.accel_u_s2) <= tolerance) && jerk_limited_around(q.s_u))
       report("continuity of acceleration", q.begin_s, segment_, -1, end.a, q.accel_u_s2);
     if (machine_.planner.law == machine::RampLaw::quintic && !by_law() &&
-        (end.j != 0.0 || at(q, 0.0).j != 0.0))
+        (end.j != 0.0 || at(q, 0.0).j != 0.0) && !positions(segment_at(0.5 * (p.s_u + end.s))) &&
+        !positions(segment_at(q.s_u)))
       report("continuity of jerk", q.begin_s, segment_, -1, end.j, at(q, 0.0).j);
   }
 
@@ -251,17 +221,31 @@ class Verifier {
   }
 
   std::size_t segment_at(double s) const {
+    // most questions are about the segment of the last one, or the next
+    for (std::size_t i = hint_; i < std::min(hint_ + 2, path_.size() - 1); ++i)
+      if (path_.start_s_u[i] <= s && s < path_.start_s_u[i + 1]) return hint_ = i;
     const auto it = std::upper_bound(path_.start_s_u.begin(), path_.start_s_u.end(), s);
     const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(it - path_.start_s_u.begin() - 1, 0));
-    return std::min(i, path_.size() - 1);
+    return hint_ = std::min(i, path_.size() - 1);
   }
 
   // --- the law on the path
   // ----------------------------------------------------------------------------------------
 
-  void check_piece(std::size_t k) {
-    const JerkPiece& p = law_.pieces[k];
+  /// The law over the segments from `first` to the one before `last`.
+  void check_window(std::size_t first, std::size_t last) {
+    const double from_s = path_.start_s_u[first], to_s = path_.start_s_u[last];
+    for (std::size_t i = first; i < last && !full(); ++i)
+      if (path_.segments[i].kind == SegmentKind::curve) check_curve(i);
+    auto p = std::partition_point(law_.pieces.begin(), law_.pieces.end(),
+                                  [&](const JerkPiece& piece) { return piece.s_u < from_s; });
+    if (p != law_.pieces.begin()) --p;  // it begins before the window and may reach into it
+    for (; p != law_.pieces.end() && p->s_u <= to_s && !full(); ++p) check_piece(*p, first, last);
+  }
+
+  void check_piece(const JerkPiece& p, std::size_t first, std::size_t last) {
     const double end = p.duration_s;
+    const double s_end = at(p, end).s;
     look(p, 0.0);
     look(p, end);
     if (p.quintic_rise_u_s != 0.0) {
@@ -271,18 +255,21 @@ class Verifier {
     } else if (p.jerk_u_s3 != 0.0) {
       look_inside(p, -p.accel_u_s2 / p.jerk_u_s3);
     }
-    // samples on a fixed grid of time, so that short pieces do not each get their own
-    const double first = std::ceil(p.begin_s / options_.sample_s);
-    const double count = std::min((p.begin_s + end) / options_.sample_s - first, 1e7);
-    for (double i = 0.0; i < count && !full(); i += 1.0)
-      look_inside(p, (first + i) * options_.sample_s - p.begin_s);
-
-    const double s_end = at(p, end).s;
-    for (std::size_t i = segment_at(p.s_u); i < path_.size() && path_.start_s_u[i] <= s_end && !full(); ++i) {
-      if (i > 0 && path_.start_s_u[i] >= p.s_u) check_joint(p, i);
+    if (options_.sample_s < machine::kInfinity) look_on_grid(p);
+    for (std::size_t i = std::max(segment_at(p.s_u), first);
+         i < last && path_.start_s_u[i] <= s_end && !full(); ++i) {
+      if (i > first && path_.start_s_u[i] >= p.s_u) check_joint(p, i);
       if (path_.segments[i].kind == SegmentKind::arc) look_at_quadrants(p, i);
-      if (path_.segments[i].kind == SegmentKind::curve) look_along_curve(p, i);
+      look_along(p, i);
     }
+  }
+
+  /// Samples on a fixed grid of time, so that short pieces do not each get their own.
+  void look_on_grid(const JerkPiece& p) {
+    const double begin = std::ceil(p.begin_s / options_.sample_s);
+    const double count = std::min((p.begin_s + p.duration_s) / options_.sample_s - begin, 1e7);
+    for (double i = 0.0; i < count && !full(); i += 1.0)
+      look_inside(p, (begin + i) * options_.sample_s - p.begin_s);
   }
 
   /// Places of an arc where one of its coordinates turns round, or the other is fastest.
@@ -296,29 +283,42 @@ class Verifier {
     };
     const double low = std::min(angle(p.s_u), angle(s_end));
     const double high = std::max(angle(p.s_u), angle(s_end));
-    for (double n = std::ceil(low / quarter); n * quarter <= high && !full(); n += 1.0) {
+    const double first = std::ceil(low / quarter);
+    for (double n = first; n * quarter <= high && n - first < options_.quadrants && !full(); n += 1.0) {
       const double s = path_.start_s_u[i] + length * (n * quarter - arc.angle_begin_rad) / arc.sweep_rad;
       look_inside(p, time_of(p, s));
     }
   }
 
-  /// Places of a curve, wherever the times of the grid fall.
-  void look_along_curve(const JerkPiece& p, std::size_t i) {
-    constexpr int kPlaces = 10;
+  /// Places of a segment, wherever the times of the grid fall: the middle of what a piece does on a line,
+  /// whose limits are the same all along, and equal parts of an arc or a curve.
+  void look_along(const JerkPiece& p, std::size_t i) {
     const double s_end = at(p, p.duration_s).s;
-    for (int k = 1; k < kPlaces; ++k) {
-      const double s = path_.start_s_u[i] + path_.segments[i].length_u * k / kPlaces;
+    const double from = path_.start_s_u[i], to = path_.start_s_u[i + 1];
+    if (path_.segments[i].kind == SegmentKind::line) {
+      const double s = 0.5 * (std::max(from, p.s_u) + std::min(to, s_end));
+      if ((from > p.s_u || to < s_end) && s > p.s_u && s < s_end) look_inside(p, time_of(p, s));
+      return;
+    }
+    for (int k = 1; k < options_.parts; ++k) {
+      const double s = from + path_.segments[i].length_u * k / options_.parts;
       if (s > p.s_u && s < s_end) look_inside(p, time_of(p, s));
     }
   }
 
+  /// When a piece reaches s: Newton's method in a bracket that bisection closes.
   double time_of(const JerkPiece& p, double s) const {
     double low = 0.0, high = p.duration_s;
-    for (int i = 0; i < kTimeHalvings; ++i) {
-      const double mid = 0.5 * (low + high);
-      (at(p, mid).s < s ? low : high) = mid;
+    const double way = at(p, high).s - p.s_u;
+    double t = way > 0.0 ? std::clamp(high * (s - p.s_u) / way, low, high) : high;
+    for (int i = 0; i < kTimeSteps && low < high; ++i) {
+      const State x = at(p, t);
+      (x.s < s ? low : high) = t;
+      const double next = x.v > 0.0 ? t - (x.s - s) / x.v : low;
+      if (next == t) break;
+      t = next > low && next < high ? next : 0.5 * (low + high);
     }
-    return high;
+    return t;
   }
 
   void look_inside(const JerkPiece& p, double t) {
@@ -361,7 +361,8 @@ class Verifier {
     }
     const Derivatives d = derivatives(path_, i, x.s - path_.start_s_u[i]);
     if (seg.kind == SegmentKind::arc) check_centripetal(i, x, d, time);
-    if (seg.kind == SegmentKind::curve) {
+    const bool excused = seg.kind == SegmentKind::curve && is_excused(i);
+    if (seg.kind == SegmentKind::curve && !excused) {
       double square = 0;
       for (const double d2 : d.d2) square += d2 * d2;
       at_most("centripetal acceleration", time, i, -1, x.v * x.v * std::sqrt(square),
@@ -371,9 +372,10 @@ class Verifier {
     for (std::size_t j = 0; j < machine_.axis.size(); ++j) {
       const machine::AxisModel& axis = machine_.axis[j];
       const int index = static_cast<int>(j);
+      if (d.d1[j] == 0.0 && d.d2[j] == 0.0 && d.d3[j] == 0.0) continue;
       if (enforced || seg.rapid)
         at_most("axis speed", time, i, index, std::fabs(x.v * d.d1[j]), axis.max_feed_u_s);
-      if (!enforced) continue;
+      if (!enforced || excused) continue;
       at_most("axis acceleration", time, i, index, std::fabs(x.a * d.d1[j] + x.v * x.v * d.d2[j]),
               axis.max_accel_u_s2);
       if (!keeps_jerk) continue;
@@ -381,6 +383,14 @@ class Verifier {
               std::fabs(x.j * d.d1[j] + 3.0 * x.v * x.a * d.d2[j] + x.v * x.v * x.v * d.d3[j]),
               axis.max_jerk_u_s3);
     }
+  }
+
+  /// Whether the planner is known to miss limits on this curve: the one exception (curves_that_turn_back).
+  bool is_excused(std::size_t i) {
+    if (options_.curves_that_turn_back) return false;
+    if (excused_segment_ != i) excused_ = turns_back(path_.curve_of(i));
+    excused_segment_ = i;
+    return excused_;
   }
 
   void check_centripetal(std::size_t i, const State& x, const Derivatives& d, double time) {
@@ -481,13 +491,14 @@ class Verifier {
                                                            : law_.pieces[hint + 1].begin_s < row.end_time_s))
         ++hint;
       const JerkPiece& p = law_.pieces[hint];
+      time = row.end_time_s;
+      speed = row.end_u_s + jump;
+      if (path_.size() > options_.whole_up_to && i % options_.stride >= options_.window) continue;
       const State x = at(p, std::clamp(row.end_time_s - p.begin_s, 0.0, p.duration_s));
       if (!(std::fabs(x.s - path_.start_s_u[i + 1]) <= 1e2 * way_tolerance(p)))
         report("table place", row.end_time_s, i, -1, x.s, path_.start_s_u[i + 1]);
       if (!(std::fabs(x.v - row.end_u_s) <= 1e-6 * top_speed_))
         report("table speed", row.end_time_s, i, -1, row.end_u_s, x.v);
-      time = row.end_time_s;
-      speed = row.end_u_s + jump;
     }
   }
 
@@ -499,12 +510,29 @@ class Verifier {
   StatedJumps blocks_;
   double tolerance_s_ = 0;  // s can't be told apart below this
   double top_speed_ = 0;
-  double loose_ = 0;  // further relative tolerance of what is looked at
+  double loose_ = 0;              // further relative tolerance of what is looked at
+  mutable std::size_t hint_ = 0;  // segment of the last segment_at()
+  std::size_t excused_segment_ = static_cast<std::size_t>(-1);  // that is_excused() was asked about last
+  bool excused_ = false;
   std::size_t segment_ = 0;
   std::vector<Violation> found_;
 };
 
 }  // namespace
+
+VerifyOptions production_check() {
+  VerifyOptions options;
+  options.sample_s = machine::kInfinity;
+  options.most = 1;
+  options.parts = 4;
+  options.quadrants = 8;
+  options.chords = 16;
+  options.curves_that_turn_back = false;
+  options.whole_up_to = 64;
+  options.window = 16;
+  options.stride = 256;
+  return options;
+}
 
 std::vector<Violation> verify(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
                               const VerifyOptions& options) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,24 @@ struct Violation {
 
 struct VerifyOptions {
   double relative_tolerance = 1e-9;
-  double sample_s = 1e-3;  ///< besides every piece end, joint and extreme of a piece
+  double sample_s = 1e-3;  ///< besides every piece end, joint and extreme of a piece; infinite: none besides
   std::size_t most = 20;   ///< stop after that many
+  int parts = 10;          ///< of every arc and curve, between which the limits are looked at
+  int quadrants = 1'000'000'000;  ///< of an arc in a piece, at whose ends the limits are looked at
+  int chords = 256;               ///< of every curve, whose sum is compared with its length
+
+  /// Whether acceleration, jerk and centripetal acceleration are looked at on curves that turn back.
+  bool curves_that_turn_back = true;
+
+  /// Paths of at most so many segments are looked at wholly. Of longer ones the limits, the corners, the
+  /// shapes of curves and the table's places are looked at on the first `window` of every `stride` segments
+  /// and on the last `window`; everything else on the whole path.
+  std::size_t whole_up_to = std::numeric_limits<std::size_t>::max();
+  std::size_t window = 16, stride = 256;
 };
+
+/// What prepare() asks of every plan: cheap enough to be always on (docs/pipeline.md says what it looks at).
+VerifyOptions production_check();
 
 /// Independent check of any planner's output against path and machine alone; it shares no code with the
 /// planners (caps, junction rule and ramps are computed anew from the definitions). Checks, at every piece

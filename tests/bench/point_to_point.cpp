@@ -2,6 +2,7 @@
 
 #include "machine/base/numbers.h"
 #include "planner/point_to_point/point_to_point.h"
+#include "planner/positioning/positioning.h"
 #include "tests/genetic/genetic.h"
 
 // Paper 001: exact synthesis (below 1 ms), laws for rapids, and the genetic algorithm that they replace.
@@ -32,8 +33,10 @@ void synthesis(benchmark::State& state) {
 BENCHMARK(synthesis)->Arg(0)->Arg(5)->Unit(benchmark::kMicrosecond);
 
 void rapid(benchmark::State& state) {
-  RapidTask task{kTask, mode(0), static_cast<RapidShape>(state.range(0)), 1e-4};
-  for (auto _ : state) benchmark::DoNotOptimize(rapid_law(task));
+  const ExcitedMode excited{mode(0), 0, 1};
+  const PositioningTask task{
+      3.5, 3, 1, machine::kInfinity, {&excited, 1}, static_cast<machine::RapidShape>(state.range(0)), 1e-4};
+  for (auto _ : state) benchmark::DoNotOptimize(plan_positioning(task));
 }
 BENCHMARK(rapid)->DenseRange(0, 4)->Unit(benchmark::kMicrosecond);
 

@@ -489,20 +489,6 @@ TEST_CASE("kadr explain tells about a code, lists all, refuses unknown ones") {
   CHECK(call({"explain"}).code == 2);
 }
 
-TEST_CASE("kadr version names version, compiler and log format") {
-  const Finished version = call({"version"});
-  CHECK(version.code == 0);
-  CHECK(version.out.substr(0, 5) == "kadr ");
-  const Json j = Json::parse(call({"version", "--json"}).out);
-  CHECK(j["log_format"] == 2);
-  for (const char* page : {"report", "compare", "teaching"}) {
-    REQUIRE(j["pages"].contains(page));
-    const bool built = j["pages"][page].is_null();
-    CHECK(contains(version.out, built ? page : j["pages"][page].get<std::string>()));
-  }
-  CHECK(version.out.substr(0, 10) == call({"--version"}).out.substr(0, 10));
-}
-
 TEST_CASE("usage mistakes: exit 2, a complaint and nothing on standard output") {
   const Scratch scratch;
   scratch.write("square.ngc", test::kSquare);
@@ -544,8 +530,8 @@ TEST_CASE("help texts go to standard output, name every command and the units of
   const Finished help = call({"--help"});
   CHECK(help.code == 0);
   CHECK(help.err.empty());
-  for (const std::string command :
-       {"run", "check", "plan", "canon", "info", "machine", "explain", "scenario", "wind", "version"})
+  for (const std::string command : {"run", "check", "plan", "canon", "info", "machine", "explain", "scenario",
+                                    "wind", "version", "completion", "man"})
     CHECK(contains(help.out, "\n  " + command + " "));
   const Finished run = call({"run", "--help"});
   CHECK(run.code == 0);

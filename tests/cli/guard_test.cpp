@@ -9,6 +9,8 @@
 #include "emulator/cli/guard.h"
 #include "emulator/cli/progress.h"
 #include "machine/base/require.h"
+#include "tests/support/run_program.h"
+#include "tests/support/test_machine.h"
 
 using namespace kadr;
 using namespace kadr::cli;
@@ -25,6 +27,23 @@ TEST_CASE("a broken promise of kadr ends with 70, the world's faults with 2, and
   CHECK(end_of(WorldError("x.lcmlog: No space left on device")) == 2);
   CHECK(end_of(std::system_error(2, std::generic_category(), "x.ngc")) == 2);
   CHECK(end_of(std::bad_alloc()) == 2);
+}
+
+TEST_CASE("a broken plan ends a command with 70") {
+  const char* argv[] = {"kadr", "check", "part.ngc"};
+  const auto end_of = [&](const emulator::PlanFunction& plan) {
+    return guarded(3, argv, [&] {
+      emulator::Job job = test::make_job("G1 X40 F1200\nM2\n", test::test_machine());
+      Diagnostics diagnostics;
+      return emulator::prepare(job, diagnostics, emulator::SoftLimitRule::error, plan) ? 0 : 1;
+    });
+  };
+  CHECK(end_of(planner::plan) == 0);
+  CHECK(end_of([](const planner::Path& path, const machine::MachineModel& machine) {
+          auto plan = planner::plan(path, machine);
+          plan->law.pieces.pop_back();
+          return plan;
+        }) == 70);
 }
 
 TEST_CASE("the reproduction line can be pasted into a shell") {

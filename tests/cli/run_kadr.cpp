@@ -44,13 +44,14 @@ struct Pipe {
     const rlimit limit{bytes, bytes};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
-  std::vector<char*> arguments{const_cast<char*>(kProgram.c_str())};
+  const std::string& program = launch.program.empty() ? kProgram : launch.program;
+  std::vector<char*> arguments{const_cast<char*>(program.c_str())};
   for (const std::string& a : launch.arguments) arguments.push_back(const_cast<char*>(a.c_str()));
   arguments.push_back(nullptr);
   std::vector<char*> environment;
   for (const std::string& e : launch.environment) environment.push_back(const_cast<char*>(e.c_str()));
   environment.push_back(nullptr);
-  ::execve(kProgram.c_str(), arguments.data(), environment.data());
+  ::execve(program.c_str(), arguments.data(), environment.data());
   ::_exit(126);
 }
 
@@ -147,6 +148,22 @@ Finished call(std::vector<std::string> arguments, const std::string& folder, con
   launch.folder = folder;
   launch.input = input;
   return run_kadr(launch);
+}
+
+Finished shell(const std::string& command, const std::string& folder) {
+  Launch launch;
+  launch.program = "/bin/bash";
+  launch.arguments = {"-c", command};
+  launch.folder = folder;
+  launch.environment = {"PATH=" KADR_BINARY_DIR ":/usr/local/bin:/usr/bin:/bin", "LANG=C.UTF-8",
+                        "HOME=" + folder};
+  return run_kadr(launch);
+}
+
+bool has_program(const std::string& name) {
+  if (shell("command -v " + name).code == 0) return true;
+  MESSAGE("skipped: ", name, " is not installed");
+  return false;
 }
 
 Scratch::Scratch() {

@@ -18,6 +18,7 @@ struct Finished {
 };
 
 struct Launch {
+  std::string program;  ///< path; empty: the build folder's kadr
   std::vector<std::string> arguments;
   std::string folder = ".";
   std::string input;                     ///< standard input
@@ -39,6 +40,11 @@ Finished run_kadr(const Launch& launch);
 /// The same for the plain case.
 Finished call(std::vector<std::string> arguments, const std::string& folder = ".",
               const std::string& input = {});
+
+/// A command line of bash, with the build folder's kadr in PATH.
+Finished shell(const std::string& command, const std::string& folder = ".");
+/// True if PATH has such a program; else the case is marked as skipped, saying why.
+bool has_program(const std::string& name);
 
 /// An empty folder of its own, removed at the end.
 class Scratch {

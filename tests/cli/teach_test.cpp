@@ -182,8 +182,8 @@ TEST_CASE("every edge of a VCD is the pulse that the table says, one slot a puls
     const Dump dump = read_vcd(scratch.read("a.vcd"));
     CHECK(dump.timescale == "100ns");
     // 1000 slots a second: slot i at (i + 1) ms
-    const auto expected =
-        pulses_of(j, [](std::size_t i, std::size_t, std::size_t) { return (i + 1) * 10'000.0; });
+    const auto expected = pulses_of(
+        j, [](std::size_t i, std::size_t, std::size_t) { return static_cast<double>(i + 1) * 10'000.0; });
     CHECK(dump.rises == expected);
     for (const auto& [axis, rises] : dump.rises) {
       REQUIRE(dump.falls.at(axis).size() == rises.size());

@@ -57,6 +57,10 @@ void check_document(const std::string& name) {
 
 TEST_CASE("README.md: every command gives the output that stands below it") { check_document("README.md"); }
 
+TEST_CASE("docs/install.md: every command gives the output that stands below it") {
+  check_document("docs/install.md");
+}
+
 TEST_CASE("docs/pipeline.md: every command gives the output that stands below it") {
   check_document("docs/pipeline.md");
 }
@@ -87,6 +91,10 @@ TEST_CASE("docs/interpolators.md: every command gives the output that stands bel
 
 TEST_CASE("docs/rapids.md: every command gives the output that stands below it") {
   check_document("docs/rapids.md");
+}
+
+TEST_CASE("docs/smoothing.md: every command gives the output that stands below it") {
+  check_document("docs/smoothing.md");
 }
 
 TEST_CASE("docs/report.md: every command gives the output that stands below it") {

@@ -79,8 +79,9 @@ TEST_CASE("a tick's linear feed stays near the law: 1/12 j tau^3 at most where t
   std::size_t hint = 0;
   for (const auto& m : p.ticks)
     for (int k = 0; k <= 20; ++k)
-      worst = std::max(worst, std::fabs(s_at(m, 500.0 * k, 1e7) -
-                                        p.plan.law.eval((m.tick.value + k / 20.0) * 1e-3, hint).s_u));
+      worst = std::max(
+          worst, std::fabs(s_at(m, 500.0 * k, 1e7) -
+                           p.plan.law.eval((static_cast<double>(m.tick.value) + k / 20.0) * 1e-3, hint).s_u));
   CHECK(worst < 40000.0 * 1e-9 / 12.0);
   CHECK(worst > 0.0);
 }
@@ -139,8 +140,9 @@ TEST_CASE(
   std::size_t hint = 0;
   for (const auto& tick : p.ticks)
     for (int k = 0; k <= 50; ++k) {
-      const double gap = std::fabs(s_at(tick, 200.0 * k, 1e7) -
-                                   p.plan.law.eval((tick.tick.value + k / 50.0) * 1e-3, hint).s_u);
+      const double gap =
+          std::fabs(s_at(tick, 200.0 * k, 1e7) -
+                    p.plan.law.eval((static_cast<double>(tick.tick.value) + k / 50.0) * 1e-3, hint).s_u);
       CHECK(gap <= tick.held_error_u + 1e-12);
       worst = std::max(worst, gap);
     }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "emulator/log/run_log.h"
+#include "plant/plant.h"
 
 namespace kadr::test {
 

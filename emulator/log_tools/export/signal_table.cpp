@@ -39,14 +39,6 @@ class Table {
   }
 };
 
-/// The words of the numbers 0, 1 ...
-template <class Enum, std::size_t kCount>
-std::vector<std::string> words_of(const Vocabulary<Enum, kCount>& vocabulary) {
-  std::vector<std::string> words;
-  for (const auto& entry : vocabulary) words.emplace_back(entry.word);
-  return words;
-}
-
 void add_feed(Table& table, const std::string& unit, bool has_override) {
   table.real("feed.commanded", unit + "/s", [](const TickContext& c) { return c.ticks().feed_u_s[c.at()]; });
   table.real("feed.programmed", unit + "/s", [](const TickContext& c) {
@@ -62,10 +54,10 @@ void add_feed(Table& table, const std::string& unit, bool has_override) {
     table.real("feed.override_requested", "%",
                [](const TickContext& c) { return 100 * c.ticks().override_requested[c.at()]; });
     table.real("feed.limiter", "%", [](const TickContext& c) { return 100 * c.ticks().limiter[c.at()]; });
-    table.code("feed.override_note", words_of(kOverrideNotes),
+    table.code("feed.override_note", kOverrideNotes.strings(),
                [](const TickContext& c) { return double(c.ticks().override_note[c.at()]); });
   }
-  table.code("feed.limited_by", words_of(kLimitedBy),
+  table.code("feed.limited_by", kLimitedBy.strings(),
              [](const TickContext& c) { return double(c.ticks().limited_by[c.at()]); });
   table.whole("feed.block", [](const TickContext& c) { return double(c.ticks().block[c.at()]); });
   table.whole("feed.line", [](const TickContext& c) {

@@ -28,9 +28,9 @@ foreach(source ${core_sources})
   set(object ${wasm_folder}/${name}.o)
   list(APPEND core_objects ${object})
   add_custom_command(OUTPUT ${object}
-    COMMAND ${WASM_CXX} ${kadr_wasm_flags} -Wall -Wextra -Wpedantic -Wshadow -Werror
-      -I${PROJECT_SOURCE_DIR} -MD -MF ${object}.d -c ${source} -o ${object}
-    DEPENDS ${source} DEPFILE ${object}.d COMMENT "WebAssembly: ${name}" VERBATIM)
+    COMMAND ${WASM_CXX} ${kadr_wasm_flags} -Wall -Wextra -Wpedantic -Wshadow
+      $<$<BOOL:${KADR_WERROR}>:-Werror> -I${PROJECT_SOURCE_DIR} -MD -MF ${object}.d -c ${source} -o ${object}
+    DEPENDS ${source} DEPFILE ${object}.d COMMENT "WebAssembly: ${name}" COMMAND_EXPAND_LISTS VERBATIM)
 endforeach()
 add_custom_command(OUTPUT ${core}
   COMMAND ${WASM_CXX} --target=wasm32-wasi -mexec-model=reactor -Wl,--strip-all -Wl,--gc-sections ${core_objects} -o ${core}

@@ -113,7 +113,8 @@ class PointPage {
       const PointLaw& law = rows_[i]->law;
       const double total_s = law.duration_s() + after_s;
       const int n = std::min(kMostPoints, static_cast<int>(std::ceil(kPointsPerPeriod * total_s / period_s)));
-      ChartLine line{rows_[i]->name, kStyles[i], {}, 1}, tail = line;
+      ChartLine line{rows_[i]->name, kStyles[i], {}, 1};
+      ChartLine tail = line;
       for (int k = 0; k <= n; ++k) {
         const double t = total_s * k / n;
         line.points.push_back({t, 1e3 * planner::link_at(law, study_.driven, t).link_u});

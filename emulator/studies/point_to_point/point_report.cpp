@@ -25,8 +25,8 @@ std::string unit_text(const planner::PointFault& fault) {
 
 std::string fault_text(const planner::PointFault& fault) {
   using Kind = planner::PointFault::Kind;
-  const std::string unit = unit_text(fault),
-                    is = fmt::format("{} is {:.9g}{}", fault.what, fault.measured, unit);
+  const std::string unit = unit_text(fault);
+  std::string is = fmt::format("{} is {:.9g}{}", fault.what, fault.measured, unit);
   switch (fault.kind) {
     case Kind::not_positive:
       return is + ": it has to be a number above 0";

@@ -77,7 +77,7 @@ class AxisReader {
     std::optional<std::size_t> otherwise;
     if (model) otherwise = rotary ? 0 : 1;
     const auto chosen = keys.word("unit", kUnits, otherwise);
-    const std::string unit(kUnits[chosen.value]);
+    std::string unit(kUnits[chosen.value]);
     if (model && rotary == (unit == "mm"))
       tell(Code::problem_program, chosen.span,
            fmt::format("is {}, axis {} of machine {} is {}", unit, model->letter, machine_->name,

@@ -33,7 +33,7 @@ bool rests(const planner::PathLimitTable& table, std::size_t joint) {
 
 }  // namespace
 
-void ProgramProblem::tell(Code code, const Span& span, std::string label, std::string allowed,
+void ProgramProblem::tell(Code code, const Span& span, std::string label, const std::string& allowed,
                           std::string help) {
   Diagnostic d = machine::file_diagnostic(code, span, std::move(label));
   if (!allowed.empty()) d.notes.push_back("allowed: " + allowed);

@@ -38,7 +38,8 @@ class ProgramProblem {
     const machine::Node* node = nullptr;
   };
 
-  void tell(Code code, const Span& span, std::string label, std::string allowed = "", std::string help = "");
+  void tell(Code code, const Span& span, std::string label, const std::string& allowed = "",
+            std::string help = "");
   bool override_axes(machine::MachineModel& machine);
   bool lay_out(machine::MachineFile machine, TimeLawProblem& out);
   bool choose_stretch(const planner::PathLimitTable& table, ProgramPath& program);

@@ -123,7 +123,7 @@ TEST_CASE("lattice: random arcs both ways: the half-step misses no end and is ne
     arc.begin = {draw(), draw()};
     if (arc.begin == PlaneNode{}) continue;
     const double r = std::hypot(static_cast<double>(arc.begin.x), static_cast<double>(arc.begin.y));
-    const double angle = (random() % 36'000) * M_PI / 18'000;
+    const double angle = static_cast<double>(random() % 36'000) * M_PI / 18'000;
     arc.end = {std::llround(r * std::cos(angle)), std::llround(r * std::sin(angle))};
     arc.turn = random() % 2 == 0 ? Turn::ccw : Turn::cw;
     if (random() % 5 == 0) arc.end = arc.begin;
