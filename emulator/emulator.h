@@ -13,6 +13,7 @@
 #include "machine/machine_file.h"
 #include "planner/laws/feed_plan.h"
 #include "planner/path/path.h"
+#include "planner/planner.h"
 
 /// The cycle: program -> path -> law -> step pulses -> plant -> log, event to event.
 namespace kadr::emulator {

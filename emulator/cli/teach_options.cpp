@@ -86,7 +86,7 @@ void methods(Options& o, CLI::App* sub, std::size_t most) {
                return {};
              });
   std::vector<std::string> list;
-  for (const auto& m : emulator::lattice::methods()) list.emplace_back(m.name);
+  for (const auto& m : emulator::lattice::methods()) list.emplace_back(m.name());
   o.words(sub->get_option("--method"), std::move(list));
 }
 
