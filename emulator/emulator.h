@@ -12,6 +12,7 @@
 #include "gcode/gcode.h"
 #include "machine/machine_file.h"
 #include "planner/laws/feed_plan.h"
+#include "planner/limits/plan_error.h"
 #include "planner/path/path.h"
 #include "planner/planner.h"
 
@@ -100,7 +101,7 @@ struct Job {
 /// (`kadr run`: the emulator shows what happens and raises an alarm there).
 enum class SoftLimitRule : std::uint8_t { error, warning };
 
-/// planner::plan, or what a test puts in its place.
+/// What a test puts in the place of planner::plan(); empty: that one.
 using PlanFunction = std::function<tl::expected<planner::FeedPlan, planner::PlanError>(
     const planner::Path&, const machine::MachineModel&)>;
 
@@ -109,7 +110,7 @@ using PlanFunction = std::function<tl::expected<planner::FeedPlan, planner::Plan
 /// @return false if there were errors before planning; job.plan is not valid then
 /// @throws BrokenPromise for a plan that breaks a limit or its own law
 bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = SoftLimitRule::error,
-             const PlanFunction& plan = planner::plan);
+             const PlanFunction& plan = {});
 
 /// planner::verify() of job.plan before its pauses are put in, as planner::production_check() says.
 /// @throws BrokenPromise with program line, place on the path, and what was measured and allowed

@@ -8,6 +8,7 @@
 #include "emulator/cycle/soft_limits.h"
 #include "emulator/emulator.h"
 #include "machine/base/require.h"
+#include "planner/planner.h"
 
 namespace kadr::emulator {
 namespace {
@@ -119,7 +120,7 @@ bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits, cons
   place_on_path(job, diagnostics);
   if (diagnostics.errors() != errors) return false;
 
-  auto plan = plan_path(job.path, job.machine.model);
+  auto plan = plan_path ? plan_path(job.path, job.machine.model) : planner::plan(job.path, job.machine.model);
   if (!plan) {
     diagnostics.add(plan.error().diagnostic);
     return false;

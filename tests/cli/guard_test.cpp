@@ -9,6 +9,7 @@
 #include "emulator/cli/guard.h"
 #include "emulator/cli/progress.h"
 #include "machine/base/require.h"
+#include "planner/planner.h"
 #include "tests/support/run_program.h"
 #include "tests/support/test_machine.h"
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct Example {
   std::size_t first_output = 0;  ///< 0-based index of the first expected line
 };
 
+/// Bytes of a file; empty where there is none.
+std::string text_of(const std::filesystem::path& file);
 std::vector<std::string> split_lines(const std::string& text);
 std::vector<Example> parse_examples(const std::vector<std::string>& document);
 

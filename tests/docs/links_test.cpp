@@ -9,19 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "tests/docs/console_blocks.h"
+
 namespace fs = std::filesystem;
+
+using kadr::docs::text_of;
 
 namespace {
 
 const fs::path kProject = KADR_SOURCE_DIR;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  REQUIRE_MESSAGE(in.is_open(), file.string());
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 /// Markdown files of the project; builds and packages of npm are not the project's.
 std::vector<fs::path> markdown_files() {

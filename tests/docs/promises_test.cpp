@@ -10,17 +10,15 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/docs/console_blocks.h"
+
 // What docs/promises.md names as proof is there, and no page with commands is left unrun.
 
 namespace fs = std::filesystem;
 
-namespace {
+using kadr::docs::text_of;
 
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
+namespace {
 
 /// All files of a folder with one ending, one after the other.
 std::string texts_of(const fs::path& folder, const std::string& ending) {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "machine/base/parse_number.h"
+#include "machine/machine_file.h"
 
 using namespace kadr;
 using namespace kadr::machine;
