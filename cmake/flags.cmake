@@ -67,12 +67,16 @@ endfunction()
 set(kadr_precompiled <fmt/format.h> <algorithm> <array> <cmath> <functional> <map> <memory> <optional> <string>
   <tl/expected.hpp> <vector>)
 
+# a switch names every enumerator: a new one is then missed nowhere. `default` is for enumerations of outside libraries
+set(kadr_product_warnings -Wswitch-enum)
+
 # kadr_folder(NAME DEPENDS ... [PRECOMPILE HEADER ...]): the static library of one folder.
 function(kadr_folder name)
   cmake_parse_arguments(ARG "" "" "DEPENDS;PRECOMPILE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(kadr_${name} STATIC ${sources})
   target_link_libraries(kadr_${name} PUBLIC kadr_flags ${ARG_DEPENDS})
+  target_compile_options(kadr_${name} PRIVATE ${kadr_product_warnings})
   kadr_batches(kadr_${name} 8)
   target_precompile_headers(kadr_${name} PRIVATE ${kadr_precompiled} ${ARG_PRECOMPILE})
 endfunction()
@@ -90,6 +94,7 @@ function(kadr_room name folder)
   endif()
   add_library(kadr_${name} STATIC ${sources} ${ARG_SOURCES})
   target_link_libraries(kadr_${name} PUBLIC kadr_flags ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE})
+  target_compile_options(kadr_${name} PRIVATE ${kadr_product_warnings})
   kadr_batches(kadr_${name} 8)
   if(NOT TARGET kadr_headers)
     set(empty ${PROJECT_BINARY_DIR}/generated/headers.cpp)

@@ -14,23 +14,6 @@ enum class SchedulerKind : std::uint8_t { chained, blockwise };
 enum class PlanMethod : std::uint8_t { scheduler, tube, certified, jerk_limited };
 /// How a G0 gets from rest to rest where a flexible link swings (paper 001).
 enum class RapidShape : std::uint8_t { scurve, t_zero, zv, zvd, automatic };
-/// Which pulses a segment gives, and when: half-crossings at their moments, or a method of paper 002 at one
-/// clock slot a step, for study.
-enum class StepMethod : std::uint8_t {
-  crossing,
-  classic,
-  half_step,
-  diagonal,
-  extra_points,
-  octant_midpoint,
-  dda,
-  dda_preloaded,
-  dda_sequential,
-  dda_simultaneous,
-  progression,
-  chords,
-  ptp,
-};
 enum class RampLaw : std::uint8_t { jerk_limited, quintic };
 enum class BlockTicks : std::uint8_t { exact, kl };
 enum class OverrideMode : std::uint8_t { corrected_plus, corrected, proportional };

@@ -7,6 +7,7 @@
 #include "machine/base/axes.h"
 #include "machine/clock.h"
 #include "machine/settings.h"
+#include "machine/step_method.h"
 
 /// The machine: facts that are true before a program is loaded. Read by all, changed by none. Whoever only
 /// passes it on declares it (struct MachineModel); machine_file.h reads it from a file. Units: `_u` is the

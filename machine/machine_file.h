@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <tl/expected.hpp>
@@ -39,5 +40,25 @@ std::vector<std::string_view> shipped_machine_names();
 
 /// Every value in force with its origin (file:line, default, command line), as TOML with comments.
 std::string render_machine(const MachineFile& file);
+
+/// A key of a machine file, for people.
+struct KeyDocument {
+  std::string name;       ///< "max_mm_s, max_deg_s"
+  std::string allowed;    ///< "1e-06 to 1e+09 mm/s", "true or false"; empty for words
+  std::string otherwise;  ///< default, "required"
+  std::string sentence;
+  /// Words with their sentences.
+  std::vector<std::pair<std::string, std::string>> words = {};
+};
+
+/// The keys of one table.
+struct TableDocument {
+  std::string header;  ///< "[planner]"; empty for the keys in front of all tables
+  std::string sentence;
+  std::vector<KeyDocument> keys;
+};
+
+/// Every key of a machine file, table by table, as it is read.
+std::vector<TableDocument> machine_keys();
 
 }  // namespace kadr::machine

@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
-#include <string_view>
 
 #include "machine/base/count.h"
+#include "machine/base/vocabulary.h"
 
 /// How the path moves in a control tick: made by a planner's MotionSource, read by interpolator and log.
 namespace kadr {
@@ -21,7 +21,20 @@ enum class LimitedBy : std::uint8_t {
   hold,              ///< feed hold, or a percent of 0
   limiter,           ///< the axis limiter
 };
-std::string_view limited_by_name(LimitedBy reason);
+inline constexpr Vocabulary<LimitedBy, 11> kLimitedBy{{
+    {LimitedBy::program, "program", "the programmed feed is reached"},
+    {LimitedBy::rapid, "rapid", "axis speed during a rapid"},
+    {LimitedBy::path_feed, "path feed", "feed.max_mm_s of the machine"},
+    {LimitedBy::axis_speed, "axis speed", "highest speed of an axis"},
+    {LimitedBy::centripetal, "centripetal", "curvature of the path"},
+    {LimitedBy::junction, "junction", "a corner ahead or behind"},
+    {LimitedBy::length, "length", "speeding up or braking: the path is too short for more"},
+    {LimitedBy::stop, "stop", "at rest"},
+    {LimitedBy::override_percent, "override", "the programmed feed times the override"},
+    {LimitedBy::hold, "hold", "feed hold, or an override of 0"},
+    {LimitedBy::limiter, "limiter", "the axis limiter"},
+}};
+static_assert(kLimitedBy.complete());
 
 /// Why a percent that was asked for is not in force in a control tick.
 enum class OverrideNote : std::uint8_t {
@@ -30,6 +43,13 @@ enum class OverrideNote : std::uint8_t {
   locked,    ///< thread, tap, M49
   limited,   ///< the axis limiter lowers the feed
 };
+inline constexpr Vocabulary<OverrideNote, 4> kOverrideNotes{{
+    {OverrideNote::none, "in force"},
+    {OverrideNote::deferred, "deferred: braking", "the motion brakes for a place ahead"},
+    {OverrideNote::locked, "locked", "thread, tap, M49"},
+    {OverrideNote::limited, "axis limiter", "the axis limiter lowers the feed"},
+}};
+static_assert(kOverrideNotes.complete());
 
 /// How s moves in one control tick. Exact at both ends of the tick; between them the feed runs linearly over
 /// [move_begin, move_end] (base ticks within the tick, fractions allowed) and the path rests outside of it,

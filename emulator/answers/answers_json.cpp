@@ -83,7 +83,7 @@ Json json_of(const std::vector<LimitShare>& shares) {
 Json json_of(const RunSummary& s, const SummaryContext& c) {
   const machine::MachineModel& model = *c.model;
   Json j;
-  j["outcome"] = s.outcome;
+  j["outcome"] = s.outcome.text();
   j["time_s"] = at_seconds(s.ticks, model);
   j["ticks"] = s.ticks.value;
   j["base_hz"] = model.clock.base_hz;

@@ -8,6 +8,7 @@
 #include "emulator/answers/travel.h"
 #include "emulator/text/text.h"
 #include "machine/base/numbers.h"
+#include "machine/words.h"
 #include "planner/positioning/positioning.h"
 
 namespace kadr::emulator {
@@ -41,13 +42,13 @@ void add_ticks(const Job& job, std::size_t first, std::size_t end, PlanRow& row)
     const double jump_u_s = plan.end_jump_u_s * segment.feed_length_u / segment.length_u;
     if (std::fabs(jump_u_s) > std::fabs(row.end_jump_u_s)) row.end_jump_u_s = jump_u_s;
   }
-  row.rule = planner::tick_rule_name(rule);
+  row.rule = planner::kTickRules.word(rule);
 }
 
 void add_rapid(const Job& job, const planner::PositionedSegment& rapid, planner::PositioningPlanner& planner,
                PlanRow& row) {
   row.positioned = true;
-  row.rapid_law = planner::rapid_law_name(rapid.shape);
+  row.rapid_law = machine::kRapidShapes.word(rapid.shape);
   row.rapid_reason = rapid.reason;
   row.rapid_loss_s = rapid.loss_s;
   const std::vector<machine::AxisModel>& axis = job.machine.model.axis;

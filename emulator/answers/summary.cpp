@@ -47,7 +47,7 @@ std::string counted(std::size_t n, std::string_view word) {
 std::string title(const RunSummary& s, const SummaryContext& c) {
   std::string left = fmt::format("{} on {}", one_line(c.program, 60), one_line(c.machine, 60));
   if (!c.scenario.empty()) left += ", scenario " + one_line(c.scenario, 60);
-  std::string right = s.outcome;
+  std::string right = s.outcome.text();
   if (c.program_warnings > 0) right += ", " + counted(c.program_warnings, "warning");
   if (s.alarms > 0) right += ", " + counted(s.alarms, "alarm");
   const std::size_t used = display_width(left) + display_width(right);

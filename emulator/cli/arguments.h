@@ -11,6 +11,7 @@
 #include "emulator/studies/point_to_point/point_study.h"
 #include "emulator/studies/teach/pulses.h"
 #include "gcode/gcode.h"
+#include "machine/base/vocabulary.h"
 #include "machine/file/data_sheet.h"
 #include "machine/infinity.h"
 #include "scenarios/generator/wind.h"
@@ -24,8 +25,29 @@ struct Arguments;
 using Run = int (*)(const Arguments&, Console&);
 
 enum class When : std::uint8_t { automatic, always, never };
+inline constexpr Vocabulary<When, 3> kWhens{{
+    {When::automatic, "auto", "on a terminal"},
+    {When::always, "always"},
+    {When::never, "never"},
+}};
+static_assert(kWhens.complete());
+
 enum class DiagnosticFormat : std::uint8_t { human, gcc, json, sarif };
+inline constexpr Vocabulary<DiagnosticFormat, 4> kDiagnosticFormats{{
+    {DiagnosticFormat::human, "human", "with the source line and a caret"},
+    {DiagnosticFormat::gcc, "gcc", "file:line:column: severity: message"},
+    {DiagnosticFormat::json, "json", "one object a line"},
+    {DiagnosticFormat::sarif, "sarif", "one SARIF 2.1.0 document"},
+}};
+static_assert(kDiagnosticFormats.complete());
+
 enum class ProgressMode : std::uint8_t { automatic, never, plain };
+inline constexpr Vocabulary<ProgressMode, 3> kProgressModes{{
+    {ProgressMode::automatic, "auto", "a bar on a terminal, else a line every 10 s"},
+    {ProgressMode::never, "never"},
+    {ProgressMode::plain, "plain", "a line every 10 s"},
+}};
+static_assert(kProgressModes.complete());
 
 /// How a command talks.
 struct OutputOptions {

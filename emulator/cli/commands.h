@@ -21,6 +21,7 @@ int plot_log(const Arguments& arguments, Console& console);
 int log_info(const Arguments& arguments, Console& console);
 int machine_show(const Arguments& arguments, Console& console);
 int machine_list(const Arguments& arguments, Console& console);
+int machine_keys(const Arguments& arguments, Console& console);
 int machine_check(const Arguments& arguments, Console& console);
 int machine_new(const Arguments& arguments, Console& console);
 int explain_codes(const Arguments& arguments, Console& console);

@@ -54,7 +54,7 @@ Json info_json(const LogInfo& info) {
   for (const emulator::ChannelInfo& c : info.channels)
     channels.push_back({{"channel", c.name}, {"messages", c.messages}, {"bytes", c.bytes}});
   j["channels"] = std::move(channels);
-  j["outcome"] = info.summary ? Json(info.summary->run.outcome) : Json(nullptr);
+  j["outcome"] = info.summary ? Json(info.summary->run.outcome.text()) : Json(nullptr);
   j["inputs_hash"] = hash_text(info.header.inputs_hash);
   j["program_hash"] = hash_text(info.header.program_hash);
   j["steps_hash"] = hash_json(info.steps_hash);

@@ -39,11 +39,10 @@ void add_tube(Options& o) {
       ->type_name("");
   o.repeated(sub, "--method", "NAME",
              fmt::format("Use only this method: {};\nrepeatable (default: all that the problem states)",
-                         fmt::join(emulator::kLawMethods, ", ")),
+                         emulator::kLawMethods.list()),
              [&o](const std::string& text) -> tl::expected<void, std::string> {
-               if (!emulator::method_of(text))
-                 return tl::unexpected(
-                     fmt::format("knows {}; got '{}'", fmt::join(emulator::kLawMethods, ", "), text));
+               if (!emulator::kLawMethods.find(text))
+                 return tl::unexpected(fmt::format("knows {}; got '{}'", emulator::kLawMethods.list(), text));
                o.arguments.methods.push_back(text);
                return {};
              });
@@ -69,7 +68,7 @@ void add_tube(Options& o) {
   sub->add_flag("--timing", o.arguments.timing, "Add a column of wall times, which differ from run to run");
   o.diagnostics(sub);
   o.output(sub);
-  o.words(sub->get_option("--method"), {emulator::kLawMethods.begin(), emulator::kLawMethods.end()});
+  o.words(sub->get_option("--method"), emulator::kLawMethods.strings());
   sub->footer("Example: kadr tube docs/tube/laying.toml --page laying.html");
 }
 
@@ -112,9 +111,8 @@ void add_law(Options& o) {
          [&q](double x) { q.load.gravity_m_s2 = x; });
   sub->add_flag("--printed-gravity", q.printed_gravity,
                 "Take 9.81 for K_g, as the paper does, whatever time and distance are");
-  o.choice(sub, "--drive", q.drive,
-           {{"position", planner::Drive::position}, {"force", planner::Drive::force}},
-           "What moves the base: position|force (default position: stiff)")
+  o.choice(sub, "--drive", q.drive, planner::kDrives,
+           fmt::format("What moves the base: {} (default position: stiff)", planner::kDrives.list("|")))
       ->group("Options");
   number(sub, "--uncertainty-pct", "U",
          "How far off the natural frequency may be, in %, for the advice (default 1)",

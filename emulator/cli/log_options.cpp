@@ -36,11 +36,11 @@ void add_diff(Options& o) {
            "Log written by kadr run")
         ->required()
         ->type_name("");
-  o.choice(
-       sub, "--align", o.arguments.diff.align,
-       {{"tick", emulator::DiffAlign::tick}, {"path", emulator::DiffAlign::path}},
-       "Compare at the same tick or at the same path length: tick|path (default tick; path: whatever the\n"
-       "override)")
+  o.choice(sub, "--align", o.arguments.diff.align, emulator::kDiffAligns,
+           fmt::format(
+               "Compare at the same tick or at the same path length: {} (default tick; path: whatever the\n"
+               "override)",
+               emulator::kDiffAligns.list("|")))
       ->group("Options");
   o.repeated(
       sub, "--tolerance", "KEY=VALUE",

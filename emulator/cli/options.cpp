@@ -29,22 +29,17 @@ void Options::output(CLI::App* sub) {
       ->group("Output");
   sub->add_flag("-q,--quiet", out.quiet, "Only data and errors: no notes, no progress, no tables")
       ->group("Output");
-  choice(
-      sub, "--color", out.color,
-      {{"auto", When::automatic}, {"always", When::always}, {"never", When::never}},
-      "Colour messages: auto|always|never (default auto: on a terminal, as NO_COLOR and CLICOLOR_FORCE say)");
+  choice(sub, "--color", out.color, kWhens,
+         fmt::format("Colour messages: {} (default auto: on a terminal, as NO_COLOR and CLICOLOR_FORCE say)",
+                     kWhens.list("|")));
 }
 
 void Options::diagnostics(CLI::App* sub) {
   OutputOptions& out = arguments.output;
-  choice(
-      sub, "--format", out.format,
-      {{"human", DiagnosticFormat::human},
-       {"gcc", DiagnosticFormat::gcc},
-       {"json", DiagnosticFormat::json},
-       {"sarif", DiagnosticFormat::sarif}},
-      "Form of diagnostics: human|gcc|json|sarif (default human; json: one object per line; sarif: one SARIF "
-      "2.1.0 document)");
+  choice(sub, "--format", out.format, kDiagnosticFormats,
+         fmt::format("Form of diagnostics: {} (default human; json: one object per line; sarif: one SARIF "
+                     "2.1.0 document)",
+                     kDiagnosticFormats.list("|")));
   sub->add_option("--max-errors", out.max_errors,
                   "Show at most N diagnostics; 0: all (default 20; with sarif all)")
       ->type_name("N")
@@ -52,10 +47,10 @@ void Options::diagnostics(CLI::App* sub) {
 }
 
 void Options::progress(CLI::App* sub) {
-  choice(sub, "--progress", arguments.output.progress,
-         {{"auto", ProgressMode::automatic}, {"never", ProgressMode::never}, {"plain", ProgressMode::plain}},
-         "Progress on standard error: auto|never|plain (default auto: a bar on a terminal, else a line every "
-         "10 s)");
+  choice(sub, "--progress", arguments.output.progress, kProgressModes,
+         fmt::format(
+             "Progress on standard error: {} (default auto: a bar on a terminal, else a line every 10 s)",
+             kProgressModes.list("|")));
 }
 
 void Options::machine(CLI::App* sub) {
@@ -92,16 +87,16 @@ void Options::reading(CLI::App* sub) {
   sub->add_option_function<std::string>(
          "--dialect",
          [this](const std::string& text) {
-           arguments.dialect = gcode::dialect_of(text);
+           arguments.dialect = gcode::kDialects.find(text);
            if (!arguments.dialect)
              throw CLI::ValidationError(
-                 fmt::format("--dialect knows linuxcnc, grbl, marlin, fanuc; got '{}'", text));
+                 fmt::format("--dialect knows {}; got '{}'", gcode::kDialects.list(), text));
          },
-         "Read codes on which controllers differ as this one does: linuxcnc|grbl|marlin|fanuc (default "
-         "linuxcnc)")
+         fmt::format("Read codes on which controllers differ as this one does: {} (default linuxcnc)",
+                     gcode::kDialects.list("|")))
       ->type_name("WORD");
   words(sub->get_option("--limit"), names_with_equals(gcode::kBoundNames));
-  words(sub->get_option("--dialect"), {"linuxcnc", "grbl", "marlin", "fanuc"});
+  words(sub->get_option("--dialect"), gcode::kDialects.strings());
 }
 
 void Options::limit(const std::string& text) {

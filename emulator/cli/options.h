@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <charconv>
 #include <functional>
-#include <map>
 #include <string>
 #include <tl/expected.hpp>
 
 #include "emulator/cli/arguments.h"
 #include "emulator/cli/command_tree.h"
+#include "machine/base/vocabulary.h"
 
 namespace kadr::cli {
 
@@ -52,20 +52,20 @@ class Options {
   void repeated(CLI::App* sub, const std::string& name, const char* type, const std::string& description,
                 std::function<tl::expected<void, std::string>(const std::string&)> take);
 
-  /// An option that takes one of a few words.
-  template <class Enum>
-  CLI::Option* choice(CLI::App* sub, const std::string& name, Enum& value, std::map<std::string, Enum> names,
-                      const std::string& description) {
-    std::vector<std::string> list;
-    for (const auto& entry : names) list.push_back(entry.first);
+  /// An option that takes one word of a vocabulary.
+  template <class Enum, std::size_t kCount>
+  CLI::Option* choice(CLI::App* sub, const std::string& name, Enum& value,
+                      const Vocabulary<Enum, kCount>& vocabulary, const std::string& description) {
+    std::vector<std::string> list = vocabulary.strings();
+    std::sort(list.begin(), list.end());
     CLI::Option* option = sub->add_option_function<std::string>(
         name,
-        [&value, names, name, list](const std::string& text) {
-          const auto it = names.find(text);
-          if (it == names.end())
+        [&value, &vocabulary, name, list](const std::string& text) {
+          const auto found = vocabulary.find(text);
+          if (!found)
             throw CLI::ValidationError(
                 fmt::format("{} knows {}; got '{}'", name, fmt::join(list, ", "), text));
-          value = it->second;
+          value = *found;
         },
         description);
     words(option, std::move(list));

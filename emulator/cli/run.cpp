@@ -168,8 +168,8 @@ std::unique_ptr<emulator::RunLog> open_log(const RunInputs& in, const emulator::
 }
 
 int exit_code(const emulator::RunSummary& summary, int signal) {
-  if (summary.outcome == "interrupted" && signal != 0) return kSignal + signal;
-  return summary.alarms > 0 || summary.outcome == "plant error" ? kAlarm : kYes;
+  if (summary.outcome == emulator::Outcome::interrupted && signal != 0) return kSignal + signal;
+  return summary.alarms > 0 || summary.outcome == emulator::Outcome::plant_error ? kAlarm : kYes;
 }
 
 int move(RunInputs& in, Console& console) {
@@ -223,7 +223,7 @@ int move(RunInputs& in, Console& console) {
   context.alarm_counts = alarms.counts();
   context.wall_s = wall_s;
   if (!log_path.empty()) {
-    context.log_path = result->outcome == "interrupted" ? log_path + ".part" : log_path;
+    context.log_path = result->outcome == emulator::Outcome::interrupted ? log_path + ".part" : log_path;
     std::error_code error;
     const auto size = fs::file_size(context.log_path, error);
     context.log_bytes = error ? 0 : static_cast<std::int64_t>(size);
@@ -235,7 +235,7 @@ int move(RunInputs& in, Console& console) {
   } else if (!console.options().quiet) {
     console.data(emulator::render_summary(*result, context));
   }
-  if (result->outcome == "interrupted")
+  if (result->outcome == emulator::Outcome::interrupted)
     console.error(
         fmt::format("interrupted{}", log_path.empty() ? "" : "; what was written is in " + context.log_path));
   return code;

@@ -52,7 +52,7 @@ emulator::RunHeader run_header(const emulator::Job& job, const emulator::RunOpti
     header.settings_toml += fmt::format("until_s = {}\n", options.until_s);
   if (job.reading.block_delete) header.settings_toml += "block_delete = true\n";
   if (job.reading.dialect != gcode::Dialect::linuxcnc)
-    header.settings_toml += fmt::format("dialect = \"{}\"\n", gcode::dialect_name(job.reading.dialect));
+    header.settings_toml += fmt::format("dialect = \"{}\"\n", gcode::kDialects.word(job.reading.dialect));
   if (job.reading.tools)
     header.settings_toml +=
         fmt::format("tools = \"\"\"\n{}\"\"\"\n", gcode::render_tool_table(*job.reading.tools));

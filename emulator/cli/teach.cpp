@@ -142,13 +142,14 @@ int teach_methods(const Arguments&, Console& console) {
     Json j = head("teach methods");
     j["methods"] = Json::array();
     for (const auto& m : emulator::lattice::methods())
-      j["methods"].push_back({{"name", m.name}, {"meaning", m.meaning}});
+      j["methods"].push_back({{"name", m.name()}, {"meaning", m.meaning()}});
     console.document(j);
     return kYes;
   }
   using Align = emulator::TextTable::Align;
   emulator::TextTable table({{"method", Align::left}, {"what decides", Align::left}});
-  for (const auto& m : emulator::lattice::methods()) table.add({std::string(m.name), std::string(m.meaning)});
+  for (const auto& m : emulator::lattice::methods())
+    table.add({std::string(m.name()), std::string(m.meaning())});
   console.data(table.render());
   return kYes;
 }

@@ -9,9 +9,6 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::PulseTiming;
-using emulator::TeachMode;
-
 constexpr std::size_t kMostCompared = 4;
 constexpr std::int64_t kMostSlots = 10'000'000;
 
@@ -53,9 +50,11 @@ void subject(Options& o, CLI::App* sub) {
   emulator::TeachOptions& options = o.arguments.teach.options;
   bounded(sub, "--axes", o.arguments.teach.axes, 2, 9, "Axes of a polyline or Bezier (default 2)");
   o.choice(
-       sub, "--mode", options.mode, {{"cp", TeachMode::continuous}, {"ptp", TeachMode::point_to_point}},
-       "How axes move: cp|ptp (default cp: together along the path; ptp: each at its own rate from node to\n"
-       "node)")
+       sub, "--mode", options.mode, emulator::kTeachModes,
+       fmt::format(
+           "How axes move: {} (default cp: together along the path; ptp: each at its own rate from node to\n"
+           "node)",
+           emulator::kTeachModes.list("|")))
       ->group("Options");
   bounded(sub, "--bits", options.method.fraction_bits, 1, 60,
           "Fraction bits of progression and newton (default 16)");
@@ -71,7 +70,7 @@ void subject(Options& o, CLI::App* sub) {
 void methods(Options& o, CLI::App* sub, std::size_t most) {
   std::string names;
   for (const auto& m : emulator::lattice::methods())
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", m.name);
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", m.name());
   o.repeated(sub, "--method", "NAME",
              most == 1
                  ? "Interpolator (default half_step); `kadr teach methods` lists them"
@@ -87,7 +86,7 @@ void methods(Options& o, CLI::App* sub, std::size_t most) {
                return {};
              });
   std::vector<std::string> list;
-  for (const auto& m : emulator::lattice::methods()) list.emplace_back(m.name);
+  for (const auto& m : emulator::lattice::methods()) list.emplace_back(m.name());
   o.words(sub->get_option("--method"), std::move(list));
 }
 
@@ -97,9 +96,10 @@ void add_table(Options& o, CLI::App* group) {
   subject(o, sub);
   methods(o, sub, 1);
   emulator::PulseTiming& timing = o.arguments.teach.timing;
-  o.choice(sub, "--timing", timing, {{"uniform", PulseTiming::uniform}, {"crossing", PulseTiming::crossing}},
-           "When pulses fire: uniform|crossing (default uniform: slot after slot; crossing: where the path\n"
-           "crosses the middle between two nodes, at a constant feed)")
+  o.choice(sub, "--timing", timing, emulator::kPulseTimings,
+           fmt::format("When pulses fire: {} (default uniform: slot after slot; crossing: where the path\n"
+                       "crosses the middle between two nodes, at a constant feed)",
+                       emulator::kPulseTimings.list("|")))
       ->group("Options");
   bounded(sub, "--feed", o.arguments.teach.feed_steps_s, 1e-3, 1e7,
           "Slots per second, or steps per second along the path (default 1000)");

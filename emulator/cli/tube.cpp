@@ -24,7 +24,7 @@ using emulator::TimeLawProblem;
 /// Methods of the command line, in the order of the table; all of the problem's if none is named.
 std::vector<LawMethod> chosen_methods(const Arguments& arguments, const TimeLawProblem& problem) {
   std::vector<LawMethod> methods;
-  for (const std::string& name : arguments.methods) methods.push_back(*emulator::method_of(name));
+  for (const std::string& name : arguments.methods) methods.push_back(*emulator::kLawMethods.find(name));
   if (methods.empty()) return emulator::methods_of(problem);
   std::sort(methods.begin(), methods.end());
   methods.erase(std::unique(methods.begin(), methods.end()), methods.end());
@@ -65,7 +65,7 @@ void note_times(const Arguments& arguments, const LawStudy& study, Console& cons
   std::string text = "wall";
   for (const emulator::MethodOutcome& o : study.outcomes)
     text += fmt::format("{} {} {:.1f} ms", o.method == study.outcomes.front().method ? "" : ",",
-                        emulator::method_name(o.method), 1000 * o.wall_s);
+                        emulator::kLawMethods.word(o.method), 1000 * o.wall_s);
   console.note(text);
 }
 
@@ -144,7 +144,7 @@ int solve_tube(const Arguments& arguments, Console& console) {
   ProgressLine progress(arguments.output, ProgressLine::Elsewhere::nothing);
   const LawStudy study = emulator::study_laws(
       *problem, methods, keep_profiles, [&](LawMethod method, std::string_view stage, double done) {
-        tell(progress, fmt::format("{}: {}", emulator::method_name(method), stage), done);
+        tell(progress, fmt::format("{}: {}", emulator::kLawMethods.word(method), stage), done);
       });
   progress.erase();
   write_files(arguments, study, *problem, name);

@@ -154,7 +154,7 @@ BlockSummary block_summary(const Job& job, std::size_t segment) {
 }
 
 std::string limited_by_text(planner::LimitedBy reason, int axis, const machine::MachineModel& machine) {
-  std::string text(planner::limited_by_name(reason));
+  std::string text(planner::kLimitedBy.word(reason));
   if (axis < 0) return text;
   const char letter = machine.axis.at(static_cast<std::size_t>(axis)).letter;
   if (reason == planner::LimitedBy::axis_speed) return std::string("axis ") + letter + " speed";

@@ -35,20 +35,20 @@ double LostTime::planned_s(double s_u) {
   return moving_s_ + high;
 }
 
-void LostTime::add(const planner::TickMotion& motion, std::string_view reason) {
+void LostTime::add(const planner::TickMotion& motion, LostReason reason) {
   const double reached_s = motion.s_end_u > motion.s_begin_u ? planned_s(motion.s_end_u) : reached_s_;
   const double lost_s = tau_s_ - (reached_s - reached_s_);
   reached_s_ = reached_s;
-  auto it = std::find_if(shares_.begin(), shares_.end(),
-                         [&](const LimitShare& s) { return s.limited_by == reason; });
-  if (it == shares_.end()) it = shares_.insert(shares_.end(), LimitShare{std::string(reason), 0.0});
+  auto it = std::find_if(shares_.begin(), shares_.end(), [&](const Share& s) { return s.reason == reason; });
+  if (it == shares_.end()) it = shares_.insert(shares_.end(), Share{reason, 0.0});
   it->time_s += lost_s;
 }
 
 std::vector<LimitShare> LostTime::shares() const {
   std::vector<LimitShare> out;
-  for (const LimitShare& share : shares_)
-    if (std::fabs(share.time_s) >= kLeast_s) out.push_back(share);
+  for (const Share& share : shares_)
+    if (std::fabs(share.time_s) >= kLeast_s)
+      out.push_back({std::string(kLostReasons.word(share.reason)), share.time_s});
   std::stable_sort(out.begin(), out.end(),
                    [](const LimitShare& a, const LimitShare& b) { return a.time_s > b.time_s; });
   return out;

@@ -1,5 +1,4 @@
 #pragma once
-#include <string_view>
 #include <vector>
 
 #include "emulator/log/records.h"
@@ -15,7 +14,7 @@ class LostTime {
   /// @param law  outlives this
   LostTime(const planner::MotionLaw& law, double tau_s) : law_(law), tau_s_(tau_s) {}
   /// A tick that is not a pause of the program.
-  void add(const planner::TickMotion& motion, std::string_view reason);
+  void add(const planner::TickMotion& motion, LostReason reason);
   /// Longest first; reasons that lost less than a microsecond are left out.
   std::vector<LimitShare> shares() const;
 
@@ -27,7 +26,11 @@ class LostTime {
   std::size_t piece_ = 0;
   double moving_s_ = 0;  ///< of the pieces before `piece_`, pauses left out
   double reached_s_ = 0;
-  std::vector<LimitShare> shares_;
+  struct Share {
+    LostReason reason;
+    double time_s;
+  };
+  std::vector<Share> shares_;  // in the order in which they came up
 };
 
 }  // namespace kadr::emulator

@@ -147,7 +147,7 @@ void Monitor::watch_limit(std::size_t a, Overrun kind, double value, double limi
   if (over && !excursion.open) {
     excursion = {true, value, limit};
     ++alarms_;
-    EventRecord e = event_here(tick, "alarm", a, value, limit);
+    EventRecord e = event_here(tick, EventKind::alarm, a, value, limit);
     e.code = kOverrunCodes[kind];
     e.text = sentence("is", value, limit);
     events.push_back(std::move(e));
@@ -156,7 +156,7 @@ void Monitor::watch_limit(std::size_t a, Overrun kind, double value, double limi
     if (worse) excursion.worst = value, excursion.limit = limit;
   } else if (excursion.open) {
     excursion.open = false;
-    EventRecord e = event_here(tick, "alarm end", a, excursion.worst, excursion.limit);
+    EventRecord e = event_here(tick, EventKind::alarm_end, a, excursion.worst, excursion.limit);
     e.code = kOverrunCodes[kind];
     e.text = sentence("was at most", excursion.worst, excursion.limit);
     events.push_back(std::move(e));
@@ -230,7 +230,7 @@ void Monitor::end_stop(Ticks now, std::vector<EventRecord>& events) {
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     Axis& axis = axes_[a];
     if (axis.moved_since_stop && axis.omega_rad_s > 0) {
-      EventRecord e = event_here(now, "residual", a, axis.stop_residual_u, 0.0);
+      EventRecord e = event_here(now, EventKind::residual, a, axis.stop_residual_u, 0.0);
       e.block = path_.segments[stop_segment_].block;
       e.span = path_.segments[stop_segment_].span;
       const machine::AxisModel& model = machine_.axis[a];
@@ -256,7 +256,7 @@ void Monitor::lost_steps(const std::vector<plant::LostSteps>& lost, Ticks tick,
     axis.slip_steps += l.steps;
     if (axis.slip_ticks_ago < 0) {
       ++alarms_;
-      EventRecord e = event_here(tick, "alarm", a, static_cast<double>(l.steps.value), 0.0);
+      EventRecord e = event_here(tick, EventKind::alarm, a, static_cast<double>(l.steps.value), 0.0);
       e.code = Code::lost_steps;
       e.text = fmt::format("axis {} lost {} steps", machine_.axis[a].letter, l.steps.value);
       events.push_back(std::move(e));
@@ -270,7 +270,7 @@ void Monitor::end_slips(std::int64_t after_ticks, Ticks now, std::vector<EventRe
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     Axis& axis = axes_[a];
     if (axis.slip_ticks_ago < after_ticks || axis.slip_ticks_ago < 0) continue;
-    EventRecord e = event_here(now, "alarm end", a, static_cast<double>(axis.slip_steps.value), 0.0);
+    EventRecord e = event_here(now, EventKind::alarm_end, a, static_cast<double>(axis.slip_steps.value), 0.0);
     e.code = Code::lost_steps;
     e.text = fmt::format("axis {} lost {} steps in all", machine_.axis[a].letter, axis.slip_steps.value);
     events.push_back(std::move(e));
@@ -294,7 +294,7 @@ void Monitor::end_block(Ticks tick, std::vector<BlockEndRecord>& block_ends) {
   block_ends.push_back(std::move(record));
 }
 
-EventRecord Monitor::event_here(Ticks tick, const char* kind, std::size_t axis, double value,
+EventRecord Monitor::event_here(Ticks tick, EventKind kind, std::size_t axis, double value,
                                 double limit) const {
   EventRecord e;
   e.tick = tick;
@@ -314,7 +314,7 @@ void Monitor::finish(Ticks end, std::vector<EventRecord>& events, std::vector<Bl
     for (int kind = 0; kind < kOverruns; ++kind)
       if (axes_[a].excursion[kind].open) {
         const Excursion excursion = axes_[a].excursion[kind];
-        EventRecord e = event_here(end, "alarm end", a, excursion.worst, excursion.limit);
+        EventRecord e = event_here(end, EventKind::alarm_end, a, excursion.worst, excursion.limit);
         e.code = kOverrunCodes[kind];
         e.text = fmt::format("axis {} was still over its limit at the end, at most {:.6g}, allowed {:.6g}",
                              machine_.axis[a].letter, excursion.worst, excursion.limit);

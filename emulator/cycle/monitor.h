@@ -77,7 +77,7 @@ class Monitor {
   void end_slips(std::int64_t after_ticks, Ticks now, std::vector<EventRecord>& events);
   void end_stop(Ticks now, std::vector<EventRecord>& events);
   void end_block(Ticks tick, std::vector<BlockEndRecord>& block_ends);
-  EventRecord event_here(Ticks tick, const char* kind, std::size_t axis, double value, double limit) const;
+  EventRecord event_here(Ticks tick, EventKind kind, std::size_t axis, double value, double limit) const;
 
   const planner::Path& path_;
   const machine::MachineModel& machine_;

@@ -48,7 +48,7 @@ std::int64_t whole_ticks(double time_ms, double tau_s) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::floor(time_ms / (1000 * tau_s) + 0.5)));
 }
 
-EventRecord panel_event(Ticks tick, const char* kind, double value, std::string text) {
+EventRecord panel_event(Ticks tick, EventKind kind, double value, std::string text) {
   EventRecord e;
   e.tick = tick;
   e.kind = kind;
@@ -136,7 +136,7 @@ const planner::OperatorInput& OperatorPanel::advance(ControlTicks tick, double s
   spindle_percent_ = reactor_.advance(load_);
   if (spindle_percent_ != before)
     events.push_back(panel_event(
-        begin, "spindle_override", spindle_percent_ * 100,
+        begin, EventKind::spindle_override, spindle_percent_ * 100,
         fmt::format("spindle load {:.6g} %: feed at {:.6g} %", load_ * 100, spindle_percent_ * 100)));
   input_.feed_override = operator_percent_ * spindle_percent_;
   return input_;
@@ -144,28 +144,28 @@ const planner::OperatorInput& OperatorPanel::advance(ControlTicks tick, double s
 
 void OperatorPanel::take(const OperatorStep& step, Ticks tick, std::vector<EventRecord>& events) {
   const double percent = step.value * 100;
-  const auto tell = [&](const char* kind, double value, std::string text) {
+  const auto tell = [&](EventKind kind, double value, std::string text) {
     events.push_back(panel_event(tick, kind, value, std::move(text)));
   };
   switch (step.action) {
     case OperatorAction::feed_override:
       operator_percent_ = step.value;
-      return tell("override", percent, fmt::format("feed override {:.6g} %", percent));
+      return tell(EventKind::feed_override, percent, fmt::format("feed override {:.6g} %", percent));
     case OperatorAction::rapid_override:
       input_.rapid_override = step.value;
-      return tell("rapid_override", percent, fmt::format("rapid override {:.6g} %", percent));
+      return tell(EventKind::rapid_override, percent, fmt::format("rapid override {:.6g} %", percent));
     case OperatorAction::hold:
       input_.hold = true;
-      return tell("hold", 1, "feed hold");
+      return tell(EventKind::hold, 1, "feed hold");
     case OperatorAction::resume:
       input_.hold = false;
-      return tell("resume", 0, "feed goes on");
+      return tell(EventKind::resume, 0, "feed goes on");
     case OperatorAction::spindle_load:
       load_ = step.value;
-      return tell("spindle_load", percent, fmt::format("spindle load {:.6g} %", percent));
+      return tell(EventKind::spindle_load, percent, fmt::format("spindle load {:.6g} %", percent));
     case OperatorAction::emergency_stop:
       input_.emergency_stop = true;
-      return tell("emergency_stop", 1, "emergency stop");
+      return tell(EventKind::emergency_stop, 1, "emergency stop");
   }
 }
 

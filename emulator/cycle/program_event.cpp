@@ -12,43 +12,56 @@ namespace {
 using gcode::Block;
 using gcode::BlockKind;
 
-const char* event_kind(BlockKind kind) {
+EventKind event_kind(BlockKind kind) {
   switch (kind) {
     case BlockKind::dwell:
-      return "dwell";
+      return EventKind::dwell;
     case BlockKind::spindle_speed:
     case BlockKind::spindle_clockwise:
     case BlockKind::spindle_counterclockwise:
     case BlockKind::spindle_stop:
     case BlockKind::spindle_mode:
-      return "spindle";
+      return EventKind::spindle;
     case BlockKind::sync_start:
     case BlockKind::sync_stop:
-      return "sync";
+      return EventKind::sync;
     case BlockKind::mist_on:
     case BlockKind::mist_off:
     case BlockKind::flood_on:
     case BlockKind::flood_off:
-      return "coolant";
+      return EventKind::coolant;
     case BlockKind::select_tool:
     case BlockKind::change_tool:
     case BlockKind::set_tool_number:
-      return "tool";
+      return EventKind::tool;
     case BlockKind::digital_output:
     case BlockKind::analog_output:
-      return "output";
+      return EventKind::output;
     case BlockKind::wait_input:
-      return "wait";
+      return EventKind::wait;
     case BlockKind::probe:
-      return "probe";
+      return EventKind::probe;
     case BlockKind::message:
-      return "message";
+      return EventKind::message;
     case BlockKind::feed_override:
     case BlockKind::speed_override:
-      return "lock";
-    default:
-      return "stop";
+      return EventKind::lock;
+    case BlockKind::traverse:
+    case BlockKind::feed:
+    case BlockKind::arc:
+    case BlockKind::spline:
+    case BlockKind::rigid_tap:
+    case BlockKind::set_feed_rate:
+    case BlockKind::set_feed_mode:
+    case BlockKind::set_path_mode:
+    case BlockKind::program_stop:
+    case BlockKind::optional_stop:
+    case BlockKind::program_end:
+    case BlockKind::speed_point:
+    case BlockKind::comment:
+      break;
   }
+  return EventKind::stop;
 }
 
 /// "X -1.5 mm, Z 3 mm": the axes that a probing move named would be lost; all that the machine may have
@@ -70,23 +83,16 @@ std::string wait_text(const Block& b) {
 }
 
 std::string spindle_text(const Block& b) {
-  switch (b.kind) {
-    case BlockKind::spindle_speed:
-      if (b.surface_speed_m_min > 0) return fmt::format("surface speed {:.6g} m/min", b.surface_speed_m_min);
-      return fmt::format("spindle speed {:.6g} rpm", b.value);
-    case BlockKind::spindle_clockwise:
-      return fmt::format("spindle clockwise {:.6g} rpm", b.value);
-    case BlockKind::spindle_counterclockwise:
-      return fmt::format("spindle counter-clockwise {:.6g} rpm", b.value);
-    case BlockKind::spindle_stop:
-      return "spindle stop";
-    case BlockKind::sync_start:
-      return fmt::format("feed follows the spindle's angle, {:.6g} mm per turn", b.value);
-    case BlockKind::sync_stop:
-      return "feed no longer follows the spindle";
-    default:
-      break;
-  }
+  if (b.kind == BlockKind::spindle_speed && b.surface_speed_m_min > 0)
+    return fmt::format("surface speed {:.6g} m/min", b.surface_speed_m_min);
+  if (b.kind == BlockKind::spindle_speed) return fmt::format("spindle speed {:.6g} rpm", b.value);
+  if (b.kind == BlockKind::spindle_clockwise) return fmt::format("spindle clockwise {:.6g} rpm", b.value);
+  if (b.kind == BlockKind::spindle_counterclockwise)
+    return fmt::format("spindle counter-clockwise {:.6g} rpm", b.value);
+  if (b.kind == BlockKind::spindle_stop) return "spindle stop";
+  if (b.kind == BlockKind::sync_start)
+    return fmt::format("feed follows the spindle's angle, {:.6g} mm per turn", b.value);
+  if (b.kind == BlockKind::sync_stop) return "feed no longer follows the spindle";
   if (!(b.surface_speed_m_min > 0)) return "spindle at constant speed";
   const std::string text = fmt::format("constant surface speed {:.6g} m/min", b.surface_speed_m_min);
   return b.maximum_rpm > 0 ? text + fmt::format(", at most {:.6g} rpm", b.maximum_rpm) : text;
@@ -136,9 +142,20 @@ std::string event_text(const Block& b) {
       return "optional stop";
     case BlockKind::program_end:
       return "program end";
-    default:
-      return b.text.substr(std::min(b.text.find_first_not_of(' '), b.text.size()));
+    case BlockKind::traverse:
+    case BlockKind::feed:
+    case BlockKind::arc:
+    case BlockKind::spline:
+    case BlockKind::rigid_tap:
+    case BlockKind::set_feed_rate:
+    case BlockKind::set_feed_mode:
+    case BlockKind::set_path_mode:
+    case BlockKind::message:
+    case BlockKind::speed_point:
+    case BlockKind::comment:
+      break;
   }
+  return b.text.substr(std::min(b.text.find_first_not_of(' '), b.text.size()));
 }
 
 double event_value(const Block& b) {
@@ -158,9 +175,34 @@ double event_value(const Block& b) {
       return b.on ? 1 : 0;
     case BlockKind::probe:
       return b.probe.tripped ? 1 : 0;
-    default:
-      return b.number;
+    case BlockKind::traverse:
+    case BlockKind::feed:
+    case BlockKind::arc:
+    case BlockKind::spline:
+    case BlockKind::rigid_tap:
+    case BlockKind::set_feed_rate:
+    case BlockKind::set_feed_mode:
+    case BlockKind::set_path_mode:
+    case BlockKind::spindle_stop:
+    case BlockKind::mist_on:
+    case BlockKind::mist_off:
+    case BlockKind::flood_on:
+    case BlockKind::flood_off:
+    case BlockKind::sync_stop:
+    case BlockKind::select_tool:
+    case BlockKind::change_tool:
+    case BlockKind::set_tool_number:
+    case BlockKind::message:
+    case BlockKind::program_stop:
+    case BlockKind::optional_stop:
+    case BlockKind::program_end:
+    case BlockKind::feed_override:
+    case BlockKind::speed_override:
+    case BlockKind::speed_point:
+    case BlockKind::comment:
+      break;
   }
+  return b.number;
 }
 
 }  // namespace
@@ -189,9 +231,29 @@ bool needs_rest(const Block& block) {
     case BlockKind::digital_output:
     case BlockKind::analog_output:
       return !block.with_motion;
-    default:
-      return false;
+    case BlockKind::traverse:
+    case BlockKind::feed:
+    case BlockKind::arc:
+    case BlockKind::spline:
+    case BlockKind::probe:
+    case BlockKind::rigid_tap:
+    case BlockKind::set_feed_rate:
+    case BlockKind::set_feed_mode:
+    case BlockKind::set_path_mode:
+    case BlockKind::spindle_speed:
+    case BlockKind::sync_start:
+    case BlockKind::sync_stop:
+    case BlockKind::spindle_mode:
+    case BlockKind::select_tool:
+    case BlockKind::set_tool_number:
+    case BlockKind::message:
+    case BlockKind::feed_override:
+    case BlockKind::speed_override:
+    case BlockKind::speed_point:
+    case BlockKind::comment:
+      break;
   }
+  return false;
 }
 
 bool is_event(const Block& block) {
@@ -208,9 +270,33 @@ bool is_event(const Block& block) {
     case BlockKind::feed_override:
     case BlockKind::speed_override:
       return true;
-    default:
-      return needs_rest(block);
+    case BlockKind::traverse:
+    case BlockKind::feed:
+    case BlockKind::arc:
+    case BlockKind::spline:
+    case BlockKind::probe:
+    case BlockKind::rigid_tap:
+    case BlockKind::dwell:
+    case BlockKind::set_feed_rate:
+    case BlockKind::set_feed_mode:
+    case BlockKind::set_path_mode:
+    case BlockKind::spindle_clockwise:
+    case BlockKind::spindle_counterclockwise:
+    case BlockKind::spindle_stop:
+    case BlockKind::mist_on:
+    case BlockKind::mist_off:
+    case BlockKind::flood_on:
+    case BlockKind::flood_off:
+    case BlockKind::change_tool:
+    case BlockKind::wait_input:
+    case BlockKind::program_stop:
+    case BlockKind::optional_stop:
+    case BlockKind::program_end:
+    case BlockKind::speed_point:
+    case BlockKind::comment:
+      break;
   }
+  return needs_rest(block);
 }
 
 EventRecord event_record(const Block& block) {

@@ -62,30 +62,30 @@ class Cycle {
   }
 
   tl::expected<RunSummary, RunFailure> run() {
-    std::string outcome = "complete";
+    Outcome outcome = Outcome::complete;
     std::int64_t k = 0;
     for (; !done(); ++k) {
       if (options_.interrupt && options_.interrupt->load(std::memory_order_relaxed)) {
-        outcome = "interrupted";
+        outcome = Outcome::interrupted;
         break;
       }
       if (static_cast<double>(k) * machine_.clock.tau_s() >= options_.until_s) {
-        outcome = "stopped by --until";
+        outcome = Outcome::stopped_by_until;
         break;
       }
       if (auto failure = advance(k)) {
         if (failure->world) return tl::unexpected(*failure);
-        outcome = "plant error";
+        outcome = Outcome::plant_error;
         ++k;
         break;
       }
       if (machine_.on_alarm == machine::OnAlarm::stop && monitor_.alarms() > 0) {
-        outcome = "alarm";
+        outcome = Outcome::alarm;
         ++k;
         break;
       }
-      if (const char* end = ended_by_operator()) {
-        outcome = end;
+      if (const auto end = ended_by_operator()) {
+        outcome = *end;
         ++k;
         break;
       }
@@ -144,26 +144,26 @@ class Cycle {
   }
 
   /// Why a run under a timeline ends before the program does, or nothing.
-  const char* ended_by_operator() {
-    if (!has_operator()) return nullptr;
+  std::optional<Outcome> ended_by_operator() {
+    if (!has_operator()) return std::nullopt;
     if (source_->stopped()) {
       add_alarm(Code::emergency_stopped, motion_.s_end_u, job_.path.length_u(),
                 fmt::format("stands at {:.6g} of {:.6g}", motion_.s_end_u, job_.path.length_u()));
-      return "emergency stop";
+      return Outcome::emergency_stop;
     }
     const bool held = motion_.limited_by == planner::LimitedBy::hold && motion_.speed_end_u_s == 0 &&
                       motion_.s_end_u == motion_.s_begin_u;
-    if (!held || !panel_.at_its_end()) return nullptr;
+    if (!held || !panel_.at_its_end()) return std::nullopt;
     add_alarm(Code::held_to_the_end, motion_.s_end_u, job_.path.length_u(),
               fmt::format("held at {:.6g} of {:.6g}, and no step lets it go", motion_.s_end_u,
                           job_.path.length_u()));
-    return "held";
+    return Outcome::held;
   }
 
   void add_alarm(Code code, double value, double limit, std::string text) {
     EventRecord e;
     e.tick = now_;
-    e.kind = "alarm";
+    e.kind = EventKind::alarm;
     e.code = code;
     e.value = value;
     e.limit = limit;
@@ -192,15 +192,15 @@ class Cycle {
     const bool rests = motion_.s_end_u == motion_.s_begin_u;
     if (rests && motion_.limited_by == LimitedBy::stop) return;  // a pause of the program
     if (input.hold || motion_.limited_by == LimitedBy::hold)
-      reason_ = "hold";
+      reason_ = LostReason::hold;
     else if (motion_.note == OverrideNote::deferred)
-      reason_ = "deferral";
+      reason_ = LostReason::deferral;
     else if (motion_.limiter < 1)
-      reason_ = "limiter";
+      reason_ = LostReason::limiter;
     else if (panel_.spindle_percent() < 1)
-      reason_ = "spindle load";
+      reason_ = LostReason::spindle_load;
     else if (motion_.override_used != 1 || input.rapid_override != 1)
-      reason_ = "override";
+      reason_ = LostReason::feed_override;
     lost_.add(motion_, reason_);
   }
 
@@ -215,7 +215,7 @@ class Cycle {
       EventRecord e;
       e.tick = Ticks{step.tick.value * machine_.clock.control_tick.value};
       e.block = job_.path.size() == 0 ? 0 : job_.path.segments[segment()].block;
-      e.kind = "input";
+      e.kind = EventKind::input;
       e.value = step.value;
       e.text =
           fmt::format("{} input {} = {:.6g}", step.analog ? "analog" : "digital", step.number, step.value);
@@ -261,7 +261,7 @@ class Cycle {
   std::optional<RunFailure> plant_failure(const plant::PlantError& error) {
     EventRecord e;
     e.tick = now_;
-    e.kind = "alarm";
+    e.kind = EventKind::alarm;
     e.code = Code::plant_numerics;
     e.axis = error.axis;
     e.text = fmt::format("{}: {}", error.flag, error.detail);
@@ -351,7 +351,7 @@ class Cycle {
                       static_cast<double>(now_.value) / static_cast<double>(machine_.clock.base_hz));
   }
 
-  tl::expected<RunSummary, RunFailure> finish(const std::string& outcome, std::int64_t control_ticks) {
+  tl::expected<RunSummary, RunFailure> finish(Outcome outcome, std::int64_t control_ticks) {
     now_ = Ticks{control_ticks * machine_.clock.control_tick.value};
     monitor_.finish(now_, events_, block_ends_);
     if (auto failure = log_small_records()) return tl::unexpected(*failure);
@@ -410,7 +410,7 @@ class Cycle {
   std::size_t plant_alarms_ = 0, operator_alarms_ = 0;
   ControlTicks deferred_ticks_;
   bool overload_told_ = false;
-  std::string_view reason_ = "override";
+  LostReason reason_ = LostReason::feed_override;
 };
 
 }  // namespace

@@ -13,36 +13,39 @@ namespace kadr::emulator {
 namespace {
 
 using lattice::Method;
-using machine::StepMethod;
 
 constexpr double kOnNode = 1e-6;  // steps: a centre that is a node but for rounding
 constexpr double kOneTurn_rad = 2 * kPi * (1 + 1e-9);
 
-/// What follows a line and an arc where a method is asked for that does not know them, or does.
+/// For each `interpolator.method`: the stepper used on lines and the one used on arcs. A method without one
+/// of its own falls back to a similar one.
 struct Followers {
-  StepMethod asked;
+  Method asked;
   Method line, arc;
 };
-constexpr std::array<Followers, 12> kFollowers = {{
-    {StepMethod::classic, Method::classic, Method::classic},
-    {StepMethod::half_step, Method::half_step, Method::half_step},
-    {StepMethod::diagonal, Method::diagonal, Method::octant_midpoint},
-    {StepMethod::extra_points, Method::extra_points, Method::extra_points},
-    {StepMethod::octant_midpoint, Method::diagonal, Method::octant_midpoint},
-    {StepMethod::dda, Method::dda, Method::dda_sequential},
-    {StepMethod::dda_preloaded, Method::dda_preloaded, Method::dda_sequential},
-    {StepMethod::dda_sequential, Method::dda_preloaded, Method::dda_sequential},
-    {StepMethod::dda_simultaneous, Method::dda_preloaded, Method::dda_simultaneous},
-    {StepMethod::progression, Method::progression, Method::progression},
-    {StepMethod::chords, Method::diagonal, Method::chords},
-    {StepMethod::ptp, Method::ptp, Method::ptp},
+constexpr std::array<Followers, machine::kMachineMethods.size()> kFollowers = {{
+    {Method::crossing, Method::crossing, Method::crossing},
+    {Method::classic, Method::classic, Method::classic},
+    {Method::half_step, Method::half_step, Method::half_step},
+    {Method::diagonal, Method::diagonal, Method::octant_midpoint},
+    {Method::extra_points, Method::extra_points, Method::extra_points},
+    {Method::octant_midpoint, Method::diagonal, Method::octant_midpoint},
+    {Method::dda, Method::dda, Method::dda_sequential},
+    {Method::dda_preloaded, Method::dda_preloaded, Method::dda_sequential},
+    {Method::dda_sequential, Method::dda_preloaded, Method::dda_sequential},
+    {Method::dda_simultaneous, Method::dda_preloaded, Method::dda_simultaneous},
+    {Method::progression, Method::progression, Method::progression},
+    {Method::chords, Method::diagonal, Method::chords},
+    {Method::ptp, Method::ptp, Method::ptp},
 }};
+static_assert(std::equal(kFollowers.begin(), kFollowers.end(), machine::kMachineMethods.begin(),
+                         [](const Followers& f, const auto& word) { return f.asked == word.value; }),
+              "every method of a machine has its followers, in order");
 
-const Followers& followers_of(StepMethod asked) {
-  const auto it = std::find_if(kFollowers.begin(), kFollowers.end(),
-                               [&](const Followers& f) { return f.asked == asked; });
-  require(it != kFollowers.end(), "every method but crossings has its followers");
-  return *it;
+const Followers& followers_of(Method asked) {
+  const auto i = static_cast<std::size_t>(asked);
+  require(i < kFollowers.size(), "a machine runs none of the laboratory's methods");
+  return kFollowers[i];
 }
 
 /// A coordinate that is a node but for rounding.
@@ -58,7 +61,7 @@ bool SlotTrack::start(const planner::Path& path, std::size_t segment, const mach
                       const std::vector<std::int64_t>& node_begin,
                       const std::vector<std::int64_t>& node_end) {
   has_next_ = false;
-  if (machine.interpolator == StepMethod::crossing) return false;
+  if (machine.interpolator == Method::crossing) return false;
   const std::size_t axes = node_begin.size();
   const planner::PathSegment& piece = path.segments[segment];
   lane_.assign(axes, -1);

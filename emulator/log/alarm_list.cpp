@@ -3,7 +3,7 @@
 namespace kadr::emulator {
 
 ForwardingLog::Written AlarmList::event(const EventRecord& record) {
-  if (record.kind == "alarm") {
+  if (record.kind == EventKind::alarm) {
     ++counts_[record.code];
     if (alarms_.size() < kKept) alarms_.push_back(record);
   }

@@ -169,7 +169,7 @@ class LcmLog final : public RunLog {
     const summary_t last = summary_message(summary, machine_.clock, sink_.content_hash());
     if (auto done = write(kSummaryChannel, summary.ticks, last); !done) return done;
     if (auto done = sink_.flush(summary.ticks); !done) return done;
-    return sink_.close(summary.outcome != "interrupted");
+    return sink_.close(summary.outcome != Outcome::interrupted);
   }
 
  private:

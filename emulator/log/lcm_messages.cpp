@@ -137,7 +137,7 @@ event_t event_message(const EventRecord& r, const machine::ClockModel& clock) {
   m.block = static_cast<std::int32_t>(r.block);
   m.source_line = static_cast<std::int32_t>(r.span.line);
   m.source_column = static_cast<std::int32_t>(r.span.column);
-  m.kind = lcm_text(r.kind);
+  m.kind = lcm_text(r.kind.text());
   if (r.code != Code{}) m.code = code_name(r.code);
   m.axis = r.axis;
   m.value = r.value;
@@ -166,7 +166,7 @@ summary_t summary_message(const RunSummary& s, const machine::ClockModel& clock,
   summary_t m{};
   m.tick = s.ticks.value;
   m.t_s = seconds(s.ticks, clock);
-  m.outcome = lcm_text(s.outcome);
+  m.outcome = lcm_text(s.outcome.text());
   m.control_ticks = s.control_ticks.value;
   m.blocks = static_cast<std::int32_t>(s.blocks);
   m.path_u = s.path_u;

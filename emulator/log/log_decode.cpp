@@ -195,7 +195,7 @@ Decoded<EventRecord> decode_event(WireReader in) {
   r.block = u32(in.i32());
   r.span.line = u32(in.i32());
   r.span.column = u32(in.i32());
-  r.kind = in.string();
+  r.kind = StoredWord<kEventKinds>::read(in.string());
   const std::string code = in.string();
   if (!code.empty()) r.code = parse_code(code).value_or(Code{});
   r.axis = in.i32();
@@ -265,7 +265,7 @@ Decoded<LogSummary> decode_summary(WireReader in) {
   RunSummary& r = s.run;
   r.ticks = Ticks{in.i64()};
   in.f64();  // t_s
-  r.outcome = in.string();
+  r.outcome = StoredWord<kOutcomes>::read(in.string());
   r.control_ticks = ControlTicks{in.i64()};
   r.blocks = u32(in.i32());
   for (double* field : {&r.path_u, &r.mean_feed_u_s, &r.peak_feed_u_s, &r.motion_s, &r.dwell_s})
@@ -376,9 +376,11 @@ tl::expected<LogMessage, std::string> decode_message(const LogEventView& event, 
       return as_message(decode_diag(in));
     case MessageKind::summary:
       return as_message(decode_summary(in));
-    default:
-      return invalid("a second header");
+    case MessageKind::run:
+    case MessageKind::unknown:
+      break;
   }
+  return invalid("a second header");
 }
 
 }  // namespace kadr::emulator

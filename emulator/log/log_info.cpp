@@ -53,7 +53,7 @@ class Collector {
   }
   void operator()(const EventRecord& e) {
     ++info_.events;
-    if (e.kind == "alarm") ++info_.alarms;
+    if (e.kind == EventKind::alarm) ++info_.alarms;
   }
   void operator()(const BlockRecord&) { ++info_.blocks; }
   void operator()(const LogDiagnostic&) { ++info_.diagnostics; }
@@ -140,7 +140,8 @@ std::string render_log_info(const LogInfo& info) {
   line("span", fmt::format("ticks {} to {}, {:.6f} s, {} control ticks", grouped(info.first_tick),
                            grouped(info.last_tick), info.span_s, grouped(info.control_ticks)));
   if (info.summary)
-    line("outcome", fmt::format("{}, exit {}", info.summary->run.outcome, info.summary->run.exit_code));
+    line("outcome",
+         fmt::format("{}, exit {}", info.summary->run.outcome.text(), info.summary->run.exit_code));
   line("records", fmt::format("{} blocks, {} events, {} alarms, {} diagnostics", grouped(info.blocks),
                               grouped(info.events), grouped(info.alarms), grouped(info.diagnostics)));
   for (std::size_t a = 0; a < h.axis.size() && h.logs_steps; ++a)

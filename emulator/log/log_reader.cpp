@@ -52,7 +52,7 @@ struct LogReader::Impl {
     if (const auto* b = std::get_if<BlockRecord>(&message)) seen_until = std::max(seen_until, b->tick);
     if (const auto* s = std::get_if<LogSummary>(&message)) {
       seen_until = s->run.ticks;
-      summary = s->run.outcome == "interrupted" ? LogState::interrupted : LogState::complete;
+      summary = s->run.outcome == Outcome::interrupted ? LogState::interrupted : LogState::complete;
     }
   }
 

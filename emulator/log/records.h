@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/log/run_words.h"
 #include "machine/axis_state.h"
 #include "machine/base/diagnostic.h"
 #include "machine/step_batch.h"
@@ -67,13 +68,12 @@ struct TickRecord {
   bool has_override = false;  ///< the run has steps of operator or spindle: what they ask for is kept
 };
 
-/// Something that happened at a tick: "spindle", "coolant", "tool", "dwell", "message", "stop", "alarm",
-/// "residual", ...
+/// Something that happened at a tick.
 struct EventRecord {
   Ticks tick;
   std::uint32_t block = 0;
   Span span;
-  std::string kind;
+  StoredWord<kEventKinds> kind = EventKind::message;
   Code code{};       ///< of an alarm, else 0
   int axis = -1;     ///< machine axis, or -1
   double value = 0;  ///< measured
@@ -109,9 +109,8 @@ struct LimitShare {
 
 /// Last message; a log without it was cut off.
 struct RunSummary {
-  std::string outcome = "complete";  ///< "complete", "alarm", "emergency stop", "held", "stopped by --until",
-                                     ///< "interrupted", "plant error"
-  Ticks ticks;                       ///< length of the run
+  StoredWord<kOutcomes> outcome = Outcome::complete;
+  Ticks ticks;  ///< length of the run
   ControlTicks control_ticks;
   std::uint32_t blocks = 0;
   double path_u = 0;

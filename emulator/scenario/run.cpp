@@ -66,8 +66,8 @@ void compare_axis(std::vector<ScenarioCheck>& checks, const AxisExpectation& exp
 void compare_run(ScenarioResult& result, const Expectations& expect, const machine::MachineModel& machine) {
   const RunSummary& summary = *result.summary;
   // an alarm is told below, with its code
-  if (summary.outcome != "complete" && summary.outcome != "alarm")
-    result.checks.push_back({"outcome", "complete", summary.outcome, false});
+  if (summary.outcome != Outcome::complete && summary.outcome != Outcome::alarm)
+    result.checks.push_back({"outcome", "complete", summary.outcome.text(), false});
   if (expect.time_s)
     result.checks.push_back({"time", fmt::format("{:.7f} s within {:.7f} s", *expect.time_s, expect.within_s),
                              fmt::format("{:.7f} s", result.machine_s),

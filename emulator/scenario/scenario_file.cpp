@@ -44,8 +44,7 @@ class ScenarioReader {
     read_program(table);
     read_machine_name(table);
     read_tools(table);
-    const auto dialect = table.choice("dialect", {"linuxcnc", "grbl", "marlin", "fanuc"}, 0);
-    scenario_.dialect = static_cast<gcode::Dialect>(dialect.value);
+    scenario_.dialect = table.choice("dialect", gcode::kDialects, gcode::Dialect::linuxcnc).value;
     if (const Node* settings = table.table("settings")) flatten_settings(*settings, "");
     // the stock of a scenario goes before that of the machine file
     if (const Node* stock = table.table("stock")) flatten_settings(*stock, "stock");
@@ -103,8 +102,10 @@ class ScenarioReader {
 
   void read_winding(const Node& node) {
     TableReader table(&node, "wind", node.span, context_);
-    const auto kind = table.choice("kind", {"hoop", "helix", "dome"});
-    const std::string_view kind_name = scenarios::wind_kinds()[kind.value].name;
+    std::vector<std::string_view> kinds;
+    for (const auto& k : scenarios::wind_kinds()) kinds.push_back(k.name);
+    const auto kind = table.word("kind", kinds);
+    const std::string_view kind_name = kinds[kind.value];
     scenarios::WindSettings settings;
     for (const scenarios::WindParameter& p : scenarios::wind_parameters(kind_name)) {
       const auto value = table.number(p.key, {p.least, p.most, false, p.whole}, p.preset);

@@ -48,9 +48,38 @@ bool is_move(const Block& block) {
     case BlockKind::probe:
     case BlockKind::rigid_tap:
       return true;
-    default:
-      return false;
+    case BlockKind::dwell:
+    case BlockKind::set_feed_rate:
+    case BlockKind::set_feed_mode:
+    case BlockKind::set_path_mode:
+    case BlockKind::spindle_speed:
+    case BlockKind::spindle_clockwise:
+    case BlockKind::spindle_counterclockwise:
+    case BlockKind::spindle_stop:
+    case BlockKind::mist_on:
+    case BlockKind::mist_off:
+    case BlockKind::flood_on:
+    case BlockKind::flood_off:
+    case BlockKind::sync_start:
+    case BlockKind::sync_stop:
+    case BlockKind::spindle_mode:
+    case BlockKind::select_tool:
+    case BlockKind::change_tool:
+    case BlockKind::set_tool_number:
+    case BlockKind::digital_output:
+    case BlockKind::analog_output:
+    case BlockKind::wait_input:
+    case BlockKind::message:
+    case BlockKind::program_stop:
+    case BlockKind::optional_stop:
+    case BlockKind::program_end:
+    case BlockKind::feed_override:
+    case BlockKind::speed_override:
+    case BlockKind::speed_point:
+    case BlockKind::comment:
+      break;
   }
+  return false;
 }
 
 void Compensation::begin(const CompensationTool& tool, const AxisValues& at) {

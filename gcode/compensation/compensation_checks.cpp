@@ -37,9 +37,14 @@ std::string_view conflict_of_motion(Motion motion) {
       return "follows the spindle";
     case Motion::cycle:
       return "is a cycle";
-    default:
-      return {};
+    case Motion::none:
+    case Motion::traverse:
+    case Motion::feed:
+    case Motion::arc_clockwise:
+    case Motion::arc_counterclockwise:
+      break;
   }
+  return {};
 }
 
 }  // namespace

@@ -5,8 +5,6 @@
 namespace kadr::gcode {
 namespace {
 
-constexpr std::array<std::string_view, 4> kNames = {"linuxcnc", "grbl", "marlin", "fanuc"};
-
 constexpr double kMillisecond_s = 1e-3;
 constexpr std::array<DwellWord, 1> kSeconds = {{{'P', 1}}};
 constexpr std::array<DwellWord, 2> kMarlin = {{{'S', 1}, {'P', kMillisecond_s}}};
@@ -15,24 +13,17 @@ constexpr std::int64_t kProgramNumbers = 10'000;  // four digits
 
 }  // namespace
 
-std::string_view dialect_name(Dialect dialect) { return kNames[static_cast<std::size_t>(dialect)]; }
-
-std::optional<Dialect> dialect_of(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (kNames[i] == name) return static_cast<Dialect>(i);
-  }
-  return std::nullopt;
-}
-
 std::span<const DwellWord> dwell_words(Dialect dialect) {
   switch (dialect) {
     case Dialect::marlin:
       return kMarlin;
     case Dialect::fanuc:
       return kFanuc;
-    default:
-      return kSeconds;
+    case Dialect::linuxcnc:
+    case Dialect::grbl:
+      break;
   }
+  return kSeconds;
 }
 
 int meant_g_code(Dialect dialect, int tenths) {

@@ -1,18 +1,21 @@
 #pragma once
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string_view>
+
+#include "machine/base/vocabulary.h"
 
 namespace kadr::gcode {
 
 /// Which controller's reading of codes that differ.
 enum class Dialect : std::uint8_t { linuxcnc, grbl, marlin, fanuc };
 
-/// "linuxcnc"
-std::string_view dialect_name(Dialect dialect);
-/// The dialect of a name, nothing if there is none.
-std::optional<Dialect> dialect_of(std::string_view name);
+inline constexpr Vocabulary<Dialect, 4> kDialects{{
+    {Dialect::linuxcnc, "linuxcnc", "LinuxCNC 2.9; the codes of docs/gcode.md"},
+    {Dialect::grbl, "grbl", "Grbl 1.1; reads all of its codes as LinuxCNC does"},
+    {Dialect::marlin, "marlin", "Marlin: P of G4 in milliseconds, G5 as a cubic spline"},
+    {Dialect::fanuc, "fanuc", "FANUC: P of G4 in milliseconds, G70 and G71 as G20 and G21, M98 with repeats"},
+}};
+static_assert(kDialects.complete());
 
 // what differs, and nothing else; Marlin's G5 stands with the other splines
 

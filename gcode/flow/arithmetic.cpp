@@ -141,9 +141,22 @@ Arithmetic apply(Operation operation, double a, double b) {
       return truth(a != 0 || b != 0);
     case Operation::logical_xor:
       return truth((a != 0) != (b != 0));
-    default:
-      return {0, "not a binary operation", false};
+    case Operation::none:
+    case Operation::sin:
+    case Operation::cos:
+    case Operation::tan:
+    case Operation::asin:
+    case Operation::acos:
+    case Operation::sqrt:
+    case Operation::exp:
+    case Operation::ln:
+    case Operation::abs:
+    case Operation::round:
+    case Operation::fix:
+    case Operation::fup:
+      break;
   }
+  return {0, "not a binary operation", false};
 }
 
 Arithmetic apply(Operation operation, double a) {
@@ -177,9 +190,25 @@ Arithmetic apply(Operation operation, double a) {
       return {std::floor(a), {}, false};
     case Operation::fup:
       return {-std::floor(-a), {}, false};
-    default:
-      return {0, "not a function", false};
+    case Operation::none:
+    case Operation::add:
+    case Operation::subtract:
+    case Operation::multiply:
+    case Operation::divide:
+    case Operation::modulo:
+    case Operation::power:
+    case Operation::equal:
+    case Operation::not_equal:
+    case Operation::greater:
+    case Operation::greater_equal:
+    case Operation::less:
+    case Operation::less_equal:
+    case Operation::logical_and:
+    case Operation::logical_or:
+    case Operation::logical_xor:
+      break;
   }
+  return {0, "not a function", false};
 }
 
 }  // namespace kadr::gcode

@@ -138,8 +138,10 @@ void Flow::statement(const Line& line) {
       return break_loop(index);
     case FlowWord::continue_loop:
       return continue_loop(index);
-    default:
-      return;
+    case FlowWord::label:
+    case FlowWord::call:
+    case FlowWord::end_if:
+      break;
   }
 }
 

@@ -67,9 +67,22 @@ FlowWord beginning_of(FlowWord word) {
       return FlowWord::while_true;
     case FlowWord::end_repeat:
       return FlowWord::repeat;
-    default:
-      return FlowWord::if_true;
+    case FlowWord::label:
+    case FlowWord::sub:
+    case FlowWord::call:
+    case FlowWord::return_from:
+    case FlowWord::if_true:
+    case FlowWord::else_if:
+    case FlowWord::otherwise:
+    case FlowWord::end_if:
+    case FlowWord::while_true:
+    case FlowWord::do_once:
+    case FlowWord::repeat:
+    case FlowWord::break_loop:
+    case FlowWord::continue_loop:
+      break;
   }
+  return FlowWord::if_true;
 }
 
 /// The controller passes over what stands beside an O word, messages too.

@@ -74,7 +74,11 @@ std::int32_t rank_of(const Item& item) {
       return kCommentRank;
     case ItemKind::word:
       break;
-    default:
+    case ItemKind::o_word:
+    case ItemKind::percent:
+    case ItemKind::block_delete:
+    case ItemKind::byte_order_mark:
+    case ItemKind::unread:
       return item.kind == ItemKind::o_word ? kGRank : kHeadRank;
   }
   if (item.letter == 'N') return kNumberRank;
@@ -208,7 +212,12 @@ void Formatter::append_item(std::string& out, const Line& line, std::uint32_t at
     case ItemKind::o_word:
       append_o_word(out, line, at);
       break;
-    default:
+    case ItemKind::comment:
+    case ItemKind::line_comment:
+    case ItemKind::percent:
+    case ItemKind::block_delete:
+    case ItemKind::byte_order_mark:
+    case ItemKind::unread:
       out += line.slice(item.bytes);
       break;
   }
@@ -314,7 +323,11 @@ std::size_t Formatter::indentation(const Line& line) {
     case FlowWord::end_repeat:
       close(FlowWord::repeat);
       break;
-    default:
+    case FlowWord::label:
+    case FlowWord::call:
+    case FlowWord::return_from:
+    case FlowWord::break_loop:
+    case FlowWord::continue_loop:
       break;
   }
   return kIndent * open_.size();

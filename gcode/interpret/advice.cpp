@@ -65,7 +65,34 @@ void Advice::look(const Block& block) {
                                 "end the program with M2 or M30, or stop the spindle with M5"));
       }
       break;
-    default:
+    case BlockKind::traverse:
+    case BlockKind::feed:
+    case BlockKind::arc:
+    case BlockKind::spline:
+    case BlockKind::rigid_tap:
+    case BlockKind::set_feed_rate:
+    case BlockKind::set_feed_mode:
+    case BlockKind::set_path_mode:
+    case BlockKind::spindle_speed:
+    case BlockKind::mist_on:
+    case BlockKind::mist_off:
+    case BlockKind::flood_on:
+    case BlockKind::flood_off:
+    case BlockKind::sync_start:
+    case BlockKind::sync_stop:
+    case BlockKind::spindle_mode:
+    case BlockKind::select_tool:
+    case BlockKind::set_tool_number:
+    case BlockKind::digital_output:
+    case BlockKind::analog_output:
+    case BlockKind::wait_input:
+    case BlockKind::message:
+    case BlockKind::program_stop:
+    case BlockKind::optional_stop:
+    case BlockKind::feed_override:
+    case BlockKind::speed_override:
+    case BlockKind::speed_point:
+    case BlockKind::comment:
       move_block(block);
       break;
   }

@@ -165,7 +165,8 @@ bool Interpreter::refuse_arc(const Arc& arc, PlanePoint end) {
           fmt::format("radius at start {:.4f} mm, at end {:.4f} mm", arc.radius_start_mm, arc.radius_end_mm));
       d.notes.push_back(fmt::format("allowed above {} mm", figure(kRadiusTolerance_mm, 5)));
       break;
-    default: {
+    case ArcFault::none:
+    case ArcFault::off_circle: {
       const double apart = std::fabs(arc.radius_start_mm - arc.radius_end_mm);
       d.label = fmt::format("radius at start {:.3f} mm, at end {:.3f} mm, differ by {:.3f} mm",
                             arc.radius_start_mm, arc.radius_end_mm, apart);

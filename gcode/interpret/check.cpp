@@ -60,9 +60,13 @@ std::uint32_t letters_of_motion(Motion motion, int code) {
       return letter_bits("PIJRKQHEL$");
     case Motion::cycle:
       return letters_of_cycle(code);
-    default:
-      return 0;
+    case Motion::none:
+    case Motion::traverse:
+    case Motion::feed:
+    case Motion::probe:
+      break;
   }
+  return 0;
 }
 
 }  // namespace
@@ -155,8 +159,16 @@ void Interpreter::check_motion_words() {
       return check_thread(331);
     case Motion::thread_cycle:
       return check_thread_cycle();
-    default:
-      return;
+    case Motion::none:
+    case Motion::traverse:
+    case Motion::feed:
+    case Motion::arc_clockwise:
+    case Motion::arc_counterclockwise:
+    case Motion::cubic_spline:
+    case Motion::quadratic_spline:
+    case Motion::nurbs:
+    case Motion::probe:
+      break;
   }
 }
 

@@ -84,7 +84,11 @@ bool Words::read(const Line& line, const State& state, Report* report) {
       case ItemKind::percent:
         percent = true;
         break;
-      default:
+      case ItemKind::o_word:
+      case ItemKind::line_comment:
+      case ItemKind::block_delete:
+      case ItemKind::byte_order_mark:
+      case ItemKind::unread:
         break;
     }
   }

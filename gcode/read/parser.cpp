@@ -279,9 +279,11 @@ Diagnostic number_problem(const Line& line, NumberResult result, Bytes bytes, ch
                      fmt::format("the decimal mark is a point: write {}{}",
                                  letter ? std::string(1, letter) : "", written));
     }
-    default:
-      return problem(Code::bad_number, line.span(bytes), "no digit stands here");
+    case NumberResult::good:
+    case NumberResult::no_digits:
+      break;
   }
+  return problem(Code::bad_number, line.span(bytes), "no digit stands here");
 }
 
 }  // namespace kadr::gcode

@@ -40,7 +40,12 @@ std::vector<Bytes> lexemes_of(const Line& line) {
         lexemes.push_back({item.equals, item.equals + 1});
         collect(line, item, end_node, lexemes);
         break;
-      default:
+      case ItemKind::comment:
+      case ItemKind::line_comment:
+      case ItemKind::percent:
+      case ItemKind::block_delete:
+      case ItemKind::byte_order_mark:
+      case ItemKind::unread:
         lexemes.push_back(item.bytes);
         break;
     }

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "machine/base/parse_number.h"
+#include "machine/file/machine_keys.h"
 #include "machine/file/machine_reader.h"
 
 namespace kadr::machine {
@@ -17,15 +18,8 @@ struct AxisKeys {
   }
 };
 
-/// Units of the plant: force, mass, stiffness and damping of a linear or a rotary axis.
-struct PlantUnits {
-  std::string_view mass, stiffness, damping, force;
-};
-constexpr PlantUnits kLinear{"kg", "N_per_m", "Ns_per_m", "N"};
-constexpr PlantUnits kRotary{"kg_m2", "Nm_per_rad", "Nms_per_rad", "Nm"};
-
 char read_letter(TableReader& r, ReadContext& context) {
-  const auto name = r.text("name");
+  const auto name = r.text(kAxisName.name);
   if (!name.valid) return 0;
   if (name.value.size() == 1 && axis_index(name.value[0]) >= 0) return name.value[0];
   Diagnostic d = file_diagnostic(Code::machine_axis_letter, name.span, "no word of a program is called so");
@@ -38,8 +32,10 @@ char read_letter(TableReader& r, ReadContext& context) {
 
 AxisKind read_kind(TableReader& r, char letter, ReadContext& context) {
   const bool rotary_letter = is_rotary_letter(letter);
-  const auto kind = r.choice("kind", {"linear", "rotary"}, rotary_letter ? 1 : 0);
-  const auto chosen = static_cast<AxisKind>(kind.value);
+  AxisModel axis;
+  axis.kind = rotary_letter ? AxisKind::rotary : AxisKind::linear;
+  const auto kind = read_key(r, axis, kAxisKindKey);
+  const AxisKind chosen = kind.value;
   const bool free_letter = letter == 0 || letter == 'U' || letter == 'V' || letter == 'W';
   if (!kind.valid || free_letter || (chosen == AxisKind::rotary) == rotary_letter) return chosen;
   Diagnostic d = file_diagnostic(Code::machine_axis_kind, kind.span,
@@ -53,7 +49,7 @@ AxisKind read_kind(TableReader& r, char letter, ReadContext& context) {
 /// Step length, given as such or as steps per unit.
 Reading<double> read_step(TableReader& r, const AxisKeys& keys) {
   const std::string length = keys.of("step"), per = fmt::format("steps_per_{}", keys.unit);
-  if (r.one_of(length, per) == length) return r.number(length, kStepBounds);
+  if (r.one_of(length, per) == length) return r.number(length, kStep.bounds);
   auto steps = r.number(per, kStepsPerBounds);
   steps.value = 1 / steps.value;
   return steps;
@@ -79,11 +75,11 @@ void read_range(TableReader& r, AxisModel& axis, double& home2_u, const AxisKeys
   // a rotary axis may turn without end; a linear one says so with [-inf, inf]
   std::optional<std::pair<double, double>> otherwise;
   if (axis.kind == AxisKind::rotary) otherwise = {-kInfinity, kInfinity};
-  const auto range = r.pair(keys.of("range"), kRangeBounds, otherwise);
-  const auto home = r.number(keys.of("home"), kPositionBounds, 0.0);
-  const auto home2 = r.number(keys.of("home2"), kPositionBounds, home.value);
+  const auto range = r.pair(spelled(kRangeDocument.name, axis.kind), kRangeBounds, otherwise);
+  const auto home = read_key(r, axis, kHome, axis.kind);
+  SecondHome second{axis.home_u};
+  const auto home2 = read_key(r, second, kHome2, axis.kind);
   std::tie(axis.soft_min_u, axis.soft_max_u) = range.value;
-  axis.home_u = home.value;
   home2_u = home2.value;
   if (!range.valid) return;
 
@@ -118,36 +114,22 @@ void read_range(TableReader& r, AxisModel& axis, double& home2_u, const AxisKeys
 /// The plant of an axis; nothing for a rigid motor that carries no flexible link: the axis then follows its
 /// steps exactly, and neither mass nor spring is needed.
 std::optional<TwoMassModel> read_plant(const Node& table, const std::string& path, const AxisModel& axis,
-                                       const AxisKeys& keys, ReadContext& context) {
-  const PlantUnits& units = axis.kind == AxisKind::rotary ? kRotary : kLinear;
-  const auto key = [](std::string_view stem, std::string_view unit) {
-    return fmt::format("{}_{}", stem, unit);
-  };
+                                       ReadContext& context) {
   TableReader r(&table, path, table.span, context);
   TwoMassModel m;
-  m.motor = static_cast<MotorModel>(r.choice("model", {"rigid", "spring", "stepper"}).value);
-  const std::string base_mass = key("base_mass", units.mass), link_mass = key("link_mass", units.mass),
-                    stiffness = key("link_stiffness", units.stiffness),
-                    damping = key("link_damping", units.damping);
-  const bool link = m.motor != MotorModel::rigid || r.has(base_mass) || r.has(link_mass) ||
-                    r.has(stiffness) || r.has(damping);
-  const std::optional<double> otherwise = link ? std::optional<double>() : 0.0;
-  m.base_mass_kg = r.number(base_mass, kMassBounds, otherwise).value;
-  m.link_mass_kg = r.number(link_mass, kMassBounds, otherwise).value;
-  m.link_stiffness_N_per_m = r.number(stiffness, kStiffnessBounds, otherwise).value;
-  m.link_damping_Ns_per_m = r.number(damping, kDampingBounds, otherwise).value;
-  m.base_friction_Ns_per_m = r.number(key("base_friction", units.damping), kDampingBounds, 0.0).value;
-
-  // keys of other motor models are allowed and ignored, so that switching `model` is a one-line edit
-  const auto needed = [&](const std::string& name, const Bounds& bounds, bool by_model) {
-    const bool read = by_model || r.has(name);
-    return r.number(name, bounds, read ? std::optional<double>() : std::optional<double>(0.0)).value;
+  read_key(r, m, kMotor);
+  const auto any_given = [&](const auto&... each) {
+    return ((each.need == Need::link && r.has(spelled(each.name, axis.kind))) || ...);
   };
+  const bool link = m.motor != MotorModel::rigid || std::apply(any_given, kPlantKeys);
   const bool spring = m.motor == MotorModel::spring, stepper = m.motor == MotorModel::stepper;
-  m.motor_stiffness_N_per_m = needed(key("motor_stiffness", units.stiffness), kStiffnessBounds, spring);
-  m.motor_damping_Ns_per_m = needed(key("motor_damping", units.damping), kDampingBounds, spring || stepper);
-  m.holding_force_N = needed(key("holding_force", units.force), kForceBounds, stepper);
-  m.tooth_pitch_u = needed(keys.of("tooth_pitch"), kPitchBounds, stepper);
+  const auto read = [&](const auto& key) {
+    const bool needed = (key.need == Need::link && link) || (key.need == Need::spring && spring) ||
+                        (key.need == Need::stepper && stepper) ||
+                        (key.need == Need::motor && (spring || stepper));
+    read_key(r, m, key, axis.kind, needed);
+  };
+  std::apply([&](const auto&... each) { (read(each), ...); }, kPlantKeys);
   r.finish();
   return link ? std::optional(m) : std::nullopt;
 }
@@ -167,19 +149,17 @@ AxisModel read_axis(const Node& table, std::size_t index, const ClockModel& cloc
 
   const auto step = read_step(r, keys);
   read_range(r, axis, home2_u, keys, context);
-  const auto feed = r.number(keys.of("max", "_s"), kFeedBounds);
-  const auto accel = r.number(keys.of("max_acceleration", "_s2"), kAccelBounds);
   axis.step_u = step.value;
-  axis.max_feed_u_s = feed.value;
-  axis.max_accel_u_s2 = accel.value;
-  axis.max_jerk_u_s3 = r.number(keys.of("max_jerk", "_s3"), kJerkBounds).value;
-  axis.junction_accel_u_s2 =
-      r.number(keys.of("junction_acceleration", "_s2"), kAccelBounds, accel.value).value;
-  axis.junction_jerk_u_s3 = r.number(keys.of("junction_jerk", "_s3"), kJerkBounds, kInfinity).value;
+  const auto feed = read_key(r, axis, kMaxFeed, axis.kind);
+  read_key(r, axis, kMaxAccel, axis.kind);
+  read_key(r, axis, kMaxJerk, axis.kind);
+  axis.junction_accel_u_s2 = axis.max_accel_u_s2;
+  read_key(r, axis, kJunctionAccel, axis.kind);
+  read_key(r, axis, kJunctionJerk, axis.kind);
   check_step_rate(axis, step, feed, clock, keys, context);
 
   if (const Node* plant = r.table("plant")) {
-    const auto model = read_plant(*plant, r.path() + ".plant", axis, keys, context);
+    const auto model = read_plant(*plant, r.path() + ".plant", axis, context);
     axis.has_plant = model.has_value();
     axis.plant = model.value_or(TwoMassModel{});
   }

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "machine/base/parse_number.h"
-#include "machine/file/machine_reader.h"
+#include "machine/file/machine_keys.h"
 #include "machine/file/units.h"
 
 namespace kadr::machine {
@@ -89,8 +89,8 @@ constexpr Item kSteps{"--steps-per-mm",    "a number of steps", Quantity::per_le
                       Quantity::per_angle, "steps/mm",          "steps/deg",
                       "40, 1016/inch",     "100, 36000/rev",    true,
                       kStepsPerBounds};
-constexpr Item kHome{"--home", "a position", Quantity::length, Quantity::angle, "mm", "deg", "0, -5",
-                     "0",      true,         kPositionBounds};
+constexpr Item kHomePosition{"--home", "a position", Quantity::length, Quantity::angle, "mm", "deg", "0, -5",
+                             "0",      true,         kPositionBounds};
 constexpr Item kToolChange{"--tool-change", "a time", Quantity::time, Quantity::time,        "s", "s",
                            "8, 0.5min",     "",       true,           {0, kMostToolChange_s}};
 
@@ -297,7 +297,7 @@ std::string read_axes(const DataSheetWords& words, std::vector<SheetAxis>& axes)
                       always(kDefaultAcceleration_u_s2));
   if (wrong.empty()) wrong = read_list(kJerk, words.jerk, axes, &SheetAxis::jerk_u_s3, always(kInfinity));
   if (wrong.empty()) wrong = read_list(kSteps, words.steps, axes, &SheetAxis::steps_per_u, steps);
-  if (wrong.empty()) wrong = read_list(kHome, words.home, axes, &SheetAxis::home_u, home);
+  if (wrong.empty()) wrong = read_list(kHomePosition, words.home, axes, &SheetAxis::home_u, home);
   for (SheetAxis& axis : axes) {
     axis.junction_u_s2 = default_junction_u_s2(axis.acceleration_u_s2.value);
     if (wrong.empty()) wrong = check_home(axis);

@@ -6,25 +6,21 @@
 #include <cmath>
 
 #include "machine/base/parse_number.h"
+#include "machine/file/machine_keys.h"
 #include "machine/file/technology.h"
 
 namespace kadr::machine {
 
 namespace {
 
-constexpr double kFormat = 1;
+constexpr double kEdition = 1;
 constexpr double kMegahertz = 1e6;
 constexpr std::size_t kMaxName = 100;
 constexpr double kMaxControlTicks = 65536;
 
-Bounds or_infinite(Bounds bounds) {
-  bounds.infinite = true;
-  return bounds;
-}
-
 void read_format(TableReader& root) {
-  const auto format = root.number("format", {1, 1e6, false, true});
-  if (!format.valid || format.value == kFormat) return;
+  const auto format = root.number(kFormat.name, {1, 1e6, false, true});
+  if (!format.valid || format.value == kEdition) return;
   Diagnostic d =
       file_diagnostic(Code::file_format, format.span,
                       fmt::format("is edition {}, this kadr reads edition 1", number_text(format.value)));
@@ -33,7 +29,7 @@ void read_format(TableReader& root) {
 }
 
 std::string read_name(TableReader& root) {
-  const auto name = root.text("name");
+  const auto name = root.text(kName.name);
   if (!name.valid) return "";
   const bool control = std::any_of(name.value.begin(), name.value.end(),
                                    [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
@@ -49,8 +45,9 @@ std::string read_name(TableReader& root) {
 
 ClockModel read_clock(const Node* table, const Span& place, ReadContext& context) {
   TableReader r(table, "clock", place, context);
-  const auto rate = r.number("rate_hz", {1e6, 1e9, false, true}, 10e6);
-  const auto period = r.number("control_period_us", {1e-3, 65536}, 1000);
+  ClockKeys written;
+  const auto rate = read_key(r, written, kRate);
+  const auto period = read_key(r, written, kControlPeriod);
   r.finish();
 
   ClockModel clock;
@@ -94,17 +91,11 @@ ClockModel read_clock(const Node* table, const Span& place, ReadContext& context
 PathLimits read_path_limits(const Node* path, const Node* feed, const Span& place, ReadContext& context) {
   PathLimits limits;
   TableReader p(path, "path", place, context);
-  limits.arc_end_tolerance_mm = p.number("arc_end_tolerance_mm", {0, 1e6}, limits.arc_end_tolerance_mm).value;
-  limits.arc_end_tolerance_relative =
-      p.number("arc_end_tolerance_relative", {0, 1}, limits.arc_end_tolerance_relative).value;
+  read_keys(p, limits, kPathKeys);
   p.finish();
 
   TableReader f(feed, "feed", place, context);
-  limits.max_feed_mm_s = f.number("max_mm_s", or_infinite(kFeedBounds), kInfinity).value;
-  limits.max_accel_mm_s2 = f.number("max_acceleration_mm_s2", or_infinite(kAccelBounds), kInfinity).value;
-  limits.max_jerk_mm_s3 = f.number("max_jerk_mm_s3", kJerkBounds, kInfinity).value;
-  limits.centripetal_accel_mm_s2 =
-      f.number("centripetal_acceleration_mm_s2", or_infinite(kAccelBounds), kInfinity).value;
+  read_keys(f, limits, kFeedKeys);
   f.finish();
   return limits;
 }
@@ -112,81 +103,43 @@ PathLimits read_path_limits(const Node* path, const Node* feed, const Span& plac
 PlannerSettings read_planner(const Node* table, const Span& place, ReadContext& context) {
   TableReader r(table, "planner", place, context);
   PlannerSettings s;
-  s.whole_ticks = r.flag("whole_ticks", s.whole_ticks).value;
-  s.axis_limits = static_cast<AxisLimitRule>(r.choice("axis_limits", {"enforce", "report"}, 0).value);
-  s.tick_feed = static_cast<TickFeed>(r.choice("tick_feed", {"linear", "constant"}, 0).value);
-  s.tool_change_s = r.number("tool_change_s", {0, 1e6}, s.tool_change_s).value;
-  s.scheduler = static_cast<SchedulerKind>(r.choice("scheduler", {"chained", "blockwise"}, 0).value);
-  s.block_ticks = static_cast<BlockTicks>(r.choice("block_ticks", {"exact", "kl"}, 0).value);
-  s.law = static_cast<RampLaw>(r.choice("law", {"jerk_limited", "quintic"}, 0).value);
-  s.method = static_cast<PlanMethod>(
-      r.choice("method", {"scheduler", "tube", "certified", "jerk-limited"}, 0).value);
-  s.node_mm = r.number("node_mm", {1e-3, 1e3}, s.node_mm).value;
-  s.tube_levels = static_cast<int>(r.number("tube_levels", {3, 1000, false, true}, s.tube_levels).value);
-  const auto rapid = r.choice("rapid_law", {"scurve", "t-zero", "zv", "zvd", "auto"}, 0);
-  s.rapid_law = static_cast<RapidShape>(rapid.value);
+  read_keys(r, s, kPlannerKeys);
   if (s.rapid_law != RapidShape::scurve && s.scheduler == SchedulerKind::blockwise) {
-    Diagnostic d =
-        file_diagnostic(Code::machine_rapid_law, rapid.span, "but planner.scheduler is \"blockwise\"");
+    Diagnostic d = file_diagnostic(Code::machine_rapid_law, r.place("rapid_law"),
+                                   "but planner.scheduler is \"blockwise\"");
     d.help = "give rapid_law = \"scurve\", or scheduler = \"chained\"";
     context.diagnostics.add(std::move(d));
   }
-  s.rapid_frequency_pct = r.number("rapid_frequency_pct", {0, 50}, s.rapid_frequency_pct).value;
   r.finish();
   return s;
 }
 
-StepMethod read_interpolator(const Node* table, const Span& place, ReadContext& context) {
+void read_interpolator(const Node* table, const Span& place, MachineModel& model, ReadContext& context) {
   TableReader r(table, "interpolator", place, context);
-  const auto method =
-      r.choice("method",
-               {"crossing", "classic", "half_step", "diagonal", "extra_points", "octant_midpoint", "dda",
-                "dda_preloaded", "dda_sequential", "dda_simultaneous", "progression", "chords", "ptp"},
-               0);
+  read_key(r, model, kInterpolatorMethod);
   r.finish();
-  return static_cast<StepMethod>(method.value);
 }
 
-OverrideSettings read_override(const Node* table, const Span& place, ReadContext& context) {
-  TableReader r(table, "override", place, context);
-  OverrideSettings s;
-  s.mode = static_cast<OverrideMode>(r.choice("mode", {"corrected+", "corrected", "proportional"}, 0).value);
-  s.locked = static_cast<LockedFeed>(r.choice("locked", {"full", "freeze"}, 0).value);
-  s.disabled = static_cast<LockedFeed>(r.choice("disabled", {"full", "freeze"}, 1).value);
-  s.limiter =
-      static_cast<LimiterKind>(r.choice("limiter", {"off", "threshold", "paper", "matched"}, 0).value);
-  s.predictive = r.flag("predictive", s.predictive).value;
-  s.limiter_band_u_s = r.number("limiter_band_mm_s", {1e-3, 1e4}, s.limiter_band_u_s).value;
+/// A table that has keys of settings alone.
+template <class Settings, class Keys>
+Settings read_settings(const Node* table, const char* path, const Span& place, const Keys& keys,
+                       ReadContext& context) {
+  TableReader r(table, path, place, context);
+  Settings settings;
+  read_keys(r, settings, keys);
   r.finish();
-  return s;
-}
-
-SpindleReaction read_spindle(const Node* table, const Span& place, ReadContext& context) {
-  TableReader r(table, "spindle", place, context);
-  SpindleReaction s;
-  s.high_load_pct = r.number("high_load_pct", {1, 1000}, s.high_load_pct).value;
-  s.high_ms = r.number("high_ms", {1, 1e6}, s.high_ms).value;
-  s.down_pct = r.number("down_pct", {0, 100}, s.down_pct).value;
-  s.down_ms = r.number("down_ms", {1, 1e6}, s.down_ms).value;
-  s.low_load_pct = r.number("low_load_pct", {0, 1000}, s.low_load_pct).value;
-  s.low_ms = r.number("low_ms", {1, 1e6}, s.low_ms).value;
-  s.up_pct = r.number("up_pct", {0, 100}, s.up_pct).value;
-  s.up_ms = r.number("up_ms", {1, 1e6}, s.up_ms).value;
-  s.least_pct = r.number("least_pct", {1, 100}, s.least_pct).value;
-  r.finish();
-  return s;
+  return settings;
 }
 
 LogSettings read_log(const Node* table, const Span& place, const ClockModel& clock, ReadContext& context) {
   TableReader r(table, "log", place, context);
   LogSettings s;
-  s.ticks = r.flag("ticks", s.ticks).value;
-  s.steps = r.flag("steps", s.steps).value;
-  s.energy = r.flag("energy", s.energy).value;
-  s.block_ticks = static_cast<int>(r.number("block_ticks", {16, 64, false, true}, s.block_ticks).value);
+  read_keys(r, s, kLogKeys);
   // viewer values come from control ticks: there are no more of them
-  const double most_hz = 1 / clock.tau_s();
-  s.viewer_rate_hz = r.number("viewer_rate_hz", {0, most_hz}, std::min(s.viewer_rate_hz, most_hz)).value;
+  auto viewer_rate = kViewerRate;
+  viewer_rate.bounds.high = 1 / clock.tau_s();
+  s.viewer_rate_hz = std::min(s.viewer_rate_hz, viewer_rate.bounds.high);
+  read_key(r, s, viewer_rate);
   r.finish();
   return s;
 }
@@ -195,9 +148,8 @@ PlantSettings read_plant_settings(const Node* table, const Span& place, const st
                                   ReadContext& context) {
   TableReader r(table, "plant", place, context);
   PlantSettings s;
-  const auto integrator = r.choice("integrator", {"smooth", "reference", "oracle"}, 0);
-  s.integrator = static_cast<IntegratorKind>(integrator.value);
-  s.tolerance_um = r.number("tolerance_um", {1e-12, 1e3}, s.tolerance_um).value;
+  const auto integrator = read_key(r, s, kIntegrator);
+  read_key(r, s, kTolerance);
   r.finish();
   if (s.integrator != IntegratorKind::oracle) return s;
   for (const AxisModel& axis : axes) {
@@ -211,13 +163,14 @@ PlantSettings read_plant_settings(const Node* table, const Span& place, const st
 std::optional<StockModel> read_stock(const Node* table, const Span& place, const MachineModel& model,
                                      ReadContext& context) {
   if (!table) return std::nullopt;
-  constexpr std::string_view kLinearLetters = "XYZUVW";
+  constexpr std::string_view kLinearAxes[] = {"X", "Y", "Z", "U", "V", "W"};
+  constexpr std::size_t kAxisZ = 2;
   TableReader r(table, "stock", place, context);
   StockModel stock;
-  const auto axis = r.choice("axis", {"X", "Y", "Z", "U", "V", "W"}, kLinearLetters.find('Z'));
-  stock.axis = kLinearLetters[axis.value];
-  stock.position_mm = r.number("position_mm", kPositionBounds).value;
-  stock.below = r.flag("below", stock.below).value;
+  const auto axis = r.word(kStockAxis.name, kLinearAxes, kAxisZ);
+  stock.axis = kLinearAxes[axis.value].front();
+  read_key(r, stock, kStockPosition);
+  read_key(r, stock, kStockBelow);
   r.finish();
   const int index = model.find_axis(stock.axis);
   if (axis.valid && (index < 0 || model.axis[static_cast<std::size_t>(index)].kind == AxisKind::rotary)) {
@@ -270,13 +223,15 @@ MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
   MachineModel model;
   read_format(root);
   model.name = read_name(root);
-  model.on_alarm = static_cast<OnAlarm>(root.choice("on_alarm", {"report", "stop"}, 0).value);
+  read_key(root, model, kOnAlarm);
   model.clock = read_clock(root.table("clock"), top, context);
   model.path = read_path_limits(root.table("path"), root.table("feed"), top, context);
   model.planner = read_planner(root.table("planner"), top, context);
-  model.interpolator = read_interpolator(root.table("interpolator"), top, context);
-  model.feed_override = read_override(root.table("override"), top, context);
-  model.spindle = read_spindle(root.table("spindle"), top, context);
+  read_interpolator(root.table("interpolator"), top, model, context);
+  model.feed_override =
+      read_settings<OverrideSettings>(root.table("override"), "override", top, kOverrideKeys, context);
+  model.spindle =
+      read_settings<SpindleReaction>(root.table("spindle"), "spindle", top, kSpindleKeys, context);
   read_axes(root, model);
   model.plant = read_plant_settings(root.table("plant"), top, model.axis, context);
   model.stock = read_stock(root.table("stock"), top, model, context);

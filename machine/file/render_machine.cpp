@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "machine/base/parse_number.h"
+#include "machine/file/machine_keys.h"
 #include "machine/file/technology.h"
 #include "machine/machine_file.h"
 
@@ -29,11 +30,6 @@ class TomlWriter {
     line(key, number_text(value), alias);
   }
   void word(std::string_view key, std::string_view value) { line(key, fmt::format("\"{}\"", value)); }
-  void flag(std::string_view key, bool value) { line(key, value ? "true" : "false"); }
-  /// A number that is left out where the machine has none.
-  void number_if(std::string_view key, double value) {
-    if (value > 0) number(key, value);
-  }
   std::string take() { return std::move(out_); }
 
  private:
@@ -63,129 +59,79 @@ std::string quoted(std::string_view text) {
   return out + '"';
 }
 
-void write_plant(TomlWriter& w, const AxisModel& axis) {
-  const bool rotary = axis.kind == AxisKind::rotary;
-  const auto key = [&](std::string_view stem, std::string_view linear, std::string_view turning) {
-    return fmt::format("{}_{}", stem, rotary ? turning : linear);
-  };
-  constexpr std::string_view models[] = {"rigid", "spring", "stepper"};
-  const TwoMassModel& m = axis.plant;
-  w.table("  [axis.plant]", fmt::format("axis.{}.plant", axis.letter));
-  w.word("model", models[static_cast<std::size_t>(m.motor)]);
-  w.number(key("base_mass", "kg", "kg_m2"), m.base_mass_kg);
-  w.number(key("link_mass", "kg", "kg_m2"), m.link_mass_kg);
-  w.number(key("link_stiffness", "N_per_m", "Nm_per_rad"), m.link_stiffness_N_per_m);
-  w.number(key("link_damping", "Ns_per_m", "Nms_per_rad"), m.link_damping_Ns_per_m);
-  w.number(key("base_friction", "Ns_per_m", "Nms_per_rad"), m.base_friction_Ns_per_m);
-  w.number_if(key("motor_stiffness", "N_per_m", "Nm_per_rad"), m.motor_stiffness_N_per_m);
-  w.number(key("motor_damping", "Ns_per_m", "Nms_per_rad"), m.motor_damping_Ns_per_m);
-  w.number_if(key("holding_force", "N", "Nm"), m.holding_force_N);
-  w.number_if(key("tooth_pitch", "mm", "deg"), m.tooth_pitch_u);
+template <class Model, class Value>
+void write_key(TomlWriter& w, const Model& model, const Key<Model, Value>& key,
+               AxisKind kind = AxisKind::linear) {
+  const Value value = model.*key.member;
+  const std::string name = spelled(key.name, kind);
+  // the numbers that one motor alone has are left out where they are not given
+  if constexpr (std::is_same_v<Value, bool>)
+    w.line(name, value ? "true" : "false");
+  else if (value > 0 || (key.need != Need::spring && key.need != Need::stepper))
+    w.line(name, default_text(static_cast<double>(value), key.bounds.whole));
+}
+template <class Model, class Enum, std::size_t kCount>
+void write_key(TomlWriter& w, const Model& model, const WordKey<Model, Enum, kCount>& key,
+               AxisKind = AxisKind::linear) {
+  w.word(key.name, key.words->word(model.*key.member));
+}
+template <class Model, class... Keys>
+void write_keys(TomlWriter& w, const Model& model, const std::tuple<Keys...>& keys,
+                AxisKind kind = AxisKind::linear) {
+  std::apply([&](const auto&... each) { (write_key(w, model, each, kind), ...); }, keys);
 }
 
 void write_axis(TomlWriter& w, const AxisModel& axis, double home2_u) {
-  const bool rotary = axis.kind == AxisKind::rotary;
-  const std::string unit = rotary ? "deg" : "mm";
-  const auto key = [&](std::string_view stem, std::string_view suffix = "") {
-    return fmt::format("{}_{}{}", stem, unit, suffix);
-  };
   w.table("[[axis]]", fmt::format("axis.{}", axis.letter));
   w.word("name", std::string(1, axis.letter));
-  w.word("kind", rotary ? "rotary" : "linear");
-  w.number(key("step"), axis.step_u, fmt::format("steps_per_{}", unit));
-  w.line(key("range"), fmt::format("[{}, {}]", number_text(axis.soft_min_u), number_text(axis.soft_max_u)));
-  w.number(key("home"), axis.home_u);
-  w.number(key("home2"), home2_u);
-  w.number(key("max", "_s"), axis.max_feed_u_s);
-  w.number(key("max_acceleration", "_s2"), axis.max_accel_u_s2);
-  w.number(key("max_jerk", "_s3"), axis.max_jerk_u_s3);
-  w.number(key("junction_acceleration", "_s2"), axis.junction_accel_u_s2);
-  w.number(key("junction_jerk", "_s3"), axis.junction_jerk_u_s3);
-  if (axis.has_plant) write_plant(w, axis);
-}
-
-void write_override(TomlWriter& w, const OverrideSettings& s) {
-  constexpr std::string_view modes[] = {"corrected+", "corrected", "proportional"};
-  constexpr std::string_view limiters[] = {"off", "threshold", "paper", "matched"};
-  w.table("[override]", "override");
-  w.word("mode", modes[static_cast<std::size_t>(s.mode)]);
-  w.word("locked", s.locked == LockedFeed::full ? "full" : "freeze");
-  w.word("disabled", s.disabled == LockedFeed::full ? "full" : "freeze");
-  w.word("limiter", limiters[static_cast<std::size_t>(s.limiter)]);
-  w.flag("predictive", s.predictive);
-  w.number("limiter_band_mm_s", s.limiter_band_u_s);
-}
-
-void write_spindle(TomlWriter& w, const SpindleReaction& s) {
-  w.table("[spindle]", "spindle");
-  w.number("high_load_pct", s.high_load_pct);
-  w.number("high_ms", s.high_ms);
-  w.number("down_pct", s.down_pct);
-  w.number("down_ms", s.down_ms);
-  w.number("low_load_pct", s.low_load_pct);
-  w.number("low_ms", s.low_ms);
-  w.number("up_pct", s.up_pct);
-  w.number("up_ms", s.up_ms);
-  w.number("least_pct", s.least_pct);
+  write_key(w, axis, kAxisKindKey);
+  w.number(spelled(kStep.name, axis.kind), axis.step_u, spelled("steps_per_{u}", axis.kind));
+  w.line(spelled(kRangeDocument.name, axis.kind),
+         fmt::format("[{}, {}]", number_text(axis.soft_min_u), number_text(axis.soft_max_u)));
+  write_key(w, axis, kHome, axis.kind);
+  write_key(w, SecondHome{home2_u}, kHome2, axis.kind);
+  write_keys(w, axis, kAxisLimitKeys, axis.kind);
+  if (!axis.has_plant) return;
+  w.table("  [axis.plant]", fmt::format("axis.{}.plant", axis.letter));
+  write_key(w, axis.plant, kMotor);
+  write_keys(w, axis.plant, kPlantKeys, axis.kind);
 }
 
 void write_settings(TomlWriter& w, const MachineModel& m) {
   w.table("[clock]", "clock");
-  w.line("rate_hz", fmt::format("{}", m.clock.base_hz));
-  w.number("control_period_us",
-           static_cast<double>(m.clock.control_tick.value) / (static_cast<double>(m.clock.base_hz) / 1e6));
+  const auto rate_hz = static_cast<double>(m.clock.base_hz);
+  const ClockKeys clock{rate_hz, static_cast<double>(m.clock.control_tick.value) / (rate_hz / 1e6)};
+  write_key(w, clock, kRate);
+  write_key(w, clock, kControlPeriod);
   w.table("[path]", "path");
-  w.number("arc_end_tolerance_mm", m.path.arc_end_tolerance_mm);
-  w.number("arc_end_tolerance_relative", m.path.arc_end_tolerance_relative);
+  write_keys(w, m.path, kPathKeys);
   w.table("[feed]", "feed");
-  w.number("max_mm_s", m.path.max_feed_mm_s);
-  w.number("max_acceleration_mm_s2", m.path.max_accel_mm_s2);
-  w.number("max_jerk_mm_s3", m.path.max_jerk_mm_s3);
-  w.number("centripetal_acceleration_mm_s2", m.path.centripetal_accel_mm_s2);
+  write_keys(w, m.path, kFeedKeys);
   w.table("[planner]", "planner");
-  w.flag("whole_ticks", m.planner.whole_ticks);
-  w.word("axis_limits", m.planner.axis_limits == AxisLimitRule::enforce ? "enforce" : "report");
-  w.word("tick_feed", m.planner.tick_feed == TickFeed::linear ? "linear" : "constant");
-  w.number("tool_change_s", m.planner.tool_change_s);
-  w.word("scheduler", m.planner.scheduler == SchedulerKind::chained ? "chained" : "blockwise");
-  w.word("block_ticks", m.planner.block_ticks == BlockTicks::exact ? "exact" : "kl");
-  w.word("law", m.planner.law == RampLaw::jerk_limited ? "jerk_limited" : "quintic");
-  constexpr std::string_view methods[] = {"scheduler", "tube", "certified", "jerk-limited"};
-  w.word("method", methods[static_cast<std::size_t>(m.planner.method)]);
-  w.number("node_mm", m.planner.node_mm);
-  w.number("tube_levels", m.planner.tube_levels);
-  constexpr std::string_view rapids[] = {"scurve", "t-zero", "zv", "zvd", "auto"};
-  w.word("rapid_law", rapids[static_cast<std::size_t>(m.planner.rapid_law)]);
-  w.number("rapid_frequency_pct", m.planner.rapid_frequency_pct);
+  write_keys(w, m.planner, kPlannerKeys);
   w.table("[interpolator]", "interpolator");
-  constexpr std::string_view steps[] = {
-      "crossing", "classic",       "half_step",      "diagonal",         "extra_points", "octant_midpoint",
-      "dda",      "dda_preloaded", "dda_sequential", "dda_simultaneous", "progression",  "chords",
-      "ptp"};
-  w.word("method", steps[static_cast<std::size_t>(m.interpolator)]);
-  write_override(w, m.feed_override);
-  write_spindle(w, m.spindle);
-  constexpr std::string_view integrators[] = {"smooth", "reference", "oracle"};
+  write_key(w, m, kInterpolatorMethod);
+  w.table("[override]", "override");
+  write_keys(w, m.feed_override, kOverrideKeys);
+  w.table("[spindle]", "spindle");
+  write_keys(w, m.spindle, kSpindleKeys);
   w.table("[plant]", "plant");
-  w.word("integrator", integrators[static_cast<std::size_t>(m.plant.integrator)]);
-  w.number("tolerance_um", m.plant.tolerance_um);
+  write_key(w, m.plant, kIntegrator);
+  write_key(w, m.plant, kTolerance);
   for (const TechnologyRule& rule : m.technology) {
     w.table("[[technology]]", "technology");
     w.word("on", technology_code(rule));
-    w.number("max_mm_s", rule.max_u_s);
+    write_key(w, rule, kTechnologyLimit);
   }
   if (m.stock) {
     w.table("[stock]", "stock");
     w.word("axis", std::string(1, m.stock->axis));
-    w.number("position_mm", m.stock->position_mm);
-    w.flag("below", m.stock->below);
+    write_key(w, *m.stock, kStockPosition);
+    write_key(w, *m.stock, kStockBelow);
   }
   w.table("[log]", "log");
-  w.flag("ticks", m.log.ticks);
-  w.flag("steps", m.log.steps);
-  w.flag("energy", m.log.energy);
-  w.line("block_ticks", fmt::format("{}", m.log.block_ticks));
-  w.number("viewer_rate_hz", m.log.viewer_rate_hz);
+  write_keys(w, m.log, kLogKeys);
+  write_key(w, m.log, kViewerRate);
 }
 
 }  // namespace
@@ -195,7 +141,7 @@ std::string render_machine(const MachineFile& file) {
   TomlWriter w(file);
   w.line("format", "1");
   w.line("name", quoted(m.name));
-  w.word("on_alarm", m.on_alarm == OnAlarm::report ? "report" : "stop");
+  write_key(w, m, kOnAlarm);
   write_settings(w, m);
   for (const AxisModel& axis : m.axis)
     write_axis(w, axis, m.home2[static_cast<std::size_t>(axis_index(axis.letter))]);

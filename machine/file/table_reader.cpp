@@ -10,6 +10,15 @@
 
 namespace kadr::machine {
 
+std::string bounds_text(const Bounds& bounds, std::string_view key) {
+  const KeyParts parts = split_key(key);
+  return fmt::format("{:g} to {:g}{}{}{}", bounds.low, bounds.high,
+                     parts.unit ? " " + unit_text(*parts.unit) : "", bounds.whole ? ", whole numbers" : "",
+                     !bounds.infinite ? ""
+                     : bounds.low < 0 ? ", or -inf or inf"
+                                      : ", or inf");
+}
+
 TableReader::TableReader(const Node* table, std::string path, Span missing_place, ReadContext& context)
     : table_(table), path_(std::move(path)), header_(table ? table->span : missing_place), context_(context) {
   // the root has no header of its own: its first character stands for it
@@ -51,19 +60,6 @@ void TableReader::wrong_type(const Entry& entry, std::string_view wanted) {
   context_.diagnostics.add(std::move(d));
 }
 
-namespace {
-
-std::string allowed_text(const Bounds& bounds, std::string_view key) {
-  const KeyParts parts = split_key(key);
-  return fmt::format("allowed: {:g} to {:g}{}{}{}", bounds.low, bounds.high,
-                     parts.unit ? " " + unit_text(*parts.unit) : "", bounds.whole ? ", whole numbers" : "",
-                     !bounds.infinite ? ""
-                     : bounds.low < 0 ? ", or -inf or inf"
-                                      : ", or inf");
-}
-
-}  // namespace
-
 std::optional<double> TableReader::checked(const Node& value, std::string_view key, const Bounds& bounds) {
   const double x = value.number;
   const bool infinite = x == kInfinity || (x == -kInfinity && bounds.low < 0);
@@ -83,7 +79,7 @@ std::optional<double> TableReader::checked(const Node& value, std::string_view k
                                                                      : "a whole number");
     d.message = fmt::format("{}: value is out of range", path_of(key));
   }
-  d.notes.push_back(allowed_text(bounds, key));
+  d.notes.push_back("allowed: " + bounds_text(bounds, key));
   context_.diagnostics.add(std::move(d));
   return std::nullopt;
 }
@@ -138,8 +134,8 @@ Reading<bool> TableReader::flag(std::string_view key, bool otherwise) {
   return {entry->value.boolean, true, entry->value.span};
 }
 
-Reading<std::size_t> TableReader::choice(std::string_view key, std::initializer_list<std::string_view> words,
-                                         std::optional<std::size_t> otherwise) {
+Reading<std::size_t> TableReader::word(std::string_view key, std::span<const std::string_view> words,
+                                       std::optional<std::size_t> otherwise) {
   const Entry* entry = take(key, !otherwise);
   if (!entry) return {otherwise.value_or(0), otherwise.has_value(), header_};
   const Span& span = entry->value.span;
@@ -242,9 +238,12 @@ static std::string value_text(const Node& value) {
       return '"' + value.text + '"';
     case Node::Kind::boolean:
       return value.boolean ? "true" : "false";
-    default:
-      return "...";
+    case Node::Kind::table:
+    case Node::Kind::array:
+    case Node::Kind::date:
+      break;
   }
+  return "...";
 }
 
 /// A number, or a list of numbers, in another unit with 12 digits; nothing if it is neither.

@@ -1,12 +1,14 @@
 #pragma once
-#include <initializer_list>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "machine/base/vocabulary.h"
 #include "machine/file/tree.h"
 #include "machine/machine_file.h"
 
@@ -19,6 +21,9 @@ struct Bounds {
   bool infinite = false;  ///< inf is allowed too (-inf if low < 0)
   bool whole = false;     ///< whole numbers only
 };
+
+/// "1 to 100 %, or inf", in the unit of the key.
+std::string bounds_text(const Bounds& bounds, std::string_view key);
 
 /// What was read from a key. `value` can be used even if it is not valid (then it is some allowed number), so
 /// that the rest of the file is still checked.
@@ -54,8 +59,19 @@ class TableReader {
   Reading<std::string> text(std::string_view key, const std::optional<std::string>& otherwise = {});
   Reading<bool> flag(std::string_view key, bool otherwise);
   /// One of several words, by its index in `words`.
-  Reading<std::size_t> choice(std::string_view key, std::initializer_list<std::string_view> words,
-                              std::optional<std::size_t> otherwise = {});
+  Reading<std::size_t> word(std::string_view key, std::span<const std::string_view> words,
+                            std::optional<std::size_t> otherwise = {});
+  /// One word of a vocabulary.
+  template <class Enum, std::size_t kCount>
+  Reading<Enum> choice(std::string_view key, const Vocabulary<Enum, kCount>& vocabulary,
+                       std::optional<std::type_identity_t<Enum>> otherwise = {}) {
+    std::string_view words[kCount];
+    for (std::size_t i = 0; i < kCount; ++i) words[i] = vocabulary.words[i].word;
+    std::optional<std::size_t> index;
+    if (otherwise) index = static_cast<std::size_t>(*otherwise);
+    const auto read = word(key, words, index);
+    return {vocabulary.words[read.value].value, read.valid, read.span};
+  }
   /// A table inside this one; nullptr if it is missing.
   const Node* table(std::string_view key);
   /// An array of tables inside this one; empty if it is missing.
@@ -70,6 +86,11 @@ class TableReader {
   /// Tells unknown and missing keys.
   void finish();
 
+  /// Place of a key's value; of one that is not given the table's header.
+  Span place(std::string_view key) const {
+    const Entry* entry = table_ ? table_->find(key) : nullptr;
+    return entry ? entry->value.span : header_;
+  }
   const std::string& path() const { return path_; }
   std::string path_of(std::string_view key) const;
   /// Place for a mistake of the table as a whole.

@@ -4,10 +4,11 @@
 
 #include <charconv>
 
+#include "machine/file/machine_keys.h"
+
 namespace kadr::machine {
 namespace {
 
-constexpr Bounds kLimit{1e-3, 1e6};
 constexpr int kMostOutputs = 64;
 
 /// "M62 P1", blanks and case as in a program.
@@ -30,11 +31,14 @@ std::optional<TechnologyRule> parse_code(std::string_view text) {
 
 }  // namespace
 
-double read_technology_limit(TableReader& keys) { return keys.number("max_mm_s", kLimit).value; }
+double read_technology_limit(TableReader& keys) {
+  TechnologyRule rule;
+  return read_key(keys, rule, kTechnologyLimit).value;
+}
 
 TechnologyRule read_technology_rule(TableReader& keys) {
   TechnologyRule rule;
-  const auto on = keys.text("on");
+  const auto on = keys.text(kTechnologyOn.name);
   if (const auto known = parse_code(on.value)) {
     rule = *known;
   } else if (on.valid) {

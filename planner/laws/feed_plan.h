@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "machine/base/axes.h"
+#include "machine/base/vocabulary.h"
 #include "machine/choices.h"
 #include "machine/tick_motion.h"
 
 namespace kadr::planner {
 
-using kadr::limited_by_name;
+using kadr::kLimitedBy;
 using kadr::LimitedBy;
 
 /// How the blockwise scheduler gave a block its whole control ticks (fill_block_ticks).
@@ -21,8 +22,14 @@ enum class TickRule : std::uint8_t {
   lower_end,      ///< c: F_KK lowered
   scale,          ///< d: all speeds times kl (paper 003, eq. 3-4)
 };
-/// "", "a", "b", "c", "d".
-std::string_view tick_rule_name(TickRule rule);
+inline constexpr Vocabulary<TickRule, 5> kTickRules{{
+    {TickRule::none, ""},
+    {TickRule::lower_main, "a", "feed of the block lowered"},
+    {TickRule::stretch_brake, "b", "braking stretched"},
+    {TickRule::lower_end, "c", "feed at the block's end lowered"},
+    {TickRule::scale, "d", "all speeds times kl"},
+}};
+static_assert(kTickRules.complete());
 
 /// Per segment, made by the scheduler; boundary feeds are reachable within each segment.
 struct SegmentPlan {
@@ -36,9 +43,6 @@ struct SegmentPlan {
   std::int8_t limiting_axis = -1;             ///< machine axis, or -1
   TickRule rule = TickRule::none;
 };
-
-/// As in machine files: "scurve" "t-zero" "zv" "zvd" "auto".
-std::string_view rapid_law_name(machine::RapidShape shape);
 
 struct MotionState {
   double s_u, speed_u_s, accel_u_s2, jerk_u_s3;

@@ -1,4 +1,5 @@
 #pragma once
+#include "machine/base/vocabulary.h"
 
 namespace kadr::planner {
 
@@ -18,6 +19,11 @@ enum class Drive : unsigned char {
   position,  ///< a stiff servo or rigid mechanics: the base follows the law whatever the load does
   force,     ///< a motor's force F = (m0 + m1) a alone: base and load swing against each other
 };
+inline constexpr Vocabulary<Drive, 2> kDrives{{
+    {Drive::position, "position", "the base follows the law whatever the load does"},
+    {Drive::force, "force", "base and load swing against each other"},
+}};
+static_assert(kDrives.complete());
 
 /// The load as a law's acceleration sees it.
 struct DrivenMode {

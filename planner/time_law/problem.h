@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "machine/base/vocabulary.h"
 #include "machine/infinity.h"
 
 namespace kadr::planner {
@@ -22,6 +23,11 @@ enum class AccelTest : std::uint8_t {
   end_node,   ///< as printed; between nodes a limit may be exceeded by some per cent
   both_nodes  ///< for machines
 };
+inline constexpr Vocabulary<AccelTest, 2> kAccelTests{{
+    {AccelTest::end_node, "end_node", "as printed"},
+    {AccelTest::both_nodes, "both_nodes", "for machines"},
+}};
+static_assert(kAccelTests.complete());
 
 /// Weight of the penalty on acceleration in J = sum dt + w (axes |a|)^2.
 struct Penalty {

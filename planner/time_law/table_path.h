@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "machine/base/vocabulary.h"
 #include "planner/time_law/formula_path.h"
 
 namespace kadr::planner {
@@ -14,6 +15,12 @@ enum class SplineEnds : std::uint8_t {
   natural,  ///< X'' = 0, whatever the path does: limits of the first and last intervals are off
   clamped   ///< X' is that of the first and last chord, as of a path that begins and ends straight
 };
+inline constexpr Vocabulary<SplineEnds, 3> kSplineEnds{{
+    {SplineEnds::not_a_knot, "not-a-knot", "the third derivative does not jump next to the ends"},
+    {SplineEnds::natural, "natural", "no second derivative at the ends"},
+    {SplineEnds::clamped, "clamped", "the slope of the first and last chord"},
+}};
+static_assert(kSplineEnds.complete());
 
 /// Axes given by their values at rows s_0 < s_1 < ..., joined by a cubic spline each: X, X' and X'' are
 /// continuous, X'' is linear between rows.

@@ -1,4 +1,5 @@
 #pragma once
+#include "machine/base/vocabulary.h"
 #include "planner/time_law/dynamic_programme.h"
 
 namespace kadr::planner {
@@ -18,6 +19,11 @@ enum class TubeGrid : std::uint8_t {
   uniform,      ///< the paper's: the speed before is not a level, so a pass may be slower than the one before
   nominal_kept  ///< it is: the cost never rises
 };
+inline constexpr Vocabulary<TubeGrid, 2> kTubeGrids{{
+    {TubeGrid::uniform, "uniform", "as printed: a pass may be slower than the one before"},
+    {TubeGrid::nominal_kept, "nominal-kept", "the speed before is a level: the cost never rises"},
+}};
+static_assert(kTubeGrids.complete());
 
 struct TubeOptions {
   std::int32_t levels = 100;         ///< M

@@ -65,6 +65,10 @@ TEST_CASE("docs/pipeline.md: every command gives the output that stands below it
   check_document("docs/pipeline.md");
 }
 
+TEST_CASE("docs/machine_keys.md: every command gives the output that stands below it") {
+  check_document("docs/machine_keys.md");
+}
+
 TEST_CASE("docs/gcode.md: every command gives the output that stands below it") {
   check_document("docs/gcode.md");
 }

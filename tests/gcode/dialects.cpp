@@ -29,9 +29,9 @@ double dwell_s(const std::string& text, Dialect dialect) {
 }  // namespace
 
 TEST_CASE("each dialect has its name") {
-  for (const Dialect d : {Dialect::linuxcnc, Dialect::grbl, Dialect::marlin, Dialect::fanuc})
-    CHECK(dialect_of(dialect_name(d)) == d);
-  CHECK_FALSE(dialect_of("heidenhain"));
+  for (const auto& dialect : kDialects) CHECK(kDialects.find(dialect.word) == dialect.value);
+  CHECK(kDialects.list() == "linuxcnc, grbl, marlin, fanuc");
+  CHECK_FALSE(kDialects.find("heidenhain"));
 }
 
 TEST_CASE("G4 P is seconds in linuxcnc and grbl, milliseconds in marlin and fanuc") {

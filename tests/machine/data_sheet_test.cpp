@@ -1,4 +1,5 @@
 #include "machine/file/data_sheet.h"
+#include "machine/machine_file.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -188,7 +188,7 @@ TEST_CASE("the reasons in the table name what held the feed") {
   CHECK((plan.segments[3].limited_by == LimitedBy::junction ||
          plan.segments[3].limited_by == LimitedBy::length));
   CHECK(plan.segments[4].limited_by == LimitedBy::rapid);
-  CHECK(planner::limited_by_name(LimitedBy::path_feed) == "path feed");
+  CHECK(planner::kLimitedBy.word(LimitedBy::path_feed) == "path feed");
 }
 
 TEST_CASE("the same path gives the same law to the bit, and a path without motion an empty one") {

@@ -60,7 +60,7 @@ class RecordingLog final : public emulator::RunLog {
   std::vector<emulator::EventRecord> of_kind(const std::string& kind) const {
     std::vector<emulator::EventRecord> list;
     for (const auto& e : events)
-      if (e.kind == kind) list.push_back(e);
+      if (e.kind.text() == kind) list.push_back(e);
     return list;
   }
 };

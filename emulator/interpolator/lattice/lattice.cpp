@@ -1,6 +1,7 @@
 #include "emulator/interpolator/lattice/lattice.h"
 
 #include <algorithm>
+#include <array>
 
 #include "emulator/interpolator/lattice/steppers.h"
 
@@ -11,6 +12,36 @@ constexpr std::int64_t kMostLine = std::int64_t{1} << 60;
 constexpr std::int64_t kMostPlane = std::int64_t{1} << 29;
 constexpr std::int64_t kMostEvents = std::int64_t{1} << 40;
 
+constexpr std::array<MethodEntry, machine::kStepMethods.size()> kTaught = {{
+    {Method::classic, "F"},
+    {Method::half_step, "F'"},
+    {Method::diagonal, "V"},
+    {Method::extra_points, "M1"},
+    {Method::octant_midpoint, "M1"},
+    {Method::dda, "Jx"},
+    {Method::dda_preloaded, "Jx"},
+    {Method::dda_sequential, "Jx"},
+    {Method::dda_simultaneous, "Jx"},
+    {Method::progression, "S"},
+    {Method::chords, "V"},
+    {Method::newton, "d0"},
+    {Method::crossing, "F'"},
+    {Method::ptp, "i"},
+    {Method::printed_difference, "D"},
+    {Method::printed_half_step, "D"},
+    {Method::magnitudes, "D"},
+}};
+
+/// Where each method is among those taught.
+constexpr auto kPlaceOf = [] {
+  std::array<std::size_t, kTaught.size()> place{};
+  place.fill(kTaught.size());
+  for (std::size_t i = 0; i < kTaught.size(); ++i) place[static_cast<std::size_t>(kTaught[i].method)] = i;
+  return place;
+}();
+static_assert(*std::max_element(kPlaceOf.begin(), kPlaceOf.end()) < kTaught.size(),
+              "every method is taught, once");
+
 std::int64_t largest(const Point& p) {
   std::int64_t most = 0;
   for (const std::int64_t v : p) most = std::max(most, v == INT64_MIN ? INT64_MAX : magnitude(v));
@@ -18,6 +49,7 @@ std::int64_t largest(const Point& p) {
 }
 
 MadeStepper make(const LineCurve& line, Method method, const MethodOptions& options) {
+  const bool plane = line.axes == 2;
   switch (method) {
     case Method::classic:
       return classic_line(line);
@@ -34,20 +66,21 @@ MadeStepper make(const LineCurve& line, Method method, const MethodOptions& opti
       return progression_line(line, options.fraction_bits);
     case Method::ptp:
       return point_to_point(line);
-    default:
+    case Method::extra_points:
+      return plane ? extra_point_line(line) : nullptr;
+    case Method::printed_difference:
+      return plane ? printed_difference_line(line) : nullptr;
+    case Method::magnitudes:
+      return plane ? magnitude_line(line) : nullptr;
+    case Method::octant_midpoint:
+    case Method::dda_sequential:
+    case Method::dda_simultaneous:
+    case Method::chords:
+    case Method::newton:
+    case Method::printed_half_step:
       break;
   }
-  if (line.axes != 2) return nullptr;
-  switch (method) {
-    case Method::extra_points:
-      return extra_point_line(line);
-    case Method::printed_difference:
-      return printed_difference_line(line);
-    case Method::magnitudes:
-      return magnitude_line(line);
-    default:
-      return nullptr;
-  }
+  return nullptr;
 }
 
 MadeStepper make(const ArcCurve& arc, Method method, const MethodOptions& options) {
@@ -69,9 +102,17 @@ MadeStepper make(const ArcCurve& arc, Method method, const MethodOptions& option
       return chord_arc(arc, options.chord_tolerance);
     case Method::printed_half_step:
       return printed_half_step_arc(arc);
-    default:
-      return nullptr;
+    case Method::diagonal:
+    case Method::dda:
+    case Method::dda_preloaded:
+    case Method::progression:
+    case Method::ptp:
+    case Method::newton:
+    case Method::printed_difference:
+    case Method::magnitudes:
+      break;
   }
+  return nullptr;
 }
 
 /// How far a curve given by its ends may go beyond them.
@@ -80,17 +121,11 @@ std::int64_t reach_of(const ImplicitCurve& curve) {
 }
 
 MadeStepper make_rule(const ImplicitCurve& curve, Method method, std::int64_t reach) {
-  switch (method) {
-    case Method::classic:
-      return rule_curve(curve, CurveRule::classic, reach);
-    case Method::half_step:
-    case Method::crossing:
-      return rule_curve(curve, CurveRule::half_step, reach);
-    case Method::extra_points:
-      return rule_curve(curve, CurveRule::extra_points, reach);
-    default:
-      return nullptr;
-  }
+  if (method == Method::classic) return rule_curve(curve, CurveRule::classic, reach);
+  if (method == Method::half_step || method == Method::crossing)
+    return rule_curve(curve, CurveRule::half_step, reach);
+  if (method == Method::extra_points) return rule_curve(curve, CurveRule::extra_points, reach);
+  return nullptr;
 }
 
 MadeStepper make(const ImplicitCurve& curve, Method method, const MethodOptions& options) {
@@ -202,36 +237,11 @@ Refusal check(const BezierCurve& curve, Method method) {
 
 }  // namespace
 
-const std::vector<MethodEntry>& methods() {
-  static const std::vector<MethodEntry> all = {
-      {Method::classic, "classic", "sign of F at the node", "F"},
-      {Method::half_step, "half_step", "sign of F half a step ahead in both coordinates", "F'"},
-      {Method::diagonal, "diagonal", "V_i: the longer axis always, the other one with it where V >= 0", "V"},
-      {Method::extra_points, "extra_points", "signs of F at two points beside the neighbours", "M1"},
-      {Method::octant_midpoint, "octant_midpoint", "sign of F at one point, by octants", "M1"},
-      {Method::dda, "dda", "overflow of registers that begin at 0", "Jx"},
-      {Method::dda_preloaded, "dda_preloaded", "overflow of registers that begin half full", "Jx"},
-      {Method::dda_sequential, "dda_sequential", "circle by two registers, one after the other", "Jx"},
-      {Method::dda_simultaneous, "dda_simultaneous", "circle by two registers at once: a spiral", "Jx"},
-      {Method::progression, "progression", "sums of constant or evenly growing increments", "S"},
-      {Method::chords, "chords", "chords within a tolerance, each by diagonal", "V"},
-      {Method::newton, "newton", "Newton's forward differences in fixed point", "d0"},
-      {Method::crossing, "crossing", "the axis whose next half-crossing comes first", "F'"},
-      {Method::ptp, "ptp", "point to point: each axis at its own rate", "i"},
-      {Method::printed_difference, "printed_difference", "as printed: sign of F(i,j+1) - F(i+1,j)", "D"},
-      {Method::printed_half_step, "printed_half_step", "as printed: eq. 7 in the place of F'", "D"},
-      {Method::magnitudes, "magnitudes", "sign of |F(i,j+1)| - |F(i+1,j)|: the nearer neighbour", "D"},
-  };
-  return all;
-}
+std::span<const MethodEntry> methods() { return kTaught; }
 
-std::optional<Method> method_of(std::string_view name) {
-  for (const MethodEntry& m : methods())
-    if (m.name == name) return m.method;
-  return {};
-}
+std::optional<Method> method_of(std::string_view name) { return machine::kStepMethods.find(name); }
 
-const MethodEntry& entry_of(Method method) { return methods()[static_cast<std::size_t>(method)]; }
+const MethodEntry& entry_of(Method method) { return kTaught[kPlaceOf[static_cast<std::size_t>(method)]]; }
 
 std::int64_t most_steps(const Curve& curve) {
   if (std::holds_alternative<LineCurve>(curve)) return kMostLine;
@@ -239,25 +249,38 @@ std::int64_t most_steps(const Curve& curve) {
   return kMostPlane;
 }
 
-bool knows(Method method, const Curve& curve) {
-  if (const auto* line = std::get_if<LineCurve>(&curve)) {
-    const bool plane = line->axes == 2;
-    switch (method) {
-      case Method::extra_points:
-      case Method::printed_difference:
-      case Method::magnitudes:
-        return plane;
-      case Method::octant_midpoint:
-      case Method::dda_sequential:
-      case Method::dda_simultaneous:
-      case Method::chords:
-      case Method::newton:
-      case Method::printed_half_step:
-        return false;
-      default:
-        return true;
-    }
+namespace {
+
+bool follows_line(Method method, bool plane) {
+  switch (method) {
+    case Method::crossing:
+    case Method::classic:
+    case Method::half_step:
+    case Method::diagonal:
+    case Method::dda:
+    case Method::dda_preloaded:
+    case Method::progression:
+    case Method::ptp:
+      return true;
+    case Method::extra_points:
+    case Method::printed_difference:
+    case Method::magnitudes:
+      return plane;
+    case Method::octant_midpoint:
+    case Method::dda_sequential:
+    case Method::dda_simultaneous:
+    case Method::chords:
+    case Method::newton:
+    case Method::printed_half_step:
+      return false;
   }
+  return false;
+}
+
+}  // namespace
+
+bool knows(Method method, const Curve& curve) {
+  if (const auto* line = std::get_if<LineCurve>(&curve)) return follows_line(method, line->axes == 2);
   const bool rule = method == Method::classic || method == Method::half_step ||
                     method == Method::extra_points || method == Method::crossing;
   if (std::holds_alternative<ArcCurve>(curve))

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -9,38 +10,23 @@
 #include "emulator/interpolator/lattice/line_kernels.h"
 #include "emulator/interpolator/lattice/newton.h"
 #include "emulator/interpolator/lattice/slot.h"
+#include "machine/step_method.h"
 
 /// One door to all interpolators of paper 002: a curve and a method make a Stepper.
 namespace kadr::emulator::lattice {
 
-enum class Method : std::uint8_t {
-  classic,
-  half_step,
-  diagonal,
-  extra_points,
-  octant_midpoint,
-  dda,
-  dda_preloaded,
-  dda_sequential,
-  dda_simultaneous,
-  progression,
-  chords,
-  newton,
-  crossing,
-  ptp,
-  printed_difference,
-  printed_half_step,
-  magnitudes,
-};
+/// One enumeration for machines and laboratory; words and meanings: machine::kStepMethods.
+using Method = machine::StepMethod;
 
 struct MethodEntry {
   Method method;
-  std::string_view name;
-  std::string_view meaning;
   std::string_view tested;  ///< what Slot::tested is: "G", "N", "V"
+
+  std::string_view name() const { return machine::kStepMethods.word(method); }
+  std::string_view meaning() const { return machine::kStepMethods.sentence(method); }
 };
-/// In the order of the enumeration.
-const std::vector<MethodEntry>& methods();
+/// Every method once, in the order of teaching; sweeps draw from it in this order.
+std::span<const MethodEntry> methods();
 std::optional<Method> method_of(std::string_view name);
 const MethodEntry& entry_of(Method method);
 

@@ -18,8 +18,8 @@ using Key = ToleranceKey;
 std::int64_t whole(std::int64_t v) { return v; }
 
 std::string_view limit_word(std::int64_t number) {
-  if (number < 0 || number > static_cast<std::int64_t>(LimitedBy::limiter)) return "unknown";
-  return limited_by_name(static_cast<LimitedBy>(number));
+  const auto reason = kLimitedBy.at(number);
+  return reason ? kLimitedBy.word(*reason) : "unknown";
 }
 
 // a new field of KADR_TICKS is one line here, in tick_fields or in axis_fields
@@ -67,7 +67,8 @@ constexpr std::array kAxisFields = {
 constexpr std::array kEventFields = {
     LogField<EventRecord>{"tick", Unit::none,
                           [](const EventRecord& e) -> FieldValue { return e.tick.value; }},
-    LogField<EventRecord>{"kind", Unit::none, [](const EventRecord& e) -> FieldValue { return e.kind; }},
+    LogField<EventRecord>{"kind", Unit::none,
+                          [](const EventRecord& e) -> FieldValue { return e.kind.text(); }},
     LogField<EventRecord>{
         "code", Unit::none,
         [](const EventRecord& e) -> FieldValue { return e.code == Code{} ? "" : code_name(e.code); }},
@@ -136,7 +137,8 @@ constexpr std::array kDiagnosticFields = {
 
 // peaks and means follow from the ticks: they are not compared again
 constexpr std::array kSummaryFields = {
-    LogField<RunSummary>{"outcome", Unit::none, [](const RunSummary& s) -> FieldValue { return s.outcome; }},
+    LogField<RunSummary>{"outcome", Unit::none,
+                         [](const RunSummary& s) -> FieldValue { return s.outcome.text(); }},
     LogField<RunSummary>{"tick", Unit::none, [](const RunSummary& s) -> FieldValue { return s.ticks.value; }},
     LogField<RunSummary>{"blocks", Unit::none,
                          [](const RunSummary& s) -> FieldValue { return whole(s.blocks); }},
@@ -194,12 +196,6 @@ std::string_view channel_name(DiffChannel channel) {
       return kSummaryChannel;
   }
   return "";
-}
-
-std::string_view tolerance_name(ToleranceKey key) {
-  constexpr std::array<std::string_view, kToleranceKeys + 1> kNames = {
-      "base", "link", "base_rate", "link_rate", "force", "feed", ""};
-  return kNames[static_cast<std::size_t>(key)];
 }
 
 bool same_value(const FieldValue& a, const FieldValue& b) {

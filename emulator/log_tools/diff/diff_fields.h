@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "emulator/log/log_reader.h"
+#include "machine/base/vocabulary.h"
 
 /// What of a log is compared: one table per kind of record, one line per field.
 namespace kadr::emulator {
@@ -32,7 +33,16 @@ enum class FieldUnit : std::uint8_t { none, path, path_speed, path_accel, axis, 
 /// Plant states and feed may have a tolerance: --tolerance KEY=VALUE.
 enum class ToleranceKey : std::uint8_t { base, link, base_rate, link_rate, force, feed, none };
 inline constexpr std::size_t kToleranceKeys = 6;
-std::string_view tolerance_name(ToleranceKey key);
+inline constexpr Vocabulary<ToleranceKey, kToleranceKeys + 1> kToleranceWords{{
+    {ToleranceKey::base, "base"},
+    {ToleranceKey::link, "link"},
+    {ToleranceKey::base_rate, "base_rate"},
+    {ToleranceKey::link_rate, "link_rate"},
+    {ToleranceKey::force, "force"},
+    {ToleranceKey::feed, "feed"},
+    {ToleranceKey::none, ""},
+}};
+static_assert(kToleranceWords.complete());
 
 template <class Record>
 struct LogField {

@@ -22,9 +22,13 @@ Quantity quantity_of(Key key) {
       return Quantity::position;
     case Key::force:
       return Quantity::force;
-    default:
-      return Quantity::rate;
+    case Key::base_rate:
+    case Key::link_rate:
+    case Key::feed:
+    case Key::none:
+      break;
   }
+  return Quantity::rate;
 }
 
 struct UnitEntry {
@@ -53,9 +57,8 @@ std::string units_of(Quantity quantity) {
 /// The keys that a name stands for.
 std::vector<Key> keys_of(std::string_view name) {
   if (name == "load") return {Key::base, Key::link};
-  for (std::size_t k = 0; k < kToleranceKeys; ++k)
-    if (name == tolerance_name(static_cast<Key>(k))) return {static_cast<Key>(k)};
-  return {};
+  const auto key = kToleranceWords.find(name);
+  return key && *key != Key::none ? std::vector{*key} : std::vector<Key>{};
 }
 
 tl::unexpected<std::string> fault(std::string text) { return tl::unexpected<std::string>(std::move(text)); }
@@ -96,7 +99,7 @@ bool in_group(std::string_view text, const KnownField& field) {
   if (text == "load") return field.channel == DiffChannel::load;
   if (text == "feed")
     return field.channel == DiffChannel::command && (field.name == "feed_u_s" || field.name == "accel_u_s2");
-  return field.key != Key::none && text == tolerance_name(field.key);
+  return field.key != Key::none && text == kToleranceWords.word(field.key);
 }
 
 /// "feed_u_s, accel_u_s2, ..." of a channel.
@@ -119,9 +122,8 @@ tl::expected<void, std::string> add_tolerance(Tolerances& tolerances, std::strin
   const std::string_view name = text.substr(0, equals);
   const std::vector<Key> keys = keys_of(name);
   if (keys.empty() || equals == std::string_view::npos)
-    return fault(fmt::format(
-        "takes KEY=VALUE with KEY one of load, base, link, base_rate, link_rate, force, feed; got '{}'",
-        text));
+    return fault(fmt::format("takes KEY=VALUE with KEY one of load, {}; got '{}'",
+                             kToleranceWords.up_to<Key::feed>().list(), text));
   std::string_view value = text.substr(equals + 1);
   const Quantity quantity = quantity_of(keys.front());
   const auto end = value.find_last_of("0123456789.");

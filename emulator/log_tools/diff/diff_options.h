@@ -10,11 +10,17 @@
 #include <tl/expected.hpp>
 
 #include "emulator/log_tools/diff/diff_fields.h"
+#include "machine/base/vocabulary.h"
 
 namespace kadr::emulator {
 
 /// What is put side by side: control ticks of the same number, or places of the same path length.
 enum class DiffAlign : std::uint8_t { tick, path };
+inline constexpr Vocabulary<DiffAlign, 2> kDiffAligns{{
+    {DiffAlign::tick, "tick", "same control tick"},
+    {DiffAlign::path, "path", "same path length, whatever the override"},
+}};
+static_assert(kDiffAligns.complete());
 
 /// Allowed differences, [ToleranceKey]; not given: to the last bit.
 struct Tolerances {

@@ -26,7 +26,7 @@ std::optional<double> difference_of(const FieldValue& a, const FieldValue& b) {
 /// An item in one line, for a log that has it where the other has none.
 struct Describe {
   std::string operator()(const EventRecord& e) const {
-    return e.text.empty() ? e.kind : fmt::format("{}: {}", e.kind, e.text);
+    return e.text.empty() ? e.kind.text() : fmt::format("{}: {}", e.kind.text(), e.text);
   }
   std::string operator()(const BlockRecord& b) const { return fmt::format("block {}: {}", b.block, b.text); }
   std::string operator()(const LogDiagnostic& d) const { return fmt::format("{}: {}", d.code, d.message); }
@@ -147,7 +147,7 @@ ChannelMask FrameCompare::compare(const LogFrame& a, const LogFrame& b, std::vec
 }
 
 bool FrameCompare::within_tolerance(const EventRecord& a, const EventRecord& b) const {
-  if (a.kind != "residual" || b.kind != "residual") return false;
+  if (a.kind != EventKind::residual || b.kind != EventKind::residual) return false;
   if (options_.ignores(DiffChannel::load, "link_u")) return true;
   for (const AxisPair& axis : axes_)
     if (a.axis == static_cast<int>(axis.a) && b.axis == static_cast<int>(axis.b)) {

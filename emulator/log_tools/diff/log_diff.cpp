@@ -184,11 +184,11 @@ class TickDiff {
       if (e == nullptr) continue;
       const std::string text =
           fmt::format("base tick {} ({:.6f} s): {}{}", grouped(e->tick.value),
-                      result_.a.header.seconds(e->tick), e->text.empty() ? e->kind : e->text,
+                      result_.a.header.seconds(e->tick), e->text.empty() ? e->kind.text() : e->text,
                       e->span.line > 0 ? ", " + place_of(result_.a.header, e->span.line).name() : "");
       // what the operator or the scenario does has no place in the program
-      const bool found_by_kadr = e->kind == "alarm" || e->kind == "residual";
-      if (e->kind == "input" || (e->span.line == 0 && !found_by_kadr))
+      const bool found_by_kadr = e->kind == EventKind::alarm || e->kind == EventKind::residual;
+      if (e->kind == EventKind::input || (e->span.line == 0 && !found_by_kadr))
         input_ = text;
       else
         event_ = text;

@@ -14,9 +14,7 @@ namespace {
 
 /// What the program does at a place of its path, under any override: the kinds of its events.
 bool is_program_event(const EventRecord& e) {
-  constexpr std::array<std::string_view, 11> kKinds = {
-      "dwell", "spindle", "sync", "coolant", "tool", "lock", "output", "wait", "probe", "message", "stop"};
-  return e.span.line > 0 && std::find(kKinds.begin(), kKinds.end(), e.kind) != kKinds.end();
+  return e.span.line > 0 && e.kind.value() && is_of_program(*e.kind.value());
 }
 
 class PathCompare {
@@ -125,8 +123,8 @@ class PathCompare {
       return;
     const auto text = [](const EventRecord* e) {
       if (e == nullptr) return std::string("-");
-      return fmt::format("{} {}, line {}, behind block {}", e->kind, number_text(e->value), e->span.line,
-                         e->block);
+      return fmt::format("{} {}, line {}, behind block {}", e->kind.text(), number_text(e->value),
+                         e->span.line, e->block);
     };
     const LogHeader& header = a ? result_.a.header : result_.b.header;
     result_.event = {std::max<std::int64_t>(result_.events, 1), place_of(header, (a ? a : b)->span.line),

@@ -15,9 +15,9 @@ constexpr std::size_t kTextWidth = 64;
 constexpr int kPathDecimals = 3;
 
 std::string reason(const FeedPoint& p) {
-  const bool known = p.limited_by >= 0 && p.limited_by <= static_cast<int>(LimitedBy::stop);
+  const auto reason = kLimitedBy.at(p.limited_by);
   return fmt::format("override {:.4g} %, limited by {}", 100 * p.override_used,
-                     known ? limited_by_name(static_cast<LimitedBy>(p.limited_by)) : "unknown");
+                     reason ? kLimitedBy.word(*reason) : "unknown");
 }
 
 std::string place_text(const std::shared_ptr<const BlockRecord>& block, const LogHeader& header) {

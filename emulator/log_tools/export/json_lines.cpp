@@ -50,7 +50,7 @@ Json json_of(const BlockRecord& b, const LogHeader& h) {
 
 Json json_of(const EventRecord& e, const LogHeader& h) {
   Json j = {{"channel", "KADR_EVENT"}, {"tick", e.tick.value}, {"t_s", h.seconds(e.tick)},
-            {"block", e.block},        {"line", e.span.line},  {"kind", e.kind}};
+            {"block", e.block},        {"line", e.span.line},  {"kind", e.kind.text()}};
   j["code"] = static_cast<int>(e.code) == 0 ? Json(nullptr) : Json(code_name(e.code));
   j["axis"] = axis_json(e.axis, h);
   j["value"] = e.value;
@@ -81,7 +81,7 @@ Json json_of(const LogSummary& s, const LogHeader& h) {
   Json j = {{"channel", "KADR_SUMMARY"},
             {"tick", r.ticks.value},
             {"t_s", h.seconds(r.ticks)},
-            {"outcome", r.outcome},
+            {"outcome", r.outcome.text()},
             {"path_u", r.path_u},
             {"motion_s", r.motion_s},
             {"dwell_s", r.dwell_s},

@@ -39,30 +39,6 @@ class Table {
   }
 };
 
-/// Why the percent asked for is not in force.
-std::string_view override_note_name(OverrideNote note) {
-  switch (note) {
-    case OverrideNote::none:
-      return "in force";
-    case OverrideNote::deferred:
-      return "deferred: braking";
-    case OverrideNote::locked:
-      return "locked";
-    case OverrideNote::limited:
-      return "axis limiter";
-  }
-  return "unknown";
-}
-
-/// Names of 0, 1 ... as far as there are any.
-template <class Enum>
-std::vector<std::string> words_of(std::string_view (*name)(Enum)) {
-  std::vector<std::string> words;
-  for (int i = 0; name(static_cast<Enum>(i)) != "unknown"; ++i)
-    words.emplace_back(name(static_cast<Enum>(i)));
-  return words;
-}
-
 void add_feed(Table& table, const std::string& unit, bool has_override) {
   table.real("feed.commanded", unit + "/s", [](const TickContext& c) { return c.ticks().feed_u_s[c.at()]; });
   table.real("feed.programmed", unit + "/s", [](const TickContext& c) {
@@ -78,10 +54,10 @@ void add_feed(Table& table, const std::string& unit, bool has_override) {
     table.real("feed.override_requested", "%",
                [](const TickContext& c) { return 100 * c.ticks().override_requested[c.at()]; });
     table.real("feed.limiter", "%", [](const TickContext& c) { return 100 * c.ticks().limiter[c.at()]; });
-    table.code("feed.override_note", words_of(override_note_name),
+    table.code("feed.override_note", kOverrideNotes.strings(),
                [](const TickContext& c) { return double(c.ticks().override_note[c.at()]); });
   }
-  table.code("feed.limited_by", words_of(limited_by_name),
+  table.code("feed.limited_by", kLimitedBy.strings(),
              [](const TickContext& c) { return double(c.ticks().limited_by[c.at()]); });
   table.whole("feed.block", [](const TickContext& c) { return double(c.ticks().block[c.at()]); });
   table.whole("feed.line", [](const TickContext& c) {

@@ -144,7 +144,8 @@ class Dump {
     set(at, braking, ticks.accel_u_s2[i] < 0);
     set(at, hold, ticks.limited_by[i] == static_cast<std::int8_t>(LimitedBy::hold));
     for (const LogItem& item : sample.frame->items)
-      if (const auto* event = std::get_if<EventRecord>(&item); event != nullptr && event->kind == "alarm")
+      if (const auto* event = std::get_if<EventRecord>(&item);
+          event != nullptr && event->kind == EventKind::alarm)
         set(at, alarm, true);
     for (std::size_t k = 0; k < sample.value.size(); ++k) {
       const double value = sample.value[k];

@@ -151,7 +151,7 @@ std::string render_comparison(const std::vector<ComparedRun>& runs) {
   for (std::size_t k = 0; k < runs.size(); ++k)
     out += fmt::format("{}  {}   {} on {}, {}\n", letter(k), runs[k].path,
                        one_line(runs[k].data.header.program_name, 40),
-                       one_line(runs[k].data.header.machine_name, 40), summary(runs[k]).outcome);
+                       one_line(runs[k].data.header.machine_name, 40), summary(runs[k]).outcome.text());
   out += compared_note(runs);
   std::vector<TextTable::Column> columns = {{"", TextTable::Align::left}};
   for (std::size_t k = 0; k < runs.size(); ++k) columns.push_back({letter(k)});
@@ -179,7 +179,7 @@ Json json_of(const std::vector<ComparedRun>& runs) {
     Json j = {{"file", runs[k].path},
               {"program", runs[k].data.header.program_name},
               {"machine", runs[k].data.header.machine_name},
-              {"outcome", summary(runs[k]).outcome},
+              {"outcome", summary(runs[k]).outcome.text()},
               {"unit", path_unit(runs[k].data.header)},
               {"steps_hash", hash_text(summary(runs[k]).steps_hash)},
               {"program_hash", hash_text(runs[k].data.header.program_hash)}};

@@ -70,7 +70,7 @@ std::vector<Stretch> stretches_of_interest(const PageData& data, std::int64_t mo
                        ticks_s);
   };
   for (const EventRecord& e : data.events)
-    if (e.kind == "alarm" && !round_tick(e.tick)) return chooser.take();
+    if (e.kind == EventKind::alarm && !round_tick(e.tick)) return chooser.take();
   for (const LogDiagnostic& d : data.diagnostics)
     if (d.severity != Severity::note && !round_tick(d.tick)) return chooser.take();
   for (const Track& track : data.tracks) {
@@ -81,7 +81,7 @@ std::vector<Stretch> stretches_of_interest(const PageData& data, std::int64_t mo
     if (!chooser.add(middle - length / 2, length)) return chooser.take();
   }
   for (const EventRecord& e : data.events)
-    if (e.kind != "alarm" && !round_tick(e.tick)) return chooser.take();
+    if (e.kind != EventKind::alarm && !round_tick(e.tick)) return chooser.take();
   return chooser.take();
 }
 

@@ -63,7 +63,7 @@ class Gatherer {
                             b.planned_peak_u_s, b.limited_by, b.motion, b.text});
   }
   void operator()(const EventRecord& e) {
-    if (e.kind == "alarm" ? alarms_++ < kMostEvents : data_.events.size() < kMostEvents)
+    if (e.kind == EventKind::alarm ? alarms_++ < kMostEvents : data_.events.size() < kMostEvents)
       data_.events.push_back(e);
     else
       ++data_.events_left_out;

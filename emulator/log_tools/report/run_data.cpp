@@ -36,8 +36,7 @@ namespace {
 
 Json limited_by_names() {
   Json names = Json::array();
-  for (int reason = 0; reason <= static_cast<int>(LimitedBy::limiter); ++reason)
-    names.push_back(limited_by_name(static_cast<LimitedBy>(reason)));
+  for (const auto& reason : kLimitedBy) names.push_back(reason.word);
   return names;
 }
 
@@ -74,8 +73,10 @@ Json block_columns(const PageData& data) {
 Json events_json(const PageData& data) {
   Json out = Json::array();
   for (const EventRecord& e : data.events)
-    out.push_back(
-        {{"t_s", data.header.seconds(e.tick)}, {"line", e.span.line}, {"kind", e.kind}, {"text", e.text}});
+    out.push_back({{"t_s", data.header.seconds(e.tick)},
+                   {"line", e.span.line},
+                   {"kind", e.kind.text()},
+                   {"text", e.text}});
   return out;
 }
 

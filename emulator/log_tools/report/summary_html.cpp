@@ -76,7 +76,7 @@ class Summary {
 
   std::string run() const {
     const std::string unit = path_unit(h_);
-    std::string rows = row_html({word("outcome"), word(s().outcome)});
+    std::string rows = row_html({word("outcome"), word(s().outcome.text())});
     rows += row_html({word("time"), number(h_.seconds(s().ticks), 3, "s")}, " id=\"total-time\"");
     rows += row_html({word("in motion"), number(s().motion_s, 3, "s")});
     rows += row_html({word("standing"), number(s().dwell_s, 3, "s")});
@@ -230,7 +230,7 @@ class Summary {
     };
     diagnostics(Severity::error, "error");
     for (const EventRecord& e : d_.events)
-      if (e.kind == "alarm") add("alarm", e.tick, e.span, code_name(e.code), e.text);
+      if (e.kind == EventKind::alarm) add("alarm", e.tick, e.span, code_name(e.code), e.text);
     diagnostics(Severity::warning, "warning");
     diagnostics(Severity::note, "note");
     if (all == 0) return "<p id=\"no-alarms\" class=\"w\">No alarms, no messages.</p>\n";

@@ -42,6 +42,9 @@ std::vector<Bezier> chain;  // curves end to end
 std::optional<planner::ArcLength> arc;
 int arc_of = -1;
 
+/// The page numbers the methods as methods() lists them.
+lattice::Method method_at(int i) { return lattice::methods()[static_cast<std::size_t>(i)].method; }
+
 void put_row(const StepRow& row, bool last, double reached_at_t, std::size_t i) {
   const lattice::Curve& curve = subject.legs.front();
   const Place foot = nearest_place(curve, row.node, reached_at_t);
@@ -107,17 +110,17 @@ KADR_EXPORT(legs) int kadr_legs() { return static_cast<int>(subject.legs.size())
 
 KADR_EXPORT(method_count) int kadr_method_count() { return static_cast<int>(lattice::methods().size()); }
 KADR_EXPORT(method_name) const char* kadr_method_name(int i) {
-  return lattice::methods()[static_cast<std::size_t>(i)].name.data();
+  return lattice::methods()[static_cast<std::size_t>(i)].name().data();
 }
 KADR_EXPORT(method_knows) bool kadr_method_knows(int i) {
-  return lattice::knows(static_cast<lattice::Method>(i), subject.legs.front());
+  return lattice::knows(method_at(i), subject.legs.front());
 }
 
 /// Follows the case: 0, a Refusal, or kTooLong.
 KADR_EXPORT(follow) int kadr_follow(int method, int most_slots) {
   TeachOptions options;
   options.most_slots = most_slots;
-  Followed followed = follow(subject, static_cast<lattice::Method>(method), options);
+  Followed followed = follow(subject, method_at(method), options);
   if (followed.refusal != lattice::Refusal::none) return static_cast<int>(followed.refusal);
   if (!followed.complete) return kTooLong;
   table = std::move(followed.table);
@@ -200,7 +203,7 @@ KADR_EXPORT(spacing) bool kadr_spacing(bool crossing, double feed_steps_s) {
 /// Angle and speed by turns.
 KADR_EXPORT(rose) void kadr_rose(int method, int directions, int radius_steps) {
   answer.clear();
-  for (const RosePoint& p : speed_rose(static_cast<lattice::Method>(method), directions, radius_steps)) {
+  for (const RosePoint& p : speed_rose(method_at(method), directions, radius_steps)) {
     answer.push_back(word(p.angle_rad));
     answer.push_back(word(p.speed));
   }

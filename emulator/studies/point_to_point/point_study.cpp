@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "machine/words.h"
 #include "planner/planner.h"
 #include "planner/positioning/positioning.h"
 
@@ -134,7 +135,7 @@ class Study {
                                                                   machine::RapidShape::automatic,
                                                                   q_.omega_uncertainty,
                                                                   0});
-    out_.advice = fmt::format("{}, {:.6f} s: {}", planner::rapid_law_name(rapid.shape),
+    out_.advice = fmt::format("{}, {:.6f} s: {}", machine::kRapidShapes.word(rapid.shape),
                               rapid.law.duration_s(), rapid.reason);
     return std::move(out_);
   }

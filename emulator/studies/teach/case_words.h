@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "emulator/interpolator/lattice/curve.h"
+#include "machine/base/vocabulary.h"
 
 /// What is to be interpolated, as words: `line 7 4`. Shared by `kadr teach` and its page, so nothing here
 /// throws.
@@ -12,6 +13,11 @@ namespace kadr::emulator {
 /// How a path of several lines is followed: the axes together along it, or each at its own rate from node to
 /// node (paper 002: CP and PTP).
 enum class TeachMode : std::uint8_t { continuous, point_to_point };
+inline constexpr Vocabulary<TeachMode, 2> kTeachModes{{
+    {TeachMode::continuous, "cp", "the axes together along the path"},
+    {TeachMode::point_to_point, "ptp", "each axis at its own rate from node to node"},
+}};
+static_assert(kTeachModes.complete());
 
 /// What is to be interpolated: curves end to end, each given from its own beginning. Steps throughout.
 struct TeachCase {

@@ -62,7 +62,9 @@ void name_columns(StepTable& table, const Curve& curve) {
     case Method::ptp:
       table.value_name = table.tested_name = "";
       break;
-    default:
+    case Method::printed_difference:
+    case Method::printed_half_step:
+    case Method::magnitudes:
       break;
   }
 }

@@ -83,9 +83,17 @@ std::vector<TestedPlace> tested_places(const Curve& curve, Method method, PlaneN
     case Method::magnitudes:
     case Method::printed_difference:
       return {{x2 + 2 * s.x, y2}, {x2, y2 + 2 * s.y}};
-    default:
-      return {};
+    case Method::dda:
+    case Method::dda_preloaded:
+    case Method::dda_sequential:
+    case Method::dda_simultaneous:
+    case Method::chords:
+    case Method::ptp:
+    case Method::newton:
+    case Method::printed_half_step:
+      break;
   }
+  return {};
 }
 
 Place nearest_place(const Curve& curve, const lattice::Point& node, double t) {

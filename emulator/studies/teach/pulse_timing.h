@@ -3,6 +3,7 @@
 
 #include "emulator/studies/teach/follow.h"
 #include "machine/base/count.h"
+#include "machine/base/vocabulary.h"
 
 namespace kadr::emulator {
 
@@ -11,6 +12,11 @@ enum class PulseTiming : std::uint8_t {
   uniform,   ///< a clock slot after the other, whatever the direction
   crossing,  ///< where the ideal path, at a constant feed, crosses the middle between two nodes
 };
+inline constexpr Vocabulary<PulseTiming, 2> kPulseTimings{{
+    {PulseTiming::uniform, "uniform", "a slot after the other"},
+    {PulseTiming::crossing, "crossing", "where the path crosses the middle between two nodes"},
+}};
+static_assert(kPulseTimings.complete());
 
 struct TeachPulse {
   Ticks at;

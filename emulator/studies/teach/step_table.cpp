@@ -10,7 +10,7 @@ using lattice::Method;
 using lattice::Refusal;
 
 std::string refusal_text(Refusal refusal, const Curve& curve, Method method, const std::string& kind) {
-  const auto name = lattice::entry_of(method).name;
+  const auto name = lattice::entry_of(method).name();
   switch (refusal) {
     case Refusal::no_length:
       return fmt::format("{}: there is no way to go: both ends are one node", kind);
@@ -26,13 +26,14 @@ std::string refusal_text(Refusal refusal, const Curve& curve, Method method, con
     case Refusal::in_line:
       return fmt::format("{}: the control points are in line, so it is no conic; use --method crossing",
                          kind);
-    default: {
-      std::string known;
-      for (const lattice::MethodEntry& m : lattice::methods())
-        if (lattice::knows(m.method, curve)) known += fmt::format("{}{}", known.empty() ? "" : ", ", m.name);
-      return fmt::format("{} is not followed by {}; methods for it: {}", kind, name, known);
-    }
+    case Refusal::none:
+    case Refusal::other_curve:
+      break;
   }
+  std::string known;
+  for (const lattice::MethodEntry& m : lattice::methods())
+    if (lattice::knows(m.method, curve)) known += fmt::format("{}{}", known.empty() ? "" : ", ", m.name());
+  return fmt::format("{} is not followed by {}; methods for it: {}", kind, name, known);
 }
 
 }  // namespace

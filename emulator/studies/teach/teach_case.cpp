@@ -25,7 +25,9 @@ std::string fault_text(const CaseReading& reading) {
       return fmt::format("parabola: {} is beyond 2^29 steps", word);
     case CaseFault::flat_parabola:
       return "parabola: P is not 0";
-    default:
+    case CaseFault::none:
+    case CaseFault::kind:
+    case CaseFault::count:
       break;
   }
   std::string known;

@@ -93,7 +93,7 @@ std::string render_step_table(const TeachCase& subject, const StepTable& table) 
   add(table.rows.size(), table.last, true);
   const lattice::MethodEntry& method = lattice::entry_of(table.method);
   std::string out =
-      fmt::format("{}, {}: {}; deviation in steps\n", subject.title, method.name, method.meaning);
+      fmt::format("{}, {}: {}; deviation in steps\n", subject.title, method.name(), method.meaning());
   out += text.render();
   out += fmt::format("{} slots, {} pulses, {} slots with several axes, {} idle, {} forced by the end (!)\n",
                      grouped(static_cast<std::int64_t>(table.rows.size())), grouped(table.pulses),
@@ -134,7 +134,7 @@ Json summary_json(const StepTable& table) {
     return std::vector<std::int64_t>(p.begin(), p.begin() + table.axes);
   };
   Json j;
-  j["method"] = lattice::entry_of(table.method).name;
+  j["method"] = lattice::entry_of(table.method).name();
   j["slots"] = table.rows.size();
   j["pulses"] = table.pulses;
   j["slots_with_several_axes"] = table.diagonals;
@@ -191,12 +191,12 @@ std::string render_comparison(const TeachCase& subject, const std::vector<StepTa
   bool few = true;
   std::size_t width = 0;
   for (const StepTable& t : tables) {
-    text.add({std::string(lattice::entry_of(t.method).name),
+    text.add({std::string(lattice::entry_of(t.method).name()),
               grouped(static_cast<std::int64_t>(t.rows.size())), grouped(t.pulses), grouped(t.idle),
               grouped(t.forced), fixed(t.worst_steps, 4), fixed(t.rms_steps, 4), square_text(t), hash_text(t),
               t.end_reached ? "reached" : "missed: at " + node_text(t.last.node, t.axes)});
     few = few && t.rows.size() <= kMostMoves;
-    width = std::max(width, lattice::entry_of(t.method).name.size());
+    width = std::max(width, lattice::entry_of(t.method).name().size());
   }
   std::string out =
       fmt::format("{}: path {} steps, end {}; deviations in steps\n", subject.title,
@@ -205,7 +205,7 @@ std::string render_comparison(const TeachCase& subject, const std::vector<StepTa
   if (!few) return out;
   out += "\nmoves (small letters: backwards)\n";
   for (const StepTable& t : tables)
-    out += fmt::format("{}  {}\n", pad_right(lattice::entry_of(t.method).name, width), moves_line(t));
+    out += fmt::format("{}  {}\n", pad_right(lattice::entry_of(t.method).name(), width), moves_line(t));
   return out;
 }
 
@@ -214,8 +214,8 @@ std::string render_comparison_csv(const std::vector<StepTable>& tables) {
       "method,slots,pulses,slots_with_several_axes,idle_slots,forced_slots,largest_deviation_steps,"
       "rms_deviation_steps,larger_axis_deviation_steps,end_reached,steps_hash\n";
   for (const StepTable& t : tables)
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", lattice::entry_of(t.method).name, t.rows.size(),
-                       t.pulses, t.diagonals, t.idle, t.forced, t.worst_steps, t.rms_steps,
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", lattice::entry_of(t.method).name(),
+                       t.rows.size(), t.pulses, t.diagonals, t.idle, t.forced, t.worst_steps, t.rms_steps,
                        t.worst_square_steps < 0 ? std::string() : fmt::format("{}", t.worst_square_steps),
                        t.end_reached ? 1 : 0, hash_text(t));
   return out;

@@ -9,7 +9,7 @@ Json failure_json(const planner::LawFailure& failure) {
 
 Json outcome_json(const MethodOutcome& o, const LawStudy& study, const TimeLawProblem& problem) {
   Json j;
-  j["method"] = method_name(o.method);
+  j["method"] = kLawMethods.word(o.method);
   j["failure"] = o.law ? Json(nullptr) : failure_json(o.law.error());
   if (!o.law) return j;
   j["time_s"] = o.law->time_s;

@@ -45,7 +45,7 @@ std::string render_shares(const LawStudy& study, const TimeLawProblem& problem) 
     const double percent = 100 * static_cast<double>(nodes) / static_cast<double>(problem.law.nodes() - 1);
     add(fmt::format("{} {} %   ", name, fixed(percent, percent < 1 ? 1 : 0)));
   }
-  add(fmt::format("(of nodes, {})", method_name(fastest->method)));
+  add(fmt::format("(of nodes, {})", kLawMethods.word(fastest->method)));
   return out + line + '\n';
 }
 
@@ -178,7 +178,7 @@ std::string render_law_table(const LawStudy& study, bool timing) {
   TextTable table(std::move(columns));
   for (const MethodOutcome& o : study.outcomes) {
     std::vector<std::string> cells(9, "-");
-    cells[0] = method_name(o.method);
+    cells[0] = kLawMethods.word(o.method);
     if (o.law) {
       cells[1] = seconds(o.law->time_s);
       cells[2] = seconds(o.law->cost_s);
@@ -202,12 +202,12 @@ std::string render_law_checks(const LawStudy& study, const TimeLawProblem& probl
                        study.lower_bound_s);
   for (const MethodOutcome& o : study.outcomes) {
     if (!o.law)
-      out += fmt::format("no law   {}: node {}, s = {} mm: {}\n", method_name(o.method), o.law.error().node,
-                         fixed(o.law.error().s_u, 3), o.law.error().reason);
+      out += fmt::format("no law   {}: node {}, s = {} mm: {}\n", kLawMethods.word(o.method),
+                         o.law.error().node, fixed(o.law.error().s_u, 3), o.law.error().reason);
     for (const planner::LawViolation& b : o.check.broken) {
       const LimitText text = limit_text(b, problem);
-      out += fmt::format("broken   {}: {} at s = {} mm is {:.8g} {}, allowed {:.8g}\n", method_name(o.method),
-                         text.what, fixed(b.s_u, 3), b.value, text.unit, b.limit);
+      out += fmt::format("broken   {}: {} at s = {} mm is {:.8g} {}, allowed {:.8g}\n",
+                         kLawMethods.word(o.method), text.what, fixed(b.s_u, 3), b.value, text.unit, b.limit);
     }
   }
   const MethodOutcome* worst = worst_between(study);
@@ -218,7 +218,7 @@ std::string render_law_checks(const LawStudy& study, const TimeLawProblem& probl
   if (worst->check.dense_excess > 0)
     out +=
         fmt::format("between  nodes, where nothing is promised, a limit is exceeded by {} % at most ({})\n",
-                    fixed(100 * worst->check.dense_excess, 4), method_name(worst->method));
+                    fixed(100 * worst->check.dense_excess, 4), kLawMethods.word(worst->method));
   else
     out += "between  nodes, where nothing is promised, every limit is kept as well\n";
   if (problem.law.accel_test == planner::AccelTest::end_node && worst->check.dense_excess > 1e-3)
@@ -234,7 +234,7 @@ void write_law_csv(const LawStudy& study, const TimeLawProblem& problem,
     if (!o.law) continue;
     laws.push_back(&*o.law);
     // a name of columns has no dash
-    std::string name(method_name(o.method));
+    std::string name(kLawMethods.word(o.method));
     std::replace(name.begin(), name.end(), '-', '_');
     out += fmt::format(",{0}_mm_s,{0}_t_s", name);
   }

@@ -103,18 +103,10 @@ void measure(const TimeLawProblem& problem, std::uint32_t inner_points, MethodOu
 
 }  // namespace
 
-std::string_view method_name(LawMethod method) { return kLawMethods[static_cast<std::size_t>(method)]; }
-
-std::optional<LawMethod> method_of(std::string_view name) {
-  const auto found = std::find(kLawMethods.begin(), kLawMethods.end(), name);
-  if (found == kLawMethods.end()) return {};
-  return static_cast<LawMethod>(found - kLawMethods.begin());
-}
-
 std::vector<LawMethod> methods_of(const TimeLawProblem& problem) {
   std::vector<LawMethod> all;
-  for (std::size_t i = 0; i < kLawMethods.size(); ++i) all.push_back(static_cast<LawMethod>(i));
-  if (!problem.jerk_mm_s3) all.pop_back();
+  for (const auto& method : kLawMethods)
+    if (method.value != LawMethod::jerk_limited || problem.jerk_mm_s3) all.push_back(method.value);
   return all;
 }
 
@@ -147,7 +139,7 @@ std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::v
       continue;
     }
     Diagnostic d = machine::file_diagnostic(Code::problem_too_large, problem.size_span,
-                                            fmt::format("method {} {}", method_name(method), measured));
+                                            fmt::format("method {} {}", kLawMethods.word(method), measured));
     d.notes.push_back("allowed: " + allowed);
     d.help = "take fewer nodes or levels, or name other methods with --method";
     return d;

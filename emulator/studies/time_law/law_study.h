@@ -1,18 +1,23 @@
 #pragma once
-#include <array>
 #include <functional>
 #include <string_view>
 #include <vector>
 
 #include "emulator/studies/time_law/problem.h"
+#include "machine/base/vocabulary.h"
 
 namespace kadr::emulator {
 
 enum class LawMethod : std::uint8_t { classical, tube, greedy, optimum, certified, jerk_limited };
-inline constexpr std::array<std::string_view, 6> kLawMethods = {"classical", "tube",      "greedy",
-                                                                "optimum",   "certified", "jerk-limited"};
-std::string_view method_name(LawMethod method);
-std::optional<LawMethod> method_of(std::string_view name);
+inline constexpr Vocabulary<LawMethod, 6> kLawMethods{{
+    {LawMethod::classical, "classical", "one dynamic programme over all speeds of each node"},
+    {LawMethod::tube, "tube", "the paper's algorithm: dynamic programmes in a tube that narrows"},
+    {LawMethod::greedy, "greedy", "the shortest time, by reachability: one pass back, one forth"},
+    {LawMethod::optimum, "optimum", "the least J, by an interior point method, with the proof"},
+    {LawMethod::certified, "certified", "the greedy law, polished for J in a narrow tube, with the proof"},
+    {LawMethod::jerk_limited, "jerk-limited", "the least J with the jerk along the path limited"},
+}};
+static_assert(kLawMethods.complete());
 /// All that the problem states: jerk-limited needs a limit.
 std::vector<LawMethod> methods_of(const TimeLawProblem& problem);
 

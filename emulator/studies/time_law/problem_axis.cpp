@@ -21,7 +21,7 @@ constexpr Bounds kTurns{0, 1e5};
 constexpr Bounds kPhase{-1e3, 1e3};
 constexpr std::size_t kMostTerms = 64;  ///< waves, or steps, of an axis
 constexpr std::size_t kMostNameLength = 32;
-constexpr const char* kUnits[] = {"deg", "mm", "rad"};
+constexpr std::string_view kUnits[] = {"deg", "mm", "rad"};
 
 class AxisReader {
  public:
@@ -76,8 +76,8 @@ class AxisReader {
     const bool rotary = model && model->kind == machine::AxisKind::rotary;
     std::optional<std::size_t> otherwise;
     if (model) otherwise = rotary ? 0 : 1;
-    const auto chosen = keys.choice("unit", {"deg", "mm", "rad"}, otherwise);
-    std::string unit = kUnits[chosen.value];
+    const auto chosen = keys.word("unit", kUnits, otherwise);
+    std::string unit(kUnits[chosen.value]);
     if (model && rotary == (unit == "mm"))
       tell(Code::problem_program, chosen.span,
            fmt::format("is {}, axis {} of machine {} is {}", unit, model->letter, machine_->name,

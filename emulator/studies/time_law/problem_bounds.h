@@ -13,7 +13,7 @@ inline constexpr machine::Bounds kLength{1e-3, 1e9};
 
 /// Key `ends` of [path]: what a spline does there.
 inline planner::SplineEnds read_spline_ends(machine::TableReader& keys) {
-  return static_cast<planner::SplineEnds>(keys.choice("ends", {"not-a-knot", "natural", "clamped"}, 0).value);
+  return keys.choice("ends", planner::kSplineEnds, planner::SplineEnds::not_a_knot).value;
 }
 
 }  // namespace kadr::emulator

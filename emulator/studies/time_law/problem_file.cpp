@@ -116,8 +116,7 @@ class ProblemReader {
     end_ = keys.number("end_mm_s", kEndSpeed, 0.0);
     law.begin_u_s = begin_.value;
     law.end_u_s = end_.value;
-    law.accel_test =
-        static_cast<planner::AccelTest>(keys.choice("accel_test", {"end_node", "both_nodes"}, 1).value);
+    law.accel_test = keys.choice("accel_test", planner::kAccelTests, planner::AccelTest::both_nodes).value;
     keys.finish();
     path_span_ = keys.header();
   }
@@ -178,7 +177,7 @@ class ProblemReader {
     if (!node) return;
     TableReader keys(node, "tube", node->span, context_);
     planner::TubeOptions& tube = out_.tube;
-    tube.grid = static_cast<planner::TubeGrid>(keys.choice("grid", {"uniform", "nominal-kept"}, 0).value);
+    tube.grid = keys.choice("grid", planner::kTubeGrids, planner::TubeGrid::uniform).value;
     // two pieces that meet at a level have three
     const double least = tube.grid == planner::TubeGrid::nominal_kept ? 3 : 2;
     tube.levels =

@@ -50,7 +50,8 @@ void ProgramProblem::read_path(TableReader& keys) {
   if (from_line_ && to_line_ && to_line_->value < from_line_->value)
     tell(Code::problem_program, to_line_->span, fmt::format("is line {:.0f}", to_line_->value),
          fmt::format("{:.0f} and more, the path.from_line", from_line_->value));
-  spline_ = keys.choice("fit", {"exact", "spline"}, 0).value == 1;
+  constexpr std::string_view kFits[] = {"exact", "spline"};
+  spline_ = kFits[keys.word("fit", kFits, 0).value] == "spline";
   if (spline_) {
     tolerance_ = keys.number("tolerance_mm", kTolerance);
     ends_ = read_spline_ends(keys);

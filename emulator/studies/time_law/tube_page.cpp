@@ -192,8 +192,8 @@ class Page {
       rows.push_back({fixed(p_.law.s_u[i], 1), fixed(caps_[i].speed_u_s, 2)});
     for (const MethodOutcome* o : found()) {
       chart.lines.push_back(
-          {std::string(method_name(o->method)), style(o->method), over_path(o->law->speed_u_s), 1});
-      rows[0].emplace_back(method_name(o->method));
+          {std::string(kLawMethods.word(o->method)), style(o->method), over_path(o->law->speed_u_s), 1});
+      rows[0].emplace_back(kLawMethods.word(o->method));
       std::size_t row = 0;
       for (const std::size_t i : table_nodes()) rows[++row].push_back(fixed(o->law->speed_u_s[i], 2));
     }
@@ -209,7 +209,7 @@ class Page {
     chart.description = "Speed along the path over time, of every method.";
     double longest_s = 0;
     for (const MethodOutcome* o : found()) {
-      chart.lines.push_back({fmt::format("{}, {} s", method_name(o->method), fixed(o->law->time_s, 4)),
+      chart.lines.push_back({fmt::format("{}, {} s", kLawMethods.word(o->method), fixed(o->law->time_s, 4)),
                              style(o->method), over_time(*o->law), 1});
       longest_s = std::max(longest_s, o->law->time_s);
     }
@@ -221,7 +221,7 @@ class Page {
       for (const ChartLine& line : chart.lines)
         rows.back().push_back(t <= line.points.back().x ? fixed(value_at(line.points, t), 2) : "");
     }
-    for (const MethodOutcome* o : found()) rows[0].emplace_back(method_name(o->method));
+    for (const MethodOutcome* o : found()) rows[0].emplace_back(kLawMethods.word(o->method));
     return fmt::format("<h2>Speed over time</h2>\n{}{}", render_svg(chart),
                        folded_table("Speed in mm/s over time", rows));
   }
@@ -247,7 +247,7 @@ class Page {
     std::vector<std::vector<std::string>> rows{{"method", "T, s", "J, s", "gap, %", "relative energy",
                                                 "rms jerk", "peak jerk", "at nodes, %", "between, %"}};
     for (const MethodOutcome& o : study_.outcomes) {
-      rows.push_back({std::string(method_name(o.method))});
+      rows.push_back({std::string(kLawMethods.word(o.method))});
       if (!o.law) {
         rows.back().push_back("no law");
         continue;
@@ -299,7 +299,7 @@ class Page {
   }
 
   static std::string style(LawMethod method) {
-    return method == LawMethod::tube ? "tube-law" : std::string(method_name(method));
+    return method == LawMethod::tube ? "tube-law" : std::string(kLawMethods.word(method));
   }
 
   const LawStudy& study_;

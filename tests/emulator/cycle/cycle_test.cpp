@@ -18,7 +18,7 @@ TEST_CASE("a line of 100 mm at 100 mm/s takes 1100 control ticks and 50000 pulse
   // ramp 0 -> 100 mm/s with a 2000, j 40000: 0.1 s and 5 mm; 90 mm at 100 mm/s: 0.9 s; ramp down 0.1 s
   RunResult r;
   run_program(r, "G1 X100 F6000\nM2\n", test_machine(1));
-  CHECK(r.summary.outcome == "complete");
+  CHECK(r.summary.outcome == emulator::Outcome::complete);
   CHECK(r.summary.control_ticks.value == 1100);
   CHECK(r.summary.axis[0].pulses == 50000);
   CHECK(r.summary.axis[0].end_steps == Steps{50000});
@@ -170,7 +170,7 @@ TEST_CASE("an alarm ends the run where the machine file says so") {
   m.on_alarm = machine::OnAlarm::stop;
   RunResult r;
   run_program(r, "G1 X60 F6000\nX0\nM2\n", m);
-  CHECK(r.summary.outcome == "alarm");
+  CHECK(r.summary.outcome == emulator::Outcome::alarm);
   CHECK(r.summary.axis[0].end_u < 50.2);
   CHECK(r.log.ended);
 }
@@ -206,7 +206,7 @@ TEST_CASE("a signal ends the run after the control tick with outcome interrupted
   options.progress = [&](double, std::uint32_t, double) { interrupt = true; };
   RunResult r;
   run_program(r, "G1 X500 F6000\nM2\n", test_machine(1), options);
-  CHECK(r.summary.outcome == "interrupted");
+  CHECK(r.summary.outcome == emulator::Outcome::interrupted);
   CHECK(r.summary.control_ticks.value == 1000);
   CHECK(r.log.ended);
 }

@@ -301,11 +301,11 @@ TEST_CASE("lattice: every method has a name of its own, and knows() says what ma
                                      lattice::ellipse(5, 3),
                                      lattice::BezierCurve{2, 2, {{{0, 0}, {4, 0}, {4, 4}}}}};
   for (const lattice::MethodEntry& m : lattice::methods()) {
-    CHECK(lattice::method_of(m.name) == m.method);
+    CHECK(lattice::method_of(m.name()) == m.method);
     CHECK(&lattice::entry_of(m.method) == &m);
     for (const Curve& c : curves) {
       const lattice::Made made = lattice::make_stepper(c, m.method);
-      CAPTURE(m.name);
+      CAPTURE(m.name());
       CHECK((made.refusal == lattice::Refusal::other_curve) == !lattice::knows(m.method, c));
       CHECK((made.stepper != nullptr) == lattice::knows(m.method, c));
     }

@@ -12,7 +12,7 @@ using test::TestFolder;
 
 namespace {
 
-struct Outcome {
+struct ReadResult {
   bool opened = false;
   LogReadFault fault{};
   std::string reason;
@@ -20,8 +20,8 @@ struct Outcome {
   std::int64_t messages = 0;
 };
 
-Outcome read_all(const std::string& path) {
-  Outcome o;
+ReadResult read_all(const std::string& path) {
+  ReadResult o;
   auto reader = LogReader::open(path);
   if (!reader) {
     o.fault = reader.error().fault;
@@ -54,7 +54,7 @@ TEST_CASE("a log cut at any byte is read up to its last whole event and says tha
   REQUIRE(ends.size() > 10);
   for (std::size_t cut = 0; cut < bytes.size(); ++cut) {
     test::write_bytes(folder / "cut", {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(cut)});
-    const Outcome o = read_all(folder / "cut");
+    const ReadResult o = read_all(folder / "cut");
     CAPTURE(cut);
     const auto at = static_cast<std::int64_t>(cut);
     const auto whole = std::upper_bound(ends.begin(), ends.end(), at) - ends.begin() - 1;
@@ -144,7 +144,7 @@ TEST_CASE("lengths of two gigabytes in a small file are not believed") {
     auto harmed = bytes;
     for (std::size_t i = 0; i < 4; ++i) harmed[at + i] = i == 0 ? 0x7f : 0xff;
     test::write_bytes(folder / "b", harmed);
-    const Outcome o = read_all(folder / "b");
+    const ReadResult o = read_all(folder / "b");
     CHECK((!o.opened || o.end.state == LogState::cut_off));
   }
   for (std::size_t e = 1; e + 1 < ends.size(); ++e)
@@ -200,7 +200,7 @@ TEST_CASE("bytes behind the summary make a log damaged, not complete") {
   auto bytes = test::read_bytes(folder / "a");
   bytes.push_back(0);
   test::write_bytes(folder / "b", bytes);
-  const Outcome o = read_all(folder / "b");
+  const ReadResult o = read_all(folder / "b");
   CHECK(o.end.state == LogState::damaged);
   CHECK(o.end.valid_until.value == 330'000);
   CHECK(o.end.valid_bytes == static_cast<std::int64_t>(bytes.size()) - 1);

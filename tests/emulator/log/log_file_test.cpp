@@ -298,7 +298,7 @@ TEST_CASE("the same run gives the same bytes") {
 
 TEST_CASE("an interrupted run stays PATH.part and says so") {
   const TestFolder folder;
-  test::write_log(folder / "a.lcmlog", test::log_machine(1), 90, {}, "interrupted");
+  test::write_log(folder / "a.lcmlog", test::log_machine(1), 90, {}, Outcome::interrupted);
   CHECK_FALSE(std::filesystem::exists(folder / "a.lcmlog"));
   const ReadLog log = read_log(folder / "a.lcmlog.part");
   CHECK(log.end.state == LogState::interrupted);

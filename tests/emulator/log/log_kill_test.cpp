@@ -42,7 +42,7 @@ volatile std::sig_atomic_t interrupted = 0;
   }
   if (done) {
     RunSummary summary = test::log_summary(machine, ticks, run.pulses(), 0);
-    summary.outcome = "interrupted";
+    summary.outcome = emulator::Outcome::interrupted;
     done = (*log)->end(summary);
     ::_exit(done ? kInterruptedExit : kWrongExit);
   }

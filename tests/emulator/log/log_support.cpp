@@ -207,7 +207,7 @@ emulator::RunSummary log_summary(const machine::MachineModel& machine, std::int6
 }
 
 std::int64_t write_log(const std::string& path, const machine::MachineModel& machine,
-                       std::int64_t control_ticks, FakeRunOptions options, const std::string& outcome) {
+                       std::int64_t control_ticks, FakeRunOptions options, emulator::Outcome outcome) {
   const auto check = [](const tl::expected<void, emulator::LogError>& done) {
     if (!done) throw std::runtime_error(done.error().path + ": " + done.error().reason);
   };
@@ -244,7 +244,7 @@ std::int64_t write_log(const std::string& path, const machine::MachineModel& mac
       check((*log)->event({Ticks{k * tau + 9},
                            number,
                            {0, 3, 4, 5},
-                           "alarm",
+                           emulator::EventKind::alarm,
                            all_codes().back().code,
                            1,
                            2.5,

@@ -81,7 +81,7 @@ emulator::RunSummary log_summary(const machine::MachineModel& machine, std::int6
 /// ticks, the summary. @return the pulses written
 std::int64_t write_log(const std::string& path, const machine::MachineModel& machine,
                        std::int64_t control_ticks, FakeRunOptions options = {},
-                       const std::string& outcome = "complete");
+                       emulator::Outcome outcome = emulator::Outcome::complete);
 
 /// A folder of its own for one test case, removed with everything in it.
 class TestFolder {

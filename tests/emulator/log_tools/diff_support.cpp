@@ -34,7 +34,7 @@ emulator::BlockRecord block_record(Ticks tick, std::uint32_t block, std::uint32_
 }  // namespace
 
 void write_changed(const std::string& path, const emulator::RunHeader& header, std::int64_t control_ticks,
-                   const ChangeTick& change, const std::string& outcome) {
+                   const ChangeTick& change, emulator::Outcome outcome) {
   const machine::MachineModel& machine = *header.machine;
   const auto log = open(path);
   check(log->begin(header));
@@ -46,8 +46,15 @@ void write_changed(const std::string& path, const emulator::RunHeader& header, s
     ChangeableTick tick{k, *record.motion, run.batch(), run.states(), {}, {}};
     const auto number = static_cast<std::uint32_t>(k / 100);
     if (k % 250 == 249)
-      tick.events.push_back(
-          {Ticks{k * tau + 9}, number, {0, 0, 0, 0}, "input", Code{}, -1, 1, 0, "digital input 3 = 1"});
+      tick.events.push_back({Ticks{k * tau + 9},
+                             number,
+                             {0, 0, 0, 0},
+                             emulator::EventKind::input,
+                             Code{},
+                             -1,
+                             1,
+                             0,
+                             "digital input 3 = 1"});
     if (k % 100 == 0)
       tick.block =
           block_record(Ticks{k * tau + 7}, number, number % 2 + 1, number % 2 == 0 ? "N10 G1 X10" : "M2");

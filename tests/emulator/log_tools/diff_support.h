@@ -24,7 +24,7 @@ using ChangeTick = std::function<void(ChangeableTick&)>;
 /// Writes a FakeRun with a block every 100 ticks and an event every 250, changed by `change`.
 /// @param header  what stands in KADR_RUN; its machine is used
 void write_changed(const std::string& path, const emulator::RunHeader& header, std::int64_t control_ticks,
-                   const ChangeTick& change = {}, const std::string& outcome = "complete");
+                   const ChangeTick& change = {}, emulator::Outcome outcome = emulator::Outcome::complete);
 
 /// A path of 10 mm in blocks of 1 mm: X = s, Y = s/2, Z = s, steps of 1 um, one crossing after the other.
 struct PathRun {

@@ -65,7 +65,7 @@ TEST_CASE("a log does not differ from itself: whole, interrupted, cut off anywhe
   CHECK(diff.load_peaks.empty());
   for (const ChannelTotals& totals : diff.channels) CHECK(totals.differing == 0);
 
-  write_changed(folder / "i", log_header(machine), kTicks, {}, "interrupted");
+  write_changed(folder / "i", log_header(machine), kTicks, {}, Outcome::interrupted);
   CHECK(!compare(folder / "i.part", folder / "i.part").differ());
 
   const auto bytes = test::read_bytes(whole);
@@ -259,7 +259,7 @@ TEST_CASE("the residual vibration of a stop has the tolerance of the link") {
         tick.events.push_back({Ticks{tick.number * 10'000},
                                3,
                                {0, 0, 0, 0},
-                               "residual",
+                               EventKind::residual,
                                Code{},
                                1,
                                value_u,

@@ -127,13 +127,14 @@ TEST_CASE(
   low[10'000] = -9;
   data.tracks.push_back({{"a", "mm", false}, low, high});
   data.nodes.assign(1, std::vector<std::int32_t>(25'000, 0));
-  const auto event = [](const char* kind, double t_s) {
+  const auto event = [](EventKind kind, double t_s) {
     EventRecord e;
     e.kind = kind;
     e.tick = Ticks{static_cast<std::int64_t>(t_s * 1e7)};
     return e;
   };
-  data.events = {event("override", 20), event("alarm", 70), event("hold", 70.3)};
+  data.events = {event(EventKind::feed_override, 20), event(EventKind::alarm, 70),
+                 event(EventKind::hold, 70.3)};
   const auto starts = [&](std::int64_t most) {
     std::vector<std::int64_t> out;
     for (const Stretch& s : stretches_of_interest(data, most)) {

@@ -77,7 +77,7 @@ TEST_CASE("where a method looks, F is just what its step table says") {
         const bool same = agrees(c.curve, c.method, *f, places, slot);
         if (!same) {
           CAPTURE(n);
-          CAPTURE(lattice::entry_of(c.method).name);
+          CAPTURE(lattice::entry_of(c.method).name());
           CAPTURE(slot.tested);
           REQUIRE(same);
         }

@@ -1,0 +1,67 @@
+#include "machine/file/machine_keys.h"
+
+#include <tuple>
+
+namespace kadr::machine {
+
+namespace {
+
+/// A table of plain keys, of single keys, and of whole tuples of keys, in the order given.
+class Documents {
+ public:
+  Documents& table(std::string header, std::string sentence) {
+    tables_.push_back({std::move(header), std::move(sentence), {}});
+    return *this;
+  }
+  template <class OneKey>
+  Documents& one(const OneKey& key) {
+    tables_.back().keys.push_back(document(key));
+    return *this;
+  }
+  template <class... Keys>
+  Documents& all(const std::tuple<Keys...>& keys) {
+    document_keys(tables_.back(), keys);
+    return *this;
+  }
+  std::vector<TableDocument> take() { return std::move(tables_); }
+
+ private:
+  std::vector<TableDocument> tables_;
+};
+
+}  // namespace
+
+std::vector<TableDocument> machine_keys() {
+  Documents d;
+  d.table("", "in front of all tables").one(kFormat).one(kName).one(kOnAlarm);
+  d.table("[clock]", "the two clocks").one(kRate).one(kControlPeriod);
+  d.table("[path]", "what a path may be").all(kPathKeys);
+  d.table("[feed]", "limits along the path of X Y Z, besides those of each axis").all(kFeedKeys);
+  d.table("[planner]", "how feed is planned").all(kPlannerKeys);
+  d.table("[interpolator]", "how steps are made").one(kInterpolatorMethod);
+  d.table("[override]", "what the operator's override does").all(kOverrideKeys);
+  d.table("[spindle]", "how the feed answers the spindle's load").all(kSpindleKeys);
+  d.table("[plant]", "how the machine's motion is computed").one(kIntegrator).one(kTolerance);
+  d.table("[log]", "what a log keeps").all(kLogKeys).one(kViewerRate);
+  d.table("[stock]", "material that a probe meets; optional")
+      .one(kStockAxis)
+      .one(kStockPosition)
+      .one(kStockBelow);
+  d.table("[[technology]]", "a feed for each change of an output with the motion; optional")
+      .one(kTechnologyOn)
+      .one(kTechnologyLimit);
+  d.table("[[axis]]", "one for each axis")
+      .one(kAxisName)
+      .one(kAxisKindKey)
+      .one(kStep)
+      .one(kRangeDocument)
+      .one(kHome)
+      .one(kHome2)
+      .all(kAxisLimitKeys);
+  d.table("[axis.plant]", "what swings; optional, an axis without it follows its steps exactly")
+      .one(kMotor)
+      .all(kPlantKeys);
+  return d.take();
+}
+
+}  // namespace kadr::machine
