@@ -14,7 +14,6 @@
 #include "planner/laws/feed_plan.h"
 #include "planner/limits/plan_error.h"
 #include "planner/path/path.h"
-#include "planner/planner.h"
 
 /// The cycle: program -> path -> law -> step pulses -> plant -> log, event to event.
 namespace kadr::emulator {

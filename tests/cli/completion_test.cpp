@@ -185,7 +185,7 @@ TEST_CASE("bash completes commands, values of vocabularies, and files of the rig
   REQUIRE(shell("mkdir folder", scratch.path()).code == 0);
   const auto at = [&](const std::string& words) { return offered(words, scratch.path()); };
   CHECK(at("kadr mach") == "machine");
-  CHECK(at("kadr machine ''") == "check list new show");
+  CHECK(at("kadr machine ''") == "check keys list new show");
   CHECK(at("kadr completion ''") == "bash fish zsh");
   CHECK(at("kadr run b.ngc -m ''") == "folder m.toml mill3 rig1 robot7 winder4");
   CHECK(at("kadr run --machine = mi") == "mill3");
