@@ -3,7 +3,8 @@
 
 # kadr_missing(WHAT PACKAGE PURPOSE): ends the configuration with the one line that a reader needs.
 function(kadr_missing what package purpose)
-  message(FATAL_ERROR "${purpose} needs ${what}: install the Debian package ${package} (`tools/setup` installs all)")
+  string(STRIP "${what}" what)
+  message(FATAL_ERROR "missing for ${purpose}: ${what}. Install the Debian package ${package} (`tools/setup` installs all)")
 endfunction()
 
 # kadr_package(NAME PACKAGE PURPOSE [find_package arguments]): a library with a CMake package of its own.
@@ -68,6 +69,12 @@ if(NOT LCM_GEN)
 endif()
 
 # pagmo by file as well: its package file looks for all of Boost and TBB, and only Boost's serialization is linked
+if(NOT KADR_GENETIC MATCHES "^(AUTO|ON|OFF)$")
+  message(FATAL_ERROR "KADR_GENETIC is ${KADR_GENETIC}; it is one of AUTO, ON, OFF")
+endif()
+if(KADR_GENETIC STREQUAL "ON" AND NOT KADR_TESTS AND NOT KADR_BENCH)
+  message(STATUS "kadr: KADR_GENETIC=ON does nothing without KADR_TESTS or KADR_BENCH")
+endif()
 if((KADR_TESTS OR KADR_BENCH) AND NOT KADR_GENETIC STREQUAL "OFF")
   set(kind OPTIONAL)
   if(NOT KADR_GENETIC STREQUAL "AUTO")

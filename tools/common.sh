@@ -8,6 +8,14 @@ export LC_ALL=C
 say() { printf '== %s\n' "$*" >&2; }
 fail() { printf '%s: %s\n' "${0##*/}" "$*" >&2; exit 2; }
 
+# every tool prints the comment at its head for --help
+case ${1-} in
+  -h | --help)
+    sed -nE '2,/^[^#]/s/^# ?//p' "$0"
+    exit 0
+    ;;
+esac
+
 times=$project/build/times.tsv
 times_before=$(wc -l 2>/dev/null <"$times" || echo 0)
 

@@ -19,6 +19,11 @@ using AxisVector = std::array<double, kProgramAxes>;
 constexpr int kTimeSteps = 70;
 // a curve's ends may miss the path's nodes by the rounding of its powers
 constexpr double kCurveEnd_u = 1e-9;
+// feeds of a thousandth of a millimetre per second take hours for a line: whole ticks and the ulp of such
+// times change them by more than their relative tolerance, and by less than this, a step of 1 um in a day
+constexpr double kSpeedFloor_u_s = 1e-8;
+// a law's pieces add up their rounding: at most this many ulp of the time
+constexpr double kTickUlps = 32.0;
 
 using State = VerifiedState;
 State at(const JerkPiece& p, double t) { return verified_state(p, t); }
@@ -104,7 +109,7 @@ class Verifier {
   }
   double speed_tolerance(double v, double a, double time) const {
     return options_.relative_tolerance * (std::fabs(v) + 1e-3 * top_speed_) +
-           16.0 * kUlp * time * std::fabs(a);
+           16.0 * kUlp * time * std::fabs(a) + kSpeedFloor_u_s;
   }
 
   /// A curve's ends are the path's nodes, its length is that of its chords, within what chords lose.
@@ -467,7 +472,7 @@ class Verifier {
       if (!rests) report("rest at a stop", time, i, -1, s, s);
       if (!machine_.planner.whole_ticks || !rests) continue;
       const double off = std::fabs(time - std::floor(time / tau + 0.5) * tau);
-      if (!(off <= 1e-12 + 4.0 * kUlp * time)) report("whole ticks", time, i, -1, off, 1e-12);
+      if (!(off <= 1e-12 + kTickUlps * kUlp * time)) report("whole ticks", time, i, -1, off, 1e-12);
     }
   }
 
@@ -497,7 +502,9 @@ class Verifier {
       const State x = at(p, std::clamp(row.end_time_s - p.begin_s, 0.0, p.duration_s));
       if (!(std::fabs(x.s - path_.start_s_u[i + 1]) <= 1e2 * way_tolerance(p)))
         report("table place", row.end_time_s, i, -1, x.s, path_.start_s_u[i + 1]);
-      if (!(std::fabs(x.v - row.end_u_s) <= 1e-6 * top_speed_))
+      // after hours the ulp of the time times the acceleration is more than a millionth of a crawling feed
+      const double steep = std::fabs(p.accel_u_s2) + std::fabs(p.jerk_u_s3) * p.duration_s;
+      if (!(std::fabs(x.v - row.end_u_s) <= 1e-6 * top_speed_ + speed_tolerance(0.0, steep, row.end_time_s)))
         report("table speed", row.end_time_s, i, -1, row.end_u_s, x.v);
     }
   }

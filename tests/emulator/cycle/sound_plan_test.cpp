@@ -190,3 +190,23 @@ TEST_CASE("a run ends with a broken promise where a node is more than half a ste
       "from it, allowed 0.500001, in the control tick that begins at 1.016000 s",
       BrokenPromise);
 }
+
+TEST_CASE("plans that take days are sound: their rounding is no fault") {
+  // without a jerk limit a ramp to such feeds is shorter than a microsecond, and a line takes 10^5 control
+  // ticks and more
+  for (const auto scheduler : {machine::SchedulerKind::chained, machine::SchedulerKind::blockwise})
+    for (const auto method : {machine::PlanMethod::scheduler, machine::PlanMethod::certified})
+      for (const double feed : {0.005, 0.02, 0.05, 0.2, 0.5, 2.0}) {
+        machine::MachineModel machine = test_machine();
+        machine.planner.method = method;
+        machine.planner.scheduler = scheduler;
+        machine.path.max_jerk_mm_s3 = machine::kInfinity;
+        for (auto& axis : machine.axis) axis.max_jerk_u_s3 = machine::kInfinity;
+        for (const char* body : {"G1 X10 F{}\nG2 X30 I10 J0\n", "G1 X30 F{}\nG1 Y30\nG1 X0 Y0\n"}) {
+          CAPTURE(feed);
+          emulator::Job job = make_job("G21 G90 G94\n" + fmt::format(fmt::runtime(body), feed), machine);
+          Diagnostics diagnostics;
+          CHECK(emulator::prepare(job, diagnostics, emulator::SoftLimitRule::warning));
+        }
+      }
+}
