@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iostream>
 
 #include "emulator/cli/commands.h"
@@ -52,6 +53,13 @@ void check_name(const std::string& name) {
         fmt::format("machine name '{}': letters, digits, _ and - make a name; the file is NAME.toml in "
                     "the current folder",
                     name));
+  if (name.front() == '-')
+    throw WorldError(fmt::format(
+        "machine name '{}': a name that begins with - reads as an option; begin with a letter, a digit or _",
+        name));
+  if (name.size() > machine::kMostMachineName)
+    throw WorldError(fmt::format("machine name '{}': {} characters; allowed: up to {}", name, name.size(),
+                                 machine::kMostMachineName));
 }
 
 /// "83.333 mm/s (5000 mm/min)"
@@ -63,6 +71,12 @@ std::string speed_text(const SheetAxis& axis) {
 
 std::string value_text(const machine::SheetValue& value) {
   return emulator::significant(value.value) + (value.given.empty() ? " *" : "");
+}
+
+/// "2.600 mm/s *"
+std::string corner_text(const SheetAxis& axis) {
+  return fmt::format("{} {}/s *", emulator::significant(axis.junction_u_s2 * machine::kSheetPeriod_s),
+                     axis.unit());
 }
 
 /// What was understood, an axis a row; `*` marks a default.
@@ -81,7 +95,7 @@ std::string understood(const DataSheet& sheet) {
                fmt::format("{} .. {}{}", number_text(axis.min_u), number_text(axis.max_u),
                            axis.zero_given ? "" : " *"),
                value_text(axis.home_u), speed_text(axis), value_text(axis.acceleration_u_s2),
-               value_text(axis.jerk_u_s3), value_text({axis.junction_u_s2 * machine::kSheetPeriod_s, {}}),
+               value_text(axis.jerk_u_s3), corner_text(axis),
                value_text(axis.steps_per_u), std::string(axis.unit())});
   return table.render("  ");
 }
@@ -98,7 +112,7 @@ std::string defaults_that_matter(const DataSheet& sheet) {
     out += fmt::format("  {:<28}  {}\n", key, meaning);
   };
   tell("junction_acceleration_" + u + "_s2",
-       "corner: how far an axis may change its speed at once (this times 1 ms)");
+       "corner above is this times 1 ms: an axis may change its speed so far at once");
   if (any([](const SheetAxis& a) { return a.acceleration_u_s2.given.empty(); }))
     tell("max_acceleration_" + u + "_s2", "a guess; --acceleration gives the machine's");
   if (any([](const SheetAxis& a) { return a.jerk_u_s3.given.empty(); }))
@@ -168,8 +182,8 @@ constexpr Question kQuestions[] = {
     {&DataSheetWords::axes, "--axes", "Axes [XYZ]", "XYZ"},
     {&DataSheetWords::travel, "--travel", "Travel of each axis in mm or deg, e.g. 800,800,80", "", true},
     {&DataSheetWords::max_speed, "--max-speed", "Rapid rate with its unit, e.g. 5000mm/min", "", true},
-    {&DataSheetWords::acceleration, "--acceleration", "Acceleration in mm/s2 or deg/s2 [default]", ""},
-    {&DataSheetWords::steps, "--steps-per-mm", "Motor steps per mm or deg, microsteps included [default]",
+    {&DataSheetWords::acceleration, "--acceleration", "Acceleration in mm/s2 or deg/s2 [500]", ""},
+    {&DataSheetWords::steps, "--steps-per-mm", "Motor steps per mm or deg, microsteps included [400; of A B C 100]",
      ""},
     {&DataSheetWords::tool_change, "--tool-change", "Time of a tool change in s [0]", "0"},
 };
@@ -181,6 +195,38 @@ std::string complaint(DataSheetWords words, const Question& question) {
   const auto sheet = machine::read_data_sheet(words);
   if (sheet || !(sheet.error().starts_with(question.option) || sheet.error().starts_with("axis "))) return {};
   return sheet.error();
+}
+
+/// A speed for each axis, in its unit, which no number of steps makes too fast.
+std::string slow(const std::string& axes) {
+  std::string speeds;
+  for (const char letter : axes) {
+    if (letter == ',' || letter == ' ') continue;
+    const bool rotary = is_rotary_letter(static_cast<char>(std::toupper(static_cast<unsigned char>(letter))));
+    speeds += fmt::format("{}{}", speeds.empty() ? "" : ",", rotary ? "0.001deg/s" : "0.001mm/s");
+  }
+  return speeds;
+}
+
+/// What is wrong with the options that were given, before anything is asked. Without axes a single value has
+/// to suit a linear or a rotary axis; a list waits for the axes.
+std::string given_wrong(DataSheetWords words) {
+  const bool axes_given = !words.axes.empty();
+  if (!axes_given)
+    for (const std::string* list :
+         {&words.travel, &words.max_speed, &words.acceleration, &words.jerk, &words.steps, &words.home})
+      if (list->find(',') != std::string::npos) return {};
+  if (words.travel.empty()) words.travel = "-1e8..1e8";
+  const bool speed_given = !words.max_speed.empty();
+  std::string wrong;
+  for (const char* axes : {"X", "A"}) {
+    if (!axes_given) words.axes = axes;
+    if (!speed_given) words.max_speed = slow(words.axes);
+    const auto sheet = machine::read_data_sheet(words);
+    if (sheet) return {};
+    if (wrong.empty()) wrong = sheet.error();
+  }
+  return wrong;
 }
 
 std::string answer(const Question& question) {
@@ -196,6 +242,11 @@ std::string answer(const Question& question) {
 void ask(DataSheetWords& words) {
   if (::isatty(STDIN_FILENO) == 0 || ::isatty(STDOUT_FILENO) == 0)
     throw WorldError("--ask needs a terminal; in a script give --travel, --max-speed ... instead");
+  const auto check_given = [&words] {
+    if (const std::string wrong = given_wrong(words); !wrong.empty())
+      throw WorldError(fmt::format("machine new: {}", wrong));
+  };
+  check_given();
   for (const Question& question : kQuestions) {
     std::string& word = words.*question.word;
     if (!word.empty()) continue;
@@ -206,6 +257,7 @@ void ask(DataSheetWords& words) {
       if (wrong.empty()) break;
       fmt::print("{}\n", wrong);
     }
+    if (question.word == &DataSheetWords::axes) check_given();  // the lists among them
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "machine/base/parse_number.h"
@@ -123,6 +124,13 @@ std::string suffix_of(Text unit) {
   return out;
 }
 
+/// 31.5 in are 800.1 mm, not 800.0999999999999: a product that 12 digits tell but for rounding is those digits.
+double without_noise(double product) {
+  const double told = *parse_number(fmt::format("{:.12g}", product));
+  return std::fabs(told - product) <= 4 * std::numeric_limits<double>::epsilon() * std::fabs(product) ? told
+                                                                                                      : product;
+}
+
 /// The value in the item's first unit, whatever unit it was given in; not yet bounded.
 Result<double> number_of(const Item& item, const SheetAxis* axis, Text text) {
   const bool rotary = axis && turns(*axis);
@@ -145,7 +153,7 @@ Result<double> number_of(const Item& item, const SheetAxis* axis, Text text) {
               : fmt::format("'{}' is another kind of unit", unit);
     return tl::unexpected(refusal(item, axis, text, why));
   }
-  return value * known->factor;
+  return known->factor == 1 ? value : without_noise(value * known->factor);
 }
 
 std::string bounded(const Item& item, const SheetAxis* axis, Text given, double value) {
@@ -196,8 +204,11 @@ Result<std::vector<Text>> words_of(const Item& item, Text list, const std::vecto
   if (words.size() == axes.size()) return words;
   std::string order;
   for (const SheetAxis& axis : axes) order += (order.empty() ? "" : ",") + std::string(1, axis.letter);
-  return tl::unexpected(fmt::format("{} takes one value for all axes, or {} in the order {}; got {}: '{}'",
-                                    item.option, axes.size(), order, words.size(), list));
+  // "83,3mm/s": the first word has no unit, though it needs one, or there is a word too many
+  const bool comma = parse_number(words.front()) && (!item.bare || words.size() > axes.size());
+  return tl::unexpected(fmt::format("{} takes one value for all axes, or {} in the order {}; got {}: '{}'{}",
+                                    item.option, axes.size(), order, words.size(), list,
+                                    comma ? "; the decimal mark is a point" : ""));
 }
 
 /// Where the travel lies if only its length is given: from 0 up; Z has its zero in the middle, so that a

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,8 @@
 
 /// A machine file from what a data sheet says: travel, speed, acceleration, steps.
 namespace kadr::machine {
+
+inline constexpr std::size_t kMostMachineName = 100;  ///< bytes of a machine's name
 
 /// The words of a data sheet as a person types them; empty: not given. A list has one value for all axes, or
 /// one for each in the order of `axes`, with commas between them.
@@ -62,7 +65,7 @@ inline constexpr double kSheetPeriod_s = 1e-3;  ///< control period of the writt
 tl::expected<DataSheet, std::string> read_data_sheet(const DataSheetWords& words);
 
 /// A commented machine file: each value with its unit and whether it was given or is a default.
-/// @param name  letters, digits, _ and -
+/// @param name  letters, digits, _ and -; 1 to kMostMachineName
 std::string render_data_sheet(const DataSheet& sheet, std::string_view name);
 
 }  // namespace kadr::machine

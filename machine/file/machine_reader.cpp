@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "machine/base/parse_number.h"
+#include "machine/file/data_sheet.h"
 #include "machine/file/machine_keys.h"
 #include "machine/file/technology.h"
 
@@ -15,7 +16,6 @@ namespace {
 
 constexpr double kEdition = 1;
 constexpr double kMegahertz = 1e6;
-constexpr std::size_t kMaxName = 100;
 constexpr double kMaxControlTicks = 65536;
 
 void read_format(TableReader& root) {
@@ -33,12 +33,12 @@ std::string read_name(TableReader& root) {
   if (!name.valid) return "";
   const bool control = std::any_of(name.value.begin(), name.value.end(),
                                    [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
-  if (!name.value.empty() && name.value.size() <= kMaxName && !control) return name.value;
+  if (!name.value.empty() && name.value.size() <= kMostMachineName && !control) return name.value;
   Diagnostic d =
       file_diagnostic(Code::file_out_of_range, name.span,
                       control ? "has control characters" : fmt::format("has {} bytes", name.value.size()));
   d.message = "name: value is out of range";
-  d.notes.push_back(fmt::format("allowed: 1 to {} bytes on one line", kMaxName));
+  d.notes.push_back(fmt::format("allowed: 1 to {} bytes on one line", kMostMachineName));
   root.context().diagnostics.add(std::move(d));
   return "";
 }

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -97,9 +98,37 @@ TEST_CASE("kadr machine new from a data sheet: JSON, --force, refusals write not
     CHECK(bad.out.empty());
     CHECK(contains(bad.err, "kadr: machine new: --travel"));
   }
-  CHECK(call({"machine", "new", "b", "--axes", ""}, scratch.path()).code == 0);  // no data sheet: a copy
+  const Finished empty = call({"machine", "new", "b", "--axes", ""}, scratch.path());
+  CHECK(empty.code == 2);
+  CHECK(contains(empty.err, "kadr machine new: --axes needs a value (LETTERS); got an empty one\n"));
+  CHECK_FALSE(scratch.has("b.toml"));
   CHECK(contains(call({"machine", "new", "c"}, scratch.path()).out,
                  "from a data sheet instead: kadr machine new c"));
+}
+
+TEST_CASE("kadr machine new refuses a name that a machine file can't have, as a data sheet and as a copy") {
+  const Scratch scratch;
+  const std::vector<std::string> sheet = {"--travel", "5", "--max-speed", "5mm/s"};
+  const struct {
+    std::string name, complaint;
+  } names[] = {{std::string(101, 'm'), "101 characters; allowed: up to 100\n"},
+               {"-mill", "a name that begins with - reads as an option; begin with a letter, a digit or _\n"},
+               {"a/b", "letters, digits, _ and - make a name"}};
+  for (const auto& [name, complaint] : names) {
+    for (const bool copy : {false, true}) {
+      std::vector<std::string> words = {"machine", "new"};
+      if (!copy) words.insert(words.end(), sheet.begin(), sheet.end());
+      words.insert(words.end(), {"--", name});
+      const Finished made = call(words, scratch.path());
+      CHECK(made.code == 2);
+      CHECK(contains(made.err, "kadr: machine name '" + name + "': "));
+      CHECK(contains(made.err, complaint));
+      CHECK_FALSE(scratch.has(name + ".toml"));
+    }
+  }
+  const std::string longest(100, 'm');
+  CHECK(call({"machine", "new", longest}, scratch.path()).code == 0);
+  CHECK(call({"machine", "check", longest + ".toml"}, scratch.path()).code == 0);
 }
 
 TEST_CASE("kadr machine new: programs run on machines of random data sheets") {
@@ -145,6 +174,21 @@ TEST_CASE("kadr machine new --ask asks on a terminal, and does not hang in a scr
   CHECK_FALSE(scratch.has("shop.toml"));
 
   if (kadr::test::lacks_terminals()) return;
+  // what was given is judged before the first question
+  for (const auto& [option, value, complaint] :
+       {std::array{"--acceleration", "5parsec", "unit 'parsec' is not known"},
+        std::array{"--axes", "XX", "X stands twice"}, std::array{"--tool-change", "-1", "--tool-change is -1"},
+        std::array{"--max-speed", "5000", "say the unit"}}) {
+    Launch wrong;
+    wrong.arguments = {"machine", "new", "shop", "--ask", std::string(option) + '=' + value};
+    wrong.folder = scratch.path();
+    wrong.terminal = wrong.terminal_input = true;
+    const Finished refused = run_kadr(wrong);
+    CAPTURE(refused.out);
+    CHECK(refused.code == 2);
+    CHECK(contains(refused.out, complaint));
+    CHECK_FALSE(contains(refused.out, "Travel of each axis"));
+  }
   Launch launch;
   launch.arguments = {"machine", "new", "shop", "--ask", "--steps-per-mm", "40"};
   launch.folder = scratch.path();
@@ -157,6 +201,7 @@ TEST_CASE("kadr machine new --ask asks on a terminal, and does not hang in a scr
   CHECK(contains(asked.out, "X stands twice"));
   CHECK(contains(asked.out, "got 2: '800,800'"));
   CHECK(contains(asked.out, "say the unit"));
+  CHECK(contains(asked.out, "Acceleration in mm/s2 or deg/s2 [500]: "));
   CHECK(contains(asked.out, "wrote shop.toml"));
   CHECK(contains(scratch.read("shop.toml"), "max_acceleration_mm_s2 = 500 "));
   CHECK(contains(scratch.read("shop.toml"), "steps_per_mm = 40 "));

@@ -101,6 +101,31 @@ TEST_CASE("values are read in the units of data sheets") {
   CHECK(m.planner.tool_change_s == 30);
 }
 
+TEST_CASE("a converted length is the number a person computes, in the table and in the file") {
+  DataSheetWords words = router();
+  words.travel = "31.5in,31.5in,3.3in";
+  const auto sheet = read_data_sheet(words);
+  REQUIRE(sheet.has_value());
+  CHECK(sheet->axis[0].max_u == 800.1);
+  CHECK(sheet->axis[2].min_u == -41.91);
+  CHECK(render_data_sheet(*sheet, "m").find("range_mm = [0, 800.1] ") != std::string::npos);
+  // what has more digits keeps them
+  CHECK(sheet->axis[0].max_u_s.value == doctest::Approx(5000.0 / 60).epsilon(1e-15));
+}
+
+TEST_CASE("a decimal comma is named") {
+  DataSheetWords words = router();
+  words.max_speed = "83,3mm/s";
+  CHECK(complaint(words) ==
+        "--max-speed takes one value for all axes, or 3 in the order X,Y,Z; got 2: '83,3mm/s'; the decimal mark "
+        "is a point");
+  words = router();
+  words.travel = "800,5,800,5,80,5";
+  CHECK(complaint(words).find("; the decimal mark is a point") != std::string::npos);
+  words.travel = "800,80";
+  CHECK(complaint(words).find("point") == std::string::npos);
+}
+
 TEST_CASE("a rotary axis takes degrees, turns, or no end of travel") {
   DataSheetWords words = router();
   words.axes = "x,a,b";
