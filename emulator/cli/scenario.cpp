@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <system_error>
 
 #include "emulator/cli/commands.h"
@@ -13,6 +14,30 @@ namespace kadr::cli {
 namespace {
 
 using emulator::Json;
+namespace fs = std::filesystem;
+
+/// Where `cmake --install` put the scenarios of this kadr.
+std::string installed_scenarios() {
+  std::error_code unknown;
+  const fs::path kadr = fs::read_symlink("/proc/self/exe", unknown);
+  const fs::path folder = kadr.parent_path().parent_path() / "share/kadr/scenarios";
+  return !unknown && fs::is_directory(folder, unknown) ? folder.string() : "PREFIX/share/kadr/scenarios";
+}
+
+/// @throws WorldError where there is none, saying what was looked for
+std::vector<std::string> scenarios_of(const Arguments& arguments) {
+  try {
+    return emulator::find_scenarios(arguments.files);
+  } catch (const fs::filesystem_error& e) {
+    const std::string path = e.path1().string();
+    if (e.code() != std::errc::no_such_file_or_directory)
+      throw WorldError(fmt::format("scenario {}: {}", path, e.code().message()));
+    throw WorldError(
+        fmt::format("there is no scenario file {0}, {0}/scenario.toml or {0}/*/scenario.toml; give a scenario "
+                    "file or a folder; installed scenarios are in {1}",
+                    path, installed_scenarios()));
+  }
+}
 
 /// Rewrites the expectations of a scenario with what it did.
 void update(const std::string& path, const emulator::ScenarioResult& result, Console& console) {
@@ -30,7 +55,7 @@ void update(const std::string& path, const emulator::ScenarioResult& result, Con
 int scenario_run(const Arguments& arguments, Console& console) {
   std::vector<emulator::ScenarioResult> results;
   bool all_passed = true;
-  for (const std::string& path : emulator::find_scenarios(arguments.files)) {
+  for (const std::string& path : scenarios_of(arguments)) {
     results.push_back(emulator::run_scenario(path));
     const emulator::ScenarioResult& result = results.back();
     all_passed = all_passed && result.passed();
@@ -63,7 +88,7 @@ int scenario_check(const Arguments& arguments, Console& console) {
                      console.options().format == DiagnosticFormat::human;
   Json documents = Json::array();
   int worst = kYes;
-  for (const std::string& path : emulator::find_scenarios(arguments.files)) {
+  for (const std::string& path : scenarios_of(arguments)) {
     emulator::Job job;
     Diagnostics diagnostics;
     const auto scenario = emulator::read_scenario(path, job.sources);
@@ -100,7 +125,7 @@ int scenario_list(const Arguments& arguments, Console& console) {
                              {"what it shows", Align::left}});
   Json list = Json::array();
   int code = kYes;
-  for (const std::string& path : emulator::find_scenarios(arguments.files)) {
+  for (const std::string& path : scenarios_of(arguments)) {
     SourceSet sources;
     const auto scenario = emulator::read_scenario(path, sources);
     if (!scenario) {
