@@ -9,11 +9,11 @@
 namespace kadr::cli {
 namespace {
 
-/// null, or why this build is without the page.
+/// true, or why this build is without the page.
 emulator::Json pages() {
   emulator::Json list = emulator::Json::object();
   for (const emulator::BuiltPage& page : emulator::built_pages())
-    list[std::string(page.name)] = page.missing.empty() ? emulator::Json() : emulator::Json(page.missing);
+    list[std::string(page.name)] = page.missing.empty() ? emulator::Json(true) : emulator::Json(page.missing);
   return list;
 }
 
