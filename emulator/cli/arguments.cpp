@@ -36,13 +36,18 @@ class Reader {
 
   Command tree() const { return describe_commands(options_); }
 
-  std::variant<Arguments, int> read(int argc, const char* const* argv) {
-    if (const std::string mistake = usage_mistake(app_, {argv + 1, argv + argc}); !mistake.empty()) {
+  std::variant<Arguments, int> read(std::vector<std::string> words) {
+    const bool help = !words.empty() && words.front() == "help";
+    if (help) words.erase(words.begin());
+    if (const std::string mistake = help ? unknown_command(app_, words) : usage_mistake(app_, words);
+        !mistake.empty()) {
       fmt::print(stderr, "{0}\n{1} --help tells more\n", mistake, mistake.substr(0, mistake.find(':')));
       return kNotStarted;
     }
     try {
-      app_.parse(argc, argv);
+      if (help) words.emplace_back("--help");
+      std::reverse(words.begin(), words.end());  // as CLI11 takes them
+      app_.parse(std::move(words));
     } catch (const CLI::CallForHelp&) {
       const CLI::App* asked = &app_;
       std::string before;
@@ -86,7 +91,7 @@ class Reader {
 }  // namespace
 
 std::variant<Arguments, int> read_arguments(int argc, const char* const* argv) {
-  return Reader().read(argc, argv);
+  return Reader().read({argv + std::min(argc, 1), argv + argc});
 }
 
 Command command_tree() { return Reader().tree(); }

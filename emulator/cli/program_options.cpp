@@ -15,6 +15,9 @@ void add_run(Options& o) {
   o.programs(sub, "PROG", false)->required(false);
   sub->parse_complete_callback([&o] {
     if (o.arguments.files.empty() && o.arguments.scenario.empty()) throw CLI::RequiredError("PROG");
+    if (!o.arguments.log && !o.arguments.log_path.empty())
+      throw CLI::ValidationError(
+          fmt::format("--no-log writes no log, --log writes '{}': give one of them", o.arguments.log_path));
   });
   o.machine(sub);
   o.reading(sub);
@@ -41,12 +44,15 @@ void add_run(Options& o) {
          },
          "Stop after S seconds of machine time (default: run to the end)")
       ->type_name("S");
-  sub->add_option("--threads", o.arguments.threads,
-                  "Threads, 1 or 2 (default 1); with 2, the second one writes the log. Same bytes either way")
-      ->type_name("N")
-      ->check([](const std::string& text) {
-        return text == "1" || text == "2" ? std::string() : "takes 1 or 2, got '" + text + "'";
-      });
+  sub->add_option_function<std::string>(
+         "--threads",
+         [&o](const std::string& text) {
+           if (text != "1" && text != "2")
+             throw CLI::ValidationError(fmt::format("--threads takes 1 or 2; got '{}'", text));
+           o.arguments.threads = text == "1" ? 1 : 2;
+         },
+         "Threads, 1 or 2 (default 1); with 2, the second one writes the log. Same bytes either way")
+      ->type_name("N");
   sub->add_option("--publish", o.arguments.publish_url,
                   "Also send the log live over LCM, e.g. to udpm://239.255.76.67:7667 (ttl 0 unless the URL "
                   "says ttl=N)")

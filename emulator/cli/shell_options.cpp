@@ -28,7 +28,7 @@ void add_shell_commands(Options& o) {
   shell->check([names](const std::string& text) {
     return std::find(names.begin(), names.end(), text) != names.end()
                ? std::string()
-               : fmt::format("is {}; got '{}'", fmt::join(names, ", "), text);
+               : fmt::format("one of {}; got '{}'", fmt::join(names, ", "), text);
   });
   completion->footer("Example: source <(kadr completion bash)");
 }

@@ -64,7 +64,10 @@ class Scan {
   std::string run() {
     for (at_ = 0; at_ < rest_.size() && mistake_.empty(); ++at_) {
       const std::string& text = rest_[at_];
-      if (text == "--") break;
+      if (text == "--") {
+        operands();
+        break;
+      }
       if (looks_like_option(text))
         text[1] == '-' ? long_option(text) : short_options(text);
       else
@@ -73,6 +76,17 @@ class Scan {
     if (mistake_.empty()) count_words();
     // who asks for help gets it
     return helped_ ? std::string() : mistake_;
+  }
+
+  /// Of words that all have to be commands.
+  std::string names_only() {
+    for (const std::string& text : rest_) {
+      word(text);
+      if (mistake_.empty() && !words_.empty())
+        tell(fmt::format("has no commands; got '{}'", text));
+      if (!mistake_.empty()) break;
+    }
+    return mistake_;
   }
 
  private:
@@ -90,9 +104,20 @@ class Scan {
     return names;
   }
 
+  /// Behind `--` nothing is an option.
+  void operands() {
+    if (command_names(*command_).empty())
+      for (++at_; at_ < rest_.size() && mistake_.empty(); ++at_) word(rest_[at_]);
+  }
+
   void word(const std::string& text) {
     const std::vector<std::string> names = command_names(*command_);
-    if (names.empty()) return words_.push_back(text);
+    if (names.empty()) {
+      const std::vector<std::string> known = operand_names();
+      if (text.empty() && !known.empty())
+        return tell(fmt::format("{} is empty: ''", known[std::min(words_.size(), known.size() - 1)]));
+      return words_.push_back(text);
+    }
     if (std::find(names.begin(), names.end(), text) == names.end()) {
       const std::string near = nearest(text, names);
       return tell(fmt::format("there is no command '{}'; {} {}", text,
@@ -137,6 +162,9 @@ class Scan {
   }
 
   void short_options(const std::string& text) {
+    const std::string whole = '-' + text.substr(0, text.find('='));
+    if (text.size() > 2 && find(whole))
+      return tell(fmt::format("there is no option {}; did you mean {}?", whole.substr(1), whole));
     for (std::size_t i = 1; i < text.size() && mistake_.empty(); ++i) {
       const std::string name = std::string("-") + text[i];
       const CLI::Option* option = find(name);
@@ -156,6 +184,9 @@ class Scan {
   }
 
   void once(const CLI::Option& option, const std::string& value) {
+    if (takes_value(option) && value.empty())
+      return tell(fmt::format("{} needs a value ({}); got an empty one", name_of(option),
+                              option.get_type_name()));
     const auto [before, first] = given_.emplace(&option, value);
     if (first || repeatable(option)) return;
     const std::string values = takes_value(option)
@@ -164,12 +195,35 @@ class Scan {
     tell(fmt::format("{} is given twice{}", name_of(option), values));
   }
 
-  void count_words() {
+  std::vector<std::string> operand_names() const {
     std::vector<std::string> names;
+    for (const CLI::Option* option : command_->get_options())
+      if (option->get_positional()) names.push_back(option->get_name(true));
+    return names;
+  }
+
+  /// Of a group such as --csv, --json, ... of `kadr export`, one has to be given.
+  void count_choices() {
+    for (const CLI::App* group :
+         command_->get_subcommands([](const CLI::App* s) { return s->get_name().empty(); })) {
+      if (group->get_require_option_min() == 0) continue;
+      std::vector<std::string> known, given;
+      for (const CLI::Option* option : group->get_options()) {
+        if (option == group->get_help_ptr()) continue;
+        known.push_back(name_of(*option));
+        if (given_.count(option) > 0) given.push_back(name_of(*option));
+      }
+      if (given.empty()) return tell(fmt::format("needs one of {}", joined(known)));
+      if (given.size() > group->get_require_option_max())
+        return tell(fmt::format("takes one of {}; got {}", joined(known), joined(given)));
+    }
+  }
+
+  void count_words() {
+    const std::vector<std::string> names = operand_names();
     std::size_t least = 0, most = 0;
     for (const CLI::Option* option : command_->get_options()) {
       if (!option->get_positional()) continue;
-      names.push_back(option->get_name(true));
       least += static_cast<std::size_t>(option->get_required() ? option->get_items_expected_min() : 0);
       most += static_cast<std::size_t>(option->get_items_expected_max());
     }
@@ -184,6 +238,8 @@ class Scan {
                        name, words_[most]));
     else if (least > names.size() && !words_.empty() && words_.size() < least)
       tell(fmt::format("takes at least {} {}; got {}", least, name, words_.size()));
+    else if (words_.size() >= least)
+      count_choices();
   }
 
   const CLI::App* command_;
@@ -217,6 +273,10 @@ class HelpFormatter : public CLI::Formatter {
 
 std::string usage_mistake(const CLI::App& app, const std::vector<std::string>& arguments) {
   return Scan(app, arguments).run();
+}
+
+std::string unknown_command(const CLI::App& app, const std::vector<std::string>& names) {
+  return Scan(app, names).names_only();
 }
 
 std::shared_ptr<CLI::Formatter> help_formatter() { return std::make_shared<HelpFormatter>(); }

@@ -13,6 +13,10 @@ namespace kadr::cli {
 ///         mistake of these kinds
 std::string usage_mistake(const CLI::App& app, const std::vector<std::string>& arguments);
 
+/// @param names  the words behind `kadr help`: a command and its sub-commands
+/// @return what is wrong with them, as usage_mistake()
+std::string unknown_command(const CLI::App& app, const std::vector<std::string>& names);
+
 /// Help in our form: no counts behind names, no "Excludes".
 std::shared_ptr<CLI::Formatter> help_formatter();
 

@@ -113,6 +113,18 @@ TEST_CASE("usage mistakes are named in the order of the arguments, with the near
       {"run p.ngc q.ngc", "kadr run: takes one PROG; 'q.ngc' is one too many\n"},
       {"diff a b c", "kadr diff: takes A and B; 'c' is one too many\n"},
       {"compare a", "kadr compare: takes at least 2 LOG; got 1\n"},
+      {"check p.ngc -machine mill3", "kadr check: there is no option -machine; did you mean --machine?\n"},
+      {"check p.ngc -set=a=1", "kadr check: there is no option -set; did you mean --set?\n"},
+      {"run p.ngc --machine=", "kadr run: --machine needs a value (FILE|NAME); got an empty one\n"},
+      {"run p.ngc -- -m mill3", "kadr run: takes one PROG; '-m' is one too many\n"},
+      {"export l.lcmlog", "kadr export: needs one of --csv, --excel, --json, --vcd, --svg, --list\n"},
+      {"export l.lcmlog --csv --svg", "--svg, --list; got --csv, --svg\n"},
+      {"completion tcsh", "kadr completion: SHELL: one of bash, zsh, fish; got 'tcsh'\n"},
+      {"run p.ngc --threads 3", "kadr run: --threads takes 1 or 2; got '3'\n"},
+      {"run p.ngc --no-log -o x.lcmlog",
+       "kadr run: --no-log writes no log, --log writes 'x.lcmlog': give one of them\n"},
+      {"help chek", "kadr: there is no command 'chek'; did you mean check? Commands: run, "},
+      {"help run p.ngc", "kadr run: has no commands; got 'p.ngc'\n"},
       {"version x", "kadr version: takes no argument; got 'x'\n"},
   };
   for (const auto& c : cases) {
@@ -135,6 +147,36 @@ TEST_CASE("what looks like a mistake and is none") {
   CHECK(call({"machine", "show", "--set", "feed.max_mm_s=80", "--set", "feed.max_mm_s=90"}).code == 0);
   CHECK(call({"run", "--bogus", "--help"}).code == 0);
   CHECK(contains(call({"check", "./--bogus"}).err, "No such file"));
+}
+
+TEST_CASE("kadr help prints what --help prints") {
+  CHECK(call({"help"}).out == call({"--help"}).out);
+  CHECK(call({"help", "machine", "new"}).out == call({"machine", "new", "--help"}).out);
+  const Finished run = call({"help", "run"});
+  CHECK(run.code == 0);
+  CHECK(contains(run.out, "--no-log"));
+}
+
+TEST_CASE("a scenario that is not there: what was looked for, and where scenarios are") {
+  const kadr::test::Scratch scratch;
+  for (const char* command : {"run", "list", "check"}) {
+    const Finished none = call({"scenario", command}, scratch.path());
+    CHECK(none.code == 2);
+    CHECK(none.err ==
+          "kadr: there is no scenario file scenarios, scenarios/scenario.toml or scenarios/*/scenario.toml; "
+          "give a scenario file or a folder; installed scenarios are in PREFIX/share/kadr/scenarios\n");
+    CHECK(contains(call({"scenario", command, "02_poket"}, scratch.path()).err,
+                   "kadr: there is no scenario file 02_poket, "));
+  }
+}
+
+TEST_CASE("an empty argument is named") {
+  const Finished file = call({"check", ""});
+  CHECK(file.code == 2);
+  CHECK(contains(file.err, "kadr check: PROG is empty: ''\n"));
+  const Finished value = call({"check", "p.ngc", "-m", ""});
+  CHECK(value.code == 2);
+  CHECK(contains(value.err, "kadr check: --machine needs a value (FILE|NAME); got an empty one\n"));
 }
 
 TEST_CASE("every option of every command has a description, and a type name if it takes a value") {
