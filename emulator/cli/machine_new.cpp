@@ -95,8 +95,8 @@ std::string understood(const DataSheet& sheet) {
                fmt::format("{} .. {}{}", number_text(axis.min_u), number_text(axis.max_u),
                            axis.zero_given ? "" : " *"),
                value_text(axis.home_u), speed_text(axis), value_text(axis.acceleration_u_s2),
-               value_text(axis.jerk_u_s3), corner_text(axis),
-               value_text(axis.steps_per_u), std::string(axis.unit())});
+               value_text(axis.jerk_u_s3), corner_text(axis), value_text(axis.steps_per_u),
+               std::string(axis.unit())});
   return table.render("  ");
 }
 
@@ -183,8 +183,8 @@ constexpr Question kQuestions[] = {
     {&DataSheetWords::travel, "--travel", "Travel of each axis in mm or deg, e.g. 800,800,80", "", true},
     {&DataSheetWords::max_speed, "--max-speed", "Rapid rate with its unit, e.g. 5000mm/min", "", true},
     {&DataSheetWords::acceleration, "--acceleration", "Acceleration in mm/s2 or deg/s2 [500]", ""},
-    {&DataSheetWords::steps, "--steps-per-mm", "Motor steps per mm or deg, microsteps included [400; of A B C 100]",
-     ""},
+    {&DataSheetWords::steps, "--steps-per-mm",
+     "Motor steps per mm or deg, microsteps included [400; of A B C 100]", ""},
     {&DataSheetWords::tool_change, "--tool-change", "Time of a tool change in s [0]", "0"},
 };
 

@@ -26,7 +26,9 @@ void add_data_sheet(CLI::App* make, Arguments& arguments) {
   word("--home", sheet.home, "POSITION,...",
        "Where an axis stands when a program begins, mm (A B C: deg), within its travel (default 0)");
   word("--tool-change", sheet.tool_change, "TIME", "Time that M6 costs, s unless it says min (default 0)");
-  make->add_flag("--ask", arguments.ask, "Ask for axes, travel, speed, acceleration, steps and tool change that are not given; needs a\nterminal")
+  make->add_flag("--ask", arguments.ask,
+                 "Ask for axes, travel, speed, acceleration, steps and tool change that are not given; needs "
+                 "a\nterminal")
       ->group("Data sheet");
 }
 

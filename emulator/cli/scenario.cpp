@@ -32,10 +32,10 @@ std::vector<std::string> scenarios_of(const Arguments& arguments) {
     const std::string path = e.path1().string();
     if (e.code() != std::errc::no_such_file_or_directory)
       throw WorldError(fmt::format("scenario {}: {}", path, e.code().message()));
-    throw WorldError(
-        fmt::format("there is no scenario file {0}, {0}/scenario.toml or {0}/*/scenario.toml; give a scenario "
-                    "file or a folder; installed scenarios are in {1}",
-                    path, installed_scenarios()));
+    throw WorldError(fmt::format(
+        "there is no scenario file {0}, {0}/scenario.toml or {0}/*/scenario.toml; give a scenario "
+        "file or a folder; installed scenarios are in {1}",
+        path, installed_scenarios()));
   }
 }
 

@@ -82,8 +82,7 @@ class Scan {
   std::string names_only() {
     for (const std::string& text : rest_) {
       word(text);
-      if (mistake_.empty() && !words_.empty())
-        tell(fmt::format("has no commands; got '{}'", text));
+      if (mistake_.empty() && !words_.empty()) tell(fmt::format("has no commands; got '{}'", text));
       if (!mistake_.empty()) break;
     }
     return mistake_;
@@ -185,8 +184,8 @@ class Scan {
 
   void once(const CLI::Option& option, const std::string& value) {
     if (takes_value(option) && value.empty())
-      return tell(fmt::format("{} needs a value ({}); got an empty one", name_of(option),
-                              option.get_type_name()));
+      return tell(
+          fmt::format("{} needs a value ({}); got an empty one", name_of(option), option.get_type_name()));
     const auto [before, first] = given_.emplace(&option, value);
     if (first || repeatable(option)) return;
     const std::string values = takes_value(option)

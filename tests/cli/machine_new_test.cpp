@@ -177,7 +177,8 @@ TEST_CASE("kadr machine new --ask asks on a terminal, and does not hang in a scr
   // what was given is judged before the first question
   for (const auto& [option, value, complaint] :
        {std::array{"--acceleration", "5parsec", "unit 'parsec' is not known"},
-        std::array{"--axes", "XX", "X stands twice"}, std::array{"--tool-change", "-1", "--tool-change is -1"},
+        std::array{"--axes", "XX", "X stands twice"},
+        std::array{"--tool-change", "-1", "--tool-change is -1"},
         std::array{"--max-speed", "5000", "say the unit"}}) {
     Launch wrong;
     wrong.arguments = {"machine", "new", "shop", "--ask", std::string(option) + '=' + value};

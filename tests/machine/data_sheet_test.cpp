@@ -117,7 +117,8 @@ TEST_CASE("a decimal comma is named") {
   DataSheetWords words = router();
   words.max_speed = "83,3mm/s";
   CHECK(complaint(words) ==
-        "--max-speed takes one value for all axes, or 3 in the order X,Y,Z; got 2: '83,3mm/s'; the decimal mark "
+        "--max-speed takes one value for all axes, or 3 in the order X,Y,Z; got 2: '83,3mm/s'; the decimal "
+        "mark "
         "is a point");
   words = router();
   words.travel = "800,5,800,5,80,5";
