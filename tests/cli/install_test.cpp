@@ -33,12 +33,13 @@ TEST_CASE("cmake --install brings kadr's own things to their places, and nothing
   CHECK(shell("cd p && ls -d *", scratch.path()).out == "bin\nshare\n");
   CHECK(shell("cd p && ls bin share", scratch.path()).out ==
         "bin:\nkadr\n\nshare:\nbash-completion\ndoc\nfish\nkadr\nman\nzsh\n");
-  for (const char* file : {"doc/kadr/README.md", "doc/kadr/LICENSE", "doc/kadr/CHANGELOG.md",
-                           "doc/kadr/CONTRIBUTING.md", "doc/kadr/SECURITY.md", "doc/kadr/CITATION.cff",
-                           "doc/kadr/docs/pipeline.md", "doc/kadr/docs/tube/laying.toml", "doc/kadr/scenarios/README.md", "kadr/kadr.lcm",
-                           "kadr/machines/mill3.toml", "kadr/scenarios/01_first_cut/scenario.toml",
-                           "man/man1/kadr.1", "bash-completion/completions/kadr", "zsh/site-functions/_kadr",
-                           "fish/vendor_completions.d/kadr.fish"}) {
+  for (const char* file :
+       {"doc/kadr/README.md", "doc/kadr/LICENSE", "doc/kadr/CHANGELOG.md", "doc/kadr/CONTRIBUTING.md",
+        "doc/kadr/SECURITY.md", "doc/kadr/CITATION.cff", "doc/kadr/docs/pipeline.md",
+        "doc/kadr/docs/tube/laying.toml", "doc/kadr/scenarios/README.md", "kadr/kadr.lcm",
+        "kadr/machines/mill3.toml", "kadr/scenarios/01_first_cut/scenario.toml", "man/man1/kadr.1",
+        "bash-completion/completions/kadr", "zsh/site-functions/_kadr",
+        "fish/vendor_completions.d/kadr.fish"}) {
     CAPTURE(file);
     CHECK(scratch.has(std::string("p/share/") + file));
   }
