@@ -4,7 +4,7 @@ include(GNUInstallDirs)
 set(data ${CMAKE_INSTALL_DATADIR}/kadr)
 install(TARGETS kadr RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
-foreach(paper README.md LICENSE CHANGELOG.md SECURITY.md CITATION.cff)
+foreach(paper README.md LICENSE CHANGELOG.md CONTRIBUTING.md SECURITY.md CITATION.cff)
   if(EXISTS ${PROJECT_SOURCE_DIR}/${paper})
     install(FILES ${paper} DESTINATION ${CMAKE_INSTALL_DOCDIR})
   endif()

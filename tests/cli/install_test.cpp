@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <sstream>
 #include <string>
 
 #include "tests/cli/run_kadr.h"
@@ -32,11 +33,13 @@ TEST_CASE("cmake --install brings kadr's own things to their places, and nothing
   CHECK(shell("cd p && ls -d *", scratch.path()).out == "bin\nshare\n");
   CHECK(shell("cd p && ls bin share", scratch.path()).out ==
         "bin:\nkadr\n\nshare:\nbash-completion\ndoc\nfish\nkadr\nman\nzsh\n");
-  for (const char* file : {"doc/kadr/README.md", "doc/kadr/LICENSE", "doc/kadr/docs/pipeline.md",
-                           "doc/kadr/docs/tube/laying.toml", "doc/kadr/scenarios/README.md", "kadr/kadr.lcm",
-                           "kadr/machines/mill3.toml", "kadr/scenarios/01_first_cut/scenario.toml",
-                           "man/man1/kadr.1", "bash-completion/completions/kadr", "zsh/site-functions/_kadr",
-                           "fish/vendor_completions.d/kadr.fish"}) {
+  for (const char* file :
+       {"doc/kadr/README.md", "doc/kadr/LICENSE", "doc/kadr/CHANGELOG.md", "doc/kadr/CONTRIBUTING.md",
+        "doc/kadr/SECURITY.md", "doc/kadr/CITATION.cff", "doc/kadr/docs/pipeline.md",
+        "doc/kadr/docs/tube/laying.toml", "doc/kadr/scenarios/README.md", "kadr/kadr.lcm",
+        "kadr/machines/mill3.toml", "kadr/scenarios/01_first_cut/scenario.toml", "man/man1/kadr.1",
+        "bash-completion/completions/kadr", "zsh/site-functions/_kadr",
+        "fish/vendor_completions.d/kadr.fish"}) {
     CAPTURE(file);
     CHECK(scratch.has(std::string("p/share/") + file));
   }
@@ -46,6 +49,25 @@ TEST_CASE("cmake --install brings kadr's own things to their places, and nothing
   // every scenario of the tree is there
   CHECK(shell("ls p/share/kadr/scenarios/*/scenario.toml | wc -l", scratch.path()).out ==
         shell("ls " KADR_SOURCE_DIR "/scenarios/*/scenario.toml | wc -l").out);
+}
+
+TEST_CASE("every relative link of an installed document leads to an installed file") {
+  const Scratch scratch;
+  REQUIRE(install(scratch, "p").code == 0);
+  // "page target", a line per link, without those to the network and to a place in the same page
+  const Finished links = shell(
+      "cd p/share/doc/kadr && grep -oE '\\]\\([^) ]+\\)' -- *.md docs/*.md | sed -E 's/:\\]\\(/ /; s/[)]$//; "
+      "s/#.*//' | grep -vE ' (https?:.*)?$'",
+      scratch.path());
+  CHECK(contains(links.out, "docs/HACKING.md ../CONTRIBUTING.md\n"));
+  std::istringstream lines(links.out);
+  for (std::string page, target; lines >> page >> target;) {
+    CAPTURE(page);
+    CAPTURE(target);
+    const auto slash = page.rfind('/');
+    const std::string folder = slash == std::string::npos ? "" : page.substr(0, slash + 1);
+    CHECK(shell("test -e p/share/doc/kadr/" + folder + target, scratch.path()).code == 0);
+  }
 }
 
 TEST_CASE("two installations are the same, byte for byte; man and completions are what the program prints") {
