@@ -21,11 +21,14 @@ struct Word {
 namespace vocabulary {
 
 /// Whether the enumeration declares this value. The compiler spells a declared enumerator by its name, and
-/// any other value as a cast: "[with auto kValue = Hue::red]", "[with auto kValue = (Hue)7]".
+/// any other value as a cast: "[with auto kValue = Hue::red]", "[with auto kValue = (Hue)7]". Clang's
+/// "(anonymous namespace)::" is no cast.
 template <auto kValue>
 constexpr bool is_declared() {
   const std::string_view text = __PRETTY_FUNCTION__;
-  return text[text.find("kValue = ") + std::string_view("kValue = ").size()] != '(';
+  const std::string_view value = text.substr(text.find("kValue = "));
+  const std::size_t closed = value.rfind(')');
+  return closed == value.npos || value[closed + 1] == ':';
 }
 
 template <class Enum, std::size_t... kIndex>

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "machine/base/vocabulary.h"
+#include "machine/step_method.h"
 #include "machine/words.h"
 
 using namespace kadr;
