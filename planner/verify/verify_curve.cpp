@@ -5,9 +5,8 @@
 namespace kadr::planner {
 
 VerifiedDerivatives verified_curve(const PathCurve& curve, double local_s) {
-  using AxisVector = std::array<double, kProgramAxes>;
   const double t = curve.t(local_s);
-  AxisVector f1{}, f2{}, f3{};
+  std::array<double, kProgramAxes> f1{}, f2{}, f3{};
   double p11 = 0, p12 = 0, p22 = 0, p13 = 0;
   for (std::size_t k = 0; k < curve.axes(); ++k) {
     double p1 = 1, p2 = 0, p3 = 0;  // t^(n-1), t^(n-2), t^(n-3), 0 for negative powers

@@ -1,6 +1,7 @@
 // What it costs that every plan is verified and every run checks its nodes:
-//   verify_of_plan_pct, verify_of_prepare_pct   verify() against the planner, and against reading and
-//   planning node_check_of_run_pct                       the node check against a run without plant and log
+//   verify_of_plan_pct      verify() against the planner
+//   verify_of_prepare_pct   the same against reading and planning
+//   node_check_of_run_pct   the node check against a run without plant and log
 // CPU time of this thread, the least of several rounds.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include "emulator/scenario/scenario.h"
 #include "machine/base/numbers.h"
 #include "planner/laws/motion_source.h"
+#include "planner/planner.h"
 #include "scenarios/generator/wind.h"
 
 namespace kadr {
