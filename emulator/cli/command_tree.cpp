@@ -6,6 +6,7 @@
 #include "emulator/cli/options.h"
 #include "machine/base/codes.h"
 #include "machine/machine.h"
+#include "machine/machine_file.h"
 
 namespace kadr::cli {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "emulator/emulator.h"
 #include "machine/base/require.h"
+#include "planner/planner.h"
 
 namespace kadr::emulator {
 namespace {
