@@ -17,7 +17,7 @@ class StreamedDocument {
  public:
   explicit StreamedDocument(Console& console) : console_(console) {}
 
-  void begin(Json head) {
+  void begin(const Json& head) {
     const std::string text = emulator::json_text(head);
     console_.data(text.substr(0, text.size() - 2));  // without "\n}"
   }

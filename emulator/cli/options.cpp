@@ -124,7 +124,7 @@ CLI::Option* Options::programs(CLI::App* sub, const std::string& name, bool seve
 
 void Options::repeated(CLI::App* sub, const std::string& name, const char* type,
                        const std::string& description,
-                       std::function<tl::expected<void, std::string>(const std::string&)> take) {
+                       const std::function<tl::expected<void, std::string>(const std::string&)>& take) {
   sub->add_option_function<std::vector<std::string>>(
          name,
          [name, take](const std::vector<std::string>& texts) {

@@ -50,7 +50,7 @@ class Options {
 
   /// An option whose every value is handed to `take`, which may find fault with it.
   void repeated(CLI::App* sub, const std::string& name, const char* type, const std::string& description,
-                std::function<tl::expected<void, std::string>(const std::string&)> take);
+                const std::function<tl::expected<void, std::string>(const std::string&)>& take);
 
   /// An option that takes one word of a vocabulary.
   template <class Enum, std::size_t kCount>

@@ -77,6 +77,7 @@ int teach_compare(const Arguments& arguments, Console& console) {
       if (methods.size() < kCompared && emulator::lattice::knows(m.method, subject.legs.front()))
         methods.push_back(m.method);
   std::vector<StepTable> tables;
+  tables.reserve(methods.size());
   for (const auto method : methods)
     tables.push_back(must(emulator::step_table(subject, method, arguments.teach.options)));
   if (console.options().json) {
