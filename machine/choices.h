@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-/// What a machine file chooses among.
+/// What a machine file chooses among, beside the methods (step_method.h, plan_method.h).
 namespace kadr::machine {
 
 enum class AxisKind : std::uint8_t { linear, rotary };
@@ -11,7 +11,6 @@ enum class TickFeed : std::uint8_t { linear, constant };
 enum class AxisLimitRule : std::uint8_t { enforce, report };
 enum class OnAlarm : std::uint8_t { report, stop };
 enum class SchedulerKind : std::uint8_t { chained, blockwise };
-enum class PlanMethod : std::uint8_t { scheduler, tube, certified, jerk_limited };
 /// How a G0 gets from rest to rest where a flexible link swings (paper 001).
 enum class RapidShape : std::uint8_t { scurve, t_zero, zv, zvd, automatic };
 enum class RampLaw : std::uint8_t { jerk_limited, quintic };

@@ -3,7 +3,7 @@
 #include "machine/choices.h"
 
 /// How machine files, logs and the command line spell the machine's choices. (Methods of interpolation:
-/// machine/step_method.h.)
+/// machine/step_method.h; of planning: machine/plan_method.h.)
 namespace kadr::machine {
 
 inline constexpr Vocabulary<AxisKind, 2> kAxisKinds{{
@@ -50,15 +50,6 @@ inline constexpr Vocabulary<SchedulerKind, 2> kSchedulers{{
     {SchedulerKind::blockwise, "blockwise", "a ramp begins and ends within one block"},
 }};
 static_assert(kSchedulers.complete());
-
-inline constexpr Vocabulary<PlanMethod, 4> kPlanMethods{{
-    {PlanMethod::scheduler, "scheduler", "ramps between block speeds"},
-    {PlanMethod::tube, "tube", "time law of paper 000: dynamic programmes in a tube that narrows"},
-    {PlanMethod::certified, "certified",
-     "time law of paper 000: the greedy law, polished, with a proof; no jerk limit"},
-    {PlanMethod::jerk_limited, "jerk-limited", "time law that keeps the jerk limits"},
-}};
-static_assert(kPlanMethods.complete());
 
 inline constexpr Vocabulary<RapidShape, 5> kRapidShapes{{
     {RapidShape::scurve, "scurve", "planned as any other move"},

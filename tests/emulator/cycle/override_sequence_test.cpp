@@ -92,7 +92,9 @@ TEST_CASE(
     CAPTURE(static_cast<int>(machine.feed_override.mode));
     CAPTURE(static_cast<int>(machine.feed_override.limiter));
     const planner::Path path = random_program(dice, machine);
-    machine.planner.method = static_cast<machine::PlanMethod>(std::max(dice.whole(-6, 2), 0));
+    using machine::PlanMethod;
+    constexpr PlanMethod kMethods[] = {PlanMethod::scheduler, PlanMethod::tube, PlanMethod::certified};
+    machine.planner.method = kMethods[std::max(dice.whole(-6, 2), 0)];
     CAPTURE(static_cast<int>(machine.planner.method));
     const auto plan = planner::plan(path, machine);
     REQUIRE(plan.has_value());
