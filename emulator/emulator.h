@@ -87,7 +87,11 @@ struct Job {
   gcode::Reading reading;                    ///< of the program
   std::vector<InputStep> inputs;             ///< what M66 meets; ascending by tick
   std::vector<OperatorStep> operator_steps;  ///< by tick those that have one, in the file's order the others
-  std::vector<LineLimit> line_limits;        ///< technology points of a scenario
+  /// Highest override as a ratio, 1 to 2, that the run must be able to follow: limits of corners and short
+  /// blocks are kept for it. Empty: the highest of operator_steps, at least 1. A run whose steps come while
+  /// it runs gives 2; its record, played again, is the same run only with the same number.
+  std::optional<double> most_percent;
+  std::vector<LineLimit> line_limits;  ///< technology points of a scenario
   std::vector<PlaceLimit> place_limits;
   std::vector<std::uint32_t> called_files;  ///< indices in sources, in the order of their first call
   std::vector<ProgramEvent> events;         ///< ascending in after_segment

@@ -104,7 +104,8 @@ class Cycle {
   static std::unique_ptr<planner::MotionSource> make_source(const Job& job) {
     const machine::MachineModel& machine = job.machine.model;
     if (job.operator_steps.empty()) return std::make_unique<planner::LawSource>(job.plan.law, machine);
-    return planner::override_source(job.path, job.plan, machine, most_percent(job.operator_steps));
+    const double most = job.most_percent.value_or(most_percent(job.operator_steps));
+    return planner::override_source(job.path, job.plan, machine, most);
   }
   bool has_operator() const { return !job_.operator_steps.empty(); }
 

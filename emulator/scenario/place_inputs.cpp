@@ -16,6 +16,7 @@ constexpr double kSameTick = 1e-6;
 
 void place_inputs(const Scenario& scenario, std::uint32_t file, Job& job, Diagnostics& diagnostics) {
   const double tau_s = job.machine.model.clock.tau_s();
+  job.most_percent = scenario.most_percent;
   for (const ScenarioTechnology& point : scenario.technology) {
     Span span = point.span;
     span.file = file;

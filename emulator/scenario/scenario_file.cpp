@@ -24,6 +24,8 @@ constexpr machine::Bounds kVibration{0, 1e9};
 constexpr machine::Bounds kInput{0, 63, false, true};
 constexpr machine::Bounds kDigital{0, 1, false, true};
 constexpr machine::Bounds kAny{-1e12, 1e12};
+constexpr double kMostOverride_pct = 200;
+constexpr machine::Bounds kMostOverride{100, kMostOverride_pct};
 constexpr machine::Bounds kAnalog{-1e9, 1e9};
 
 /// Reads one scenario file; mistakes go to the context's diagnostics.
@@ -50,6 +52,7 @@ class ScenarioReader {
     if (const Node* stock = table.table("stock")) flatten_settings(*stock, "stock");
     for (const Node& point : table.tables("technology")) read_technology(point);
     for (const Node& step : table.tables("step")) read_step(step);
+    read_most_override(table);
     if (const Node* expect = table.table("expect")) read_expect(*expect);
     table.finish();
   }
@@ -211,7 +214,7 @@ class ScenarioReader {
              "leave the step out, or write true");
       step.action = action;
     };
-    percent("override_pct", 200, OperatorAction::feed_override);
+    percent("override_pct", kMostOverride_pct, OperatorAction::feed_override);
     percent("rapid_override_pct", 100, OperatorAction::rapid_override);
     percent("spindle_load_pct", 1000, OperatorAction::spindle_load);
     act("hold", OperatorAction::hold);
@@ -240,6 +243,20 @@ class ScenarioReader {
                   "write a second step where the load falls again");
     table.finish();
     scenario_.steps.push_back(step);
+  }
+
+  /// The highest override that the run must be able to follow; no step goes beyond it.
+  void read_most_override(TableReader& table) {
+    if (!table.has("most_override_pct")) return;
+    const auto most = table.number("most_override_pct", kMostOverride);
+    if (!most.valid) return;
+    scenario_.most_percent = most.value / 100;
+    for (const ScenarioStep& step : scenario_.steps)
+      if (step.action == OperatorAction::feed_override && step.value > *scenario_.most_percent)
+        tell(Code::scenario_step, step.span,
+             fmt::format("an override of {:.6g} % is above most_override_pct = {:.6g}", 100 * step.value,
+                         most.value),
+             "raise most_override_pct, or leave it out");
   }
 
   void read_expect(const Node& node) {
