@@ -213,8 +213,7 @@ TEST_CASE("kadr plot --path fills the rows asked for and no more, and calls a lo
   REQUIRE(call({"run", "flat.ngc", "--set", "axis.Y.home_mm=7.07e-6", "-q"}, scratch.path()).code == 0);
   for (const std::string ascii : {"", "--ascii"}) {
     CAPTURE(ascii);
-    // 69 columns for 100 mm: 20 mm are 6.8 cells of double height up from the first: 28 Braille dots, or 8
-    // cells
+    // 69 columns for 100 mm: 20 mm are 6.8 cells of double height up from the first: 28 Braille dots, or 8 cells
     const std::size_t rows = ascii.empty() ? 7 : 8;
     std::vector<std::string> plot = {"plot", "flat.lcmlog", "--path"};
     if (!ascii.empty()) plot.push_back(ascii);

@@ -179,7 +179,7 @@ TEST_CASE("kadr machine new --ask asks on a terminal, and does not hang in a scr
        {std::array{"--acceleration", "5parsec", "unit 'parsec' is not known"},
         std::array{"--axes", "XX", "X stands twice"},
         std::array{"--tool-change", "-1", "--tool-change is -1"},
-        std::array{"--max-speed", "5000", "say the unit"}}) {
+        std::array{"--max-speed", "5000", "add the unit"}}) {
     Launch wrong;
     wrong.arguments = {"machine", "new", "shop", "--ask", std::string(option) + '=' + value};
     wrong.folder = scratch.path();
@@ -201,7 +201,7 @@ TEST_CASE("kadr machine new --ask asks on a terminal, and does not hang in a scr
   CHECK(asked.code == 0);
   CHECK(contains(asked.out, "X stands twice"));
   CHECK(contains(asked.out, "got 2: '800,800'"));
-  CHECK(contains(asked.out, "say the unit"));
+  CHECK(contains(asked.out, "add the unit"));
   CHECK(contains(asked.out, "Acceleration in mm/s2 or deg/s2 [500]: "));
   CHECK(contains(asked.out, "wrote shop.toml"));
   CHECK(contains(scratch.read("shop.toml"), "max_acceleration_mm_s2 = 500 "));

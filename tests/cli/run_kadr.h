@@ -31,8 +31,7 @@ struct Launch {
   std::function<void(pid_t)> watch;
 };
 
-/// True where the system has no pseudo-terminals (a bare root without /dev/pts); then the case is marked as
-/// skipped.
+/// True where the system has no pseudo-terminals (a bare root without /dev/pts); then the case is marked as skipped.
 bool lacks_terminals();
 
 /// Starts build folder's kadr and waits for its end, at most 60 s (then it is killed).

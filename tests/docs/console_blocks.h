@@ -7,8 +7,7 @@
 /// Documents whose examples are run: fenced blocks marked ```console with "$ command" and the output below
 /// it.
 ///   "> " after a command continues it; "[..]" in a line stands for any text; a line "[...]" alone for any
-///   lines; the last line "(exit 1)" for the exit code where it is not 0. Standard output and error are taken
-///   together.
+///   lines; the last line "(exit 1)" for the exit code where it is not 0. Standard output and error are taken together.
 namespace kadr::docs {
 
 struct Example {

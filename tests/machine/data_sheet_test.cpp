@@ -178,7 +178,7 @@ TEST_CASE("a bad data sheet is refused with option, axis, what was given and wha
       {&Words::travel, "1..", "got '1..'"},
       {&Words::travel, "1e300", "allowed: -1e+08 to 1e+08 mm"},
       {&Words::max_speed, "5000", "--max-speed of axis X takes a speed with its unit, e.g. 5000mm/min"},
-      {&Words::max_speed, "5000", "say the unit"},
+      {&Words::max_speed, "5000", "add the unit"},
       {&Words::max_speed, "-5m/min", "is -83.3333 mm/s ('-5m/min'); allowed: 1e-06 to 1e+09 mm/s"},
       {&Words::max_speed, "0mm/s", "is 0 mm/s"},
       {&Words::max_speed, "inf", "got 'inf'"},

@@ -68,8 +68,7 @@ class FakeRun {
   emulator::TickRecord record_;
 };
 
-/// True if the exact data of a log, as far as it goes, are those of the FakeRun, pulse by pulse and bit by
-/// bit.
+/// True if the exact data of a log, as far as it goes, are those of the FakeRun, pulse by pulse and bit by bit.
 bool holds_fake_run(const std::string& path, const machine::MachineModel& machine,
                     FakeRunOptions options = {});
 

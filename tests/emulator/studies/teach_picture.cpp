@@ -154,8 +154,7 @@ TEST_CASE("the speed rose: 1 along an axis, 1/sqrt 2 or sqrt 2 across, L/(a + b)
 }
 
 TEST_CASE("20,000 traces have one hash, the one that the page's core has in WebAssembly") {
-  // tests/web/teach_test.mjs demands the same of the core; d508b1107e158b18 was found by g++, clang++ and
-  // wasm32
+  // tests/web/teach_test.mjs demands the same of the core; d508b1107e158b18 was found by g++, clang++ and wasm32
   CHECK(sweep_hash(0, 20'000) == 0xd508b1107e158b18ULL);
   // in pieces the same, and one case more or less is seen
   CHECK(sweep_hash(10'000, 10'000, sweep_hash(0, 10'000)) == 0xd508b1107e158b18ULL);
