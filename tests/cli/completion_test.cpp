@@ -62,7 +62,7 @@ void read_help(const std::string& path, std::vector<HelpedCommand>& commands) {
     } else if (!line.starts_with("  ")) {
       in_commands = line == "Subcommands:";
     } else if (in_commands) {
-      // a name stands at the margin, its text is indented deeper
+      // a name is at the margin, its text is indented deeper
       if (line[2] != ' ') below.push_back(path + ' ' + words_of(line).front());
     } else {
       read_names(line, command);
@@ -293,7 +293,7 @@ TEST_CASE(
   const std::string page = call({"man"}).out;
   CHECK_FALSE(contains(page, "shows details"));
   CHECK(page.find("stopped by a signal") == page.rfind("stopped by a signal"));
-  // what one command says below its options is there
+  // the text below a command's options is there
   CHECK(contains(part_of(page, ".SS \\fBkadr wind\\fR", "\n.S"), "carriage"));
 }
 

@@ -70,7 +70,7 @@ TEST_CASE(
   }
   CHECK(std::llround(pulses) == info["axes"][0]["pulses"].get<std::int64_t>());
   CHECK(peak > 9.9);
-  // the last node is where the machine stands: X10 at 0.0025 mm a step
+  // the last node is the machine's position: X10 at 0.0025 mm a step
   CHECK(split(lines.back(), ',')[2] == "4000");
 }
 

@@ -68,7 +68,7 @@ TEST_CASE("kadr machine new from a data sheet: a file that check passes and a pr
     return MachineJson::parse(f.out)[0]["check"]["time_s"].get<double>();
   };
   CHECK(call({"run", "part.ngc", "-m", "router.toml", "-q"}, scratch.path()).code == 0);
-  // with the axis' own acceleration at corners, what a file that says nothing gets, time doubles
+  // with the axis' own acceleration at corners, the default of the key, time doubles
   std::vector<std::string> slow = {"check", "part.ngc", "-m", "router.toml", "--json"};
   for (const char* axis : {"X", "Y"})
     slow.insert(slow.end(), {"--set", fmt::format("axis.{}.junction_acceleration_mm_s2=200", axis)});
@@ -174,7 +174,7 @@ TEST_CASE("kadr machine new --ask asks on a terminal, and does not hang in a scr
   CHECK_FALSE(scratch.has("shop.toml"));
 
   if (kadr::test::lacks_terminals()) return;
-  // what was given is judged before the first question
+  // given values are checked before the first question
   for (const auto& [option, value, complaint] :
        {std::array{"--acceleration", "5parsec", "unit 'parsec' is not known"},
         std::array{"--axes", "XX", "X stands twice"},

@@ -127,7 +127,7 @@ TEST_CASE("two runs of kadr law give the same bytes: CSV a row a law, a page wit
   CHECK(line.starts_with("law,xi,duration_s,peak_accel_m_s2,"));
   const auto columns = std::count(line.begin(), line.end(), ',');
   int rows = 0;
-  // a name in quotes may have one comma of its own
+  // a name in quotes may contain a comma
   for (; std::getline(lines, line); ++rows) {
     const std::string values = line.substr(line.find('"', 1));
     CHECK(std::count(values.begin(), values.end(), ',') == columns);

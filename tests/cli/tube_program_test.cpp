@@ -19,7 +19,7 @@ namespace {
 
 const std::string kHead = "format = 1\n[path]\nprogram = \"part.ngc\"\nmachine = \"mill3\"\n";
 
-/// Solves a problem with that program beside it.
+/// Solves a problem with that program next to it.
 Finished tube(const Scratch& scratch, const std::string& problem, const std::string& program,
               std::vector<std::string> options) {
   scratch.write("part.ngc", program);
@@ -98,7 +98,7 @@ TEST_CASE("limits of a problem go before the machine's: axes, the path, the dist
   const double by_place = time_s(solved(scratch, kHead + "[[zone]]\nat_mm = 20\nmax_mm_s = 5\n", two));
   const double by_comment = time_s(solved(scratch, kHead, "G21\nG1 X20 F1200\n(TECH s_max=5)\nG1 X40\nM2\n"));
   CHECK(by_line == by_place);
-  // told by the program, the slow place has closer nodes beside it
+  // set by the program, the slow position has closer nodes next to it
   CHECK(by_line == doctest::Approx(by_comment).epsilon(1e-2));
   CHECK(by_line > time_s(solved(scratch, kHead, two)));
 }

@@ -25,7 +25,7 @@ std::vector<std::string> bad_problems() {
   return names;
 }
 
-/// A problem with an axis X of 420 mm, and what else it says.
+/// A problem with an axis X of 420 mm and further lines.
 std::string problem(const std::string& path, const std::string& rest = "") {
   return "format = 1\n[path]\n" + path +
          "\n[[axis]]\nname = \"X\"\nunit = \"mm\"\nmax_mm_s = 400\nmax_acceleration_mm_s2 = 1200\nslope_mm = "

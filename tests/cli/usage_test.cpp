@@ -72,7 +72,7 @@ void check_help(const std::string& command, int& options) {
     CHECK(option.description.size() > 5);
     for (const char* raw : {"TEXT", "INT", "UINT", "FLOAT"}) CHECK(option.type != raw);
     if (option.names == "-h,--help" || option.names == "--version") continue;
-    // an option without type is a flag: an option behind it is no value that is missing
+    // an option without type is a flag: an option after it does not mean a missing value
     arguments.back() = long_name(option);
     arguments.push_back("--no-such-option");
     const std::string told = call(arguments).err;

@@ -24,7 +24,7 @@ std::vector<Example> parse_examples(const std::vector<std::string>& document);
 
 /// True if the line is the pattern, "[..]" standing for any text.
 bool matches_line(const std::string& pattern, const std::string& line);
-/// True if the output is what is expected, "[...]" standing for any lines.
+/// True if the output is as expected; "[...]" matches any lines.
 bool matches_output(const std::vector<std::string>& expected, const std::vector<std::string>& output);
 
 /// Runs the command with bash in a folder; the programs of `bin` come first. Output without lines of

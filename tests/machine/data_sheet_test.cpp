@@ -109,7 +109,7 @@ TEST_CASE("a converted length is the number a person computes, in the table and 
   CHECK(sheet->axis[0].max_u == 800.1);
   CHECK(sheet->axis[2].min_u == -41.91);
   CHECK(render_data_sheet(*sheet, "m").find("range_mm = [0, 800.1] ") != std::string::npos);
-  // what has more digits keeps them
+  // numbers with more digits keep them
   CHECK(sheet->axis[0].max_u_s.value == doctest::Approx(5000.0 / 60).epsilon(1e-15));
 }
 

@@ -8,7 +8,7 @@
 #include "tests/support/run_program.h"
 #include "tests/support/test_machine.h"
 
-// No broken plan leaves prepare(), no wrong node leaves run(): both end with a broken promise that names the place.
+// No broken plan leaves prepare(), no wrong node leaves run(): both end with a broken promise that names the position.
 
 using namespace kadr;
 using namespace kadr::test;
@@ -148,7 +148,7 @@ TEST_CASE("curves are verified but for acceleration and jerk of those that turn 
   // mended, the exception goes (VerifyOptions::curves_that_turn_back), and the last line of this test with it.
   const char* const tip = "G21 G90 G94 G17 G64\nF1200\nG5 X10 Y0 I30 J0.05 P20 Q0.05\nM2\n";
   CHECK(said_of(tip, planner::plan).empty());
-  // what is not excused there: feed and the law itself
+  // not exempt there: feed and the law itself
   CHECK(has(said_of_damage([](auto& p) { p.law.pieces[2].speed_u_s += 1e-3; }, tip), "continuity of speed"));
   emulator::Job job = make_job(tip, test_machine());
   Diagnostics diagnostics;

@@ -112,7 +112,7 @@ TEST_CASE("lattice: radial errors of single circles are those of the study") {
 }
 
 TEST_CASE("lattice: random arcs both ways: the half-step misses no end and is never forced") {
-  // what the classic one misses is seen in a few of a hundred
+  // the classic method misses in a few of a hundred cases
   const std::uint64_t count = std::max<std::uint64_t>(environment_count("KADR_COUNT", 1'500), 300);
   std::mt19937 random(static_cast<unsigned>(kadr::test::property_seed(7)));
   Worst half, extra, classic;

@@ -82,7 +82,7 @@ std::int64_t write_log(const std::string& path, const machine::MachineModel& mac
                        std::int64_t control_ticks, FakeRunOptions options = {},
                        emulator::Outcome outcome = emulator::Outcome::complete);
 
-/// A folder of its own for one test case, removed with everything in it.
+/// A new folder for one test case, removed with everything in it.
 class TestFolder {
  public:
   TestFolder();

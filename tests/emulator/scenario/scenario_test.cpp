@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder of its own for the files of one case.
+/// A new folder for the files of one case.
 class Folder {
  public:
   Folder() {

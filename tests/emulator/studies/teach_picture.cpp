@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kCases = 4000;
 
-/// 2^degree F at a tested place.
+/// 2^degree F at a tested point.
 lattice::Wide at(const lattice::Polynomial& f, TestedPlace p) { return f.doubled(p.x2, p.y2); }
 
 TeachCase one(Curve curve) {
@@ -28,7 +28,7 @@ TeachCase one(Curve curve) {
 
 StepTable followed(const Curve& curve, Method method) { return follow(one(curve), method, {}).table; }
 
-/// What 2^degree F at the tested places is, said by the slot itself: the numbers of the step table.
+/// 2^degree F at the tested points, from the slot itself: the numbers of the step table.
 bool agrees(const Curve& curve, Method method, const lattice::Polynomial& f,
             const std::vector<TestedPlace>& places, const lattice::Slot& slot) {
   const bool arc = std::holds_alternative<lattice::ArcCurve>(curve);
