@@ -37,15 +37,16 @@ void add_tube(Options& o) {
       ->required()
       ->expected(1)
       ->type_name("");
-  o.repeated(sub, "--method", "NAME",
-             fmt::format("Use only this method: {};\nrepeatable (default: all that the problem states)",
-                         emulator::kLawMethods.list()),
-             [&o](const std::string& text) -> tl::expected<void, std::string> {
-               if (!emulator::kLawMethods.find(text))
-                 return tl::unexpected(fmt::format("knows {}; got '{}'", emulator::kLawMethods.list(), text));
-               o.arguments.methods.push_back(text);
-               return {};
-             });
+  o.repeated(
+      sub, "--method", "NAME",
+      fmt::format("Use only this method: {};\nrepeatable (default: all that the problem states)",
+                  emulator::kLawMethods.list()),
+      [&o](const std::string& text) -> tl::expected<void, std::string> {
+        if (!emulator::kLawMethods.find(text))
+          return tl::unexpected(fmt::format("takes one of {}; got '{}'", emulator::kLawMethods.list(), text));
+        o.arguments.methods.push_back(text);
+        return {};
+      });
   sub->add_option(
          "--csv", o.arguments.csv_path,
          "Write a CSV file, a row per node: s in mm, highest speed and what limits it, speed in mm/s "

@@ -167,7 +167,7 @@ std::string manual_page(const Command& kadr) {
   out += kManualTop;
   out += ".SH OPTIONS\n";
   for (const CommandOption& o : kadr.options) out += option_entry(o);
-  out += ".PP\nEvery command knows " + roff_bold("--help") + ".\n.SH COMMANDS\n";
+  out += ".PP\nEvery command takes " + roff_bold("--help") + ".\n.SH COMMANDS\n";
   add_commands(kadr, out);
   out += ".SH EXIT STATUS\n";
   for (const ExitCode& c : kExitCodes)

@@ -64,7 +64,7 @@ class Options {
           const auto found = vocabulary.find(text);
           if (!found)
             throw CLI::ValidationError(
-                fmt::format("{} knows {}; got '{}'", name, fmt::join(list, ", "), text));
+                fmt::format("{} takes one of {}; got '{}'", name, fmt::join(list, ", "), text));
           value = *found;
         },
         description);

@@ -78,7 +78,7 @@ void methods(Options& o, CLI::App* sub, std::size_t most) {
                                most, most),
              [&o, names, most](const std::string& text) -> tl::expected<void, std::string> {
                if (!emulator::lattice::method_of(text))
-                 return tl::unexpected(fmt::format("knows {}; got '{}'", names, text));
+                 return tl::unexpected(fmt::format("takes one of {}; got '{}'", names, text));
                if (o.arguments.methods.size() == most)
                  return tl::unexpected(fmt::format("is taken {} at most; '{}' is one more",
                                                    most == 1 ? "once" : fmt::format("{} times", most), text));

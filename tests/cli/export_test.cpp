@@ -171,8 +171,8 @@ TEST_CASE("what can't be exported is refused with the way out") {
   };
   refused({"--csv", "--signals", "feed.commanded*,speed"},
           "the log has no signal 'speed' (`kadr export LOG --list`");
-  refused({"--csv", "--from", "2", "--to", "1"}, "--from 2 s is behind --to 1 s");
-  refused({"--vcd", "--rate-hz", "10"}, "--vcd holds every pulse");
+  refused({"--csv", "--from", "2", "--to", "1"}, "--from 2 s is after --to 1 s");
+  refused({"--vcd", "--rate-hz", "10"}, "--vcd contains every pulse");
   refused({"--csv", "--json"}, "");
   refused({}, "");
   refused({"--csv", "--from", "1,5"}, "--from takes a number");

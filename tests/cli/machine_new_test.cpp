@@ -177,7 +177,7 @@ TEST_CASE("kadr machine new --ask asks on a terminal, and does not hang in a scr
   // given values are checked before the first question
   for (const auto& [option, value, complaint] :
        {std::array{"--acceleration", "5parsec", "unit 'parsec' is not known"},
-        std::array{"--axes", "XX", "X stands twice"},
+        std::array{"--axes", "XX", "X is given twice"},
         std::array{"--tool-change", "-1", "--tool-change is -1"},
         std::array{"--max-speed", "5000", "add the unit"}}) {
     Launch wrong;
@@ -199,7 +199,7 @@ TEST_CASE("kadr machine new --ask asks on a terminal, and does not hang in a scr
   const Finished asked = run_kadr(launch);
   CAPTURE(asked.out);
   CHECK(asked.code == 0);
-  CHECK(contains(asked.out, "X stands twice"));
+  CHECK(contains(asked.out, "X is given twice"));
   CHECK(contains(asked.out, "got 2: '800,800'"));
   CHECK(contains(asked.out, "add the unit"));
   CHECK(contains(asked.out, "Acceleration in mm/s2 or deg/s2 [500]: "));

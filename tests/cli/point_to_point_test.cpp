@@ -158,7 +158,7 @@ TEST_CASE("what can't be asked is refused with what was given and what is allowe
       {{"--xi", "0.3"}, "xi is 0.3: it may be 0.3232233 at least"},
       {{"--xi", "0.6"}, "xi is 0.6: it may be 0.5 at most"},
       {{"--distance-m", "far"}, "--distance-m takes a number; got 'far'"},
-      {{"--drive", "rope"}, "--drive knows force, position; got 'rope'"},
+      {{"--drive", "rope"}, "--drive takes one of force, position; got 'rope'"},
   };
   for (const Refusal& r : refusals) {
     const Finished run = law(r.arguments);

@@ -164,7 +164,7 @@ TEST_CASE("a bad data sheet is refused with option, axis, what was given and wha
     const char* value;
     const char* complaint;
   } cases[] = {
-      {&Words::axes, "XYX", "each once, e.g. XYZ; got 'XYX': X stands twice"},
+      {&Words::axes, "XYX", "each once, e.g. XYZ; got 'XYX': X is given twice"},
       {&Words::axes, "XQ", "--axes takes letters of X Y Z A B C U V W"},
       {&Words::axes, ",", "--axes takes letters"},
       {&Words::travel, "800,800",

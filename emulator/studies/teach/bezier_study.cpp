@@ -33,7 +33,8 @@ ReadPoints read_points(const std::string& text, std::size_t& axes) {
     if (axes == 0) axes = numbers.size();
     if (numbers.size() != axes || axes < 2 || axes > planner::kMostBezierAxes)
       return tl::unexpected(
-          fmt::format("point '{}' of '{}' has {} coordinates, {} are needed", word, text, numbers.size(),
+          fmt::format("point '{}' of '{}' has {}, {} are needed", word, text,
+                      counted(static_cast<std::int64_t>(numbers.size()), "coordinate"),
                       axes >= 2 && axes <= planner::kMostBezierAxes ? std::to_string(axes) : "2 to 9"));
     points.emplace_back();
     for (std::size_t k = 0; k < axes; ++k) {

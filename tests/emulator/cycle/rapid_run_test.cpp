@@ -23,7 +23,7 @@ machine::MachineModel rig(RapidShape shape) {
 }
 
 struct Stop {
-  double swing_um = 0;   ///< largest |x1| from 0.2 s after the stop on, when the motor's own vibration is gone
+  double swing_um = 0;  ///< largest |x1| from 0.2 s after the stop on, when the motor's own vibration is gone
   double stated_um = 0;  ///< amplitude that the plan says is left
   double time_s = 0;     ///< of the rapid
 };
