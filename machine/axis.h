@@ -6,8 +6,7 @@
 /// Units: `_u` is the axis's own unit, mm for a linear and degrees for a rotary axis.
 namespace kadr::machine {
 
-/// Two masses on one axis (paper 001, eq. 5-6). SI: kg, N/m, N s/m; for a rotary axis kg m^2, N m/rad, N m
-/// s/rad.
+/// Two masses on one axis (paper 001, eq. 5-6). SI: kg, N/m, N s/m; for a rotary axis kg m^2, N m/rad, N m s/rad.
 struct TwoMassModel {
   MotorModel motor = MotorModel::rigid;
   double base_mass_kg = 0;             ///< m0: motor and carriage, > 0

@@ -22,7 +22,7 @@ tl::unexpected<std::string> invalid(const char* why) { return tl::unexpected<std
 template <class T>
 Decoded<T> finished(const WireReader& in, T value) {
   if (!in.ok()) return invalid("its fields do not fit its length");
-  if (!in.at_end()) return invalid("bytes are left over behind its fields");
+  if (!in.at_end()) return invalid("bytes are left over after its fields");
   return value;
 }
 

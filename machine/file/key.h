@@ -130,9 +130,9 @@ void read_keys(TableReader& r, Model& model, const std::tuple<Keys...>& keys) {
   std::apply([&](const auto&... each) { (read_key(r, model, each), ...); }, keys);
 }
 
-// ---- what documents say of a key
+// ---- a key as the documents show it
 
-/// A key that no member of a model stands for; its reading is written by hand.
+/// A key without a member in the model; its reader is written by hand.
 struct PlainKey {
   std::string_view name, allowed, otherwise, sentence;
 };

@@ -33,16 +33,16 @@ class Documents {
 
 std::vector<TableDocument> machine_keys() {
   Documents d;
-  d.table("", "in front of all tables").one(kFormat).one(kName).one(kOnAlarm);
+  d.table("", "before all tables").one(kFormat).one(kName).one(kOnAlarm);
   d.table("[clock]", "the two clocks").one(kRate).one(kControlPeriod);
   d.table("[path]", "what a path may be").all(kPathKeys);
-  d.table("[feed]", "limits along the path of X Y Z, besides those of each axis").all(kFeedKeys);
+  d.table("[feed]", "limits along the path of X Y Z, on top of those of each axis").all(kFeedKeys);
   d.table("[planner]", "how feed is planned").all(kPlannerKeys);
   d.table("[interpolator]", "how steps are made").one(kInterpolatorMethod);
   d.table("[override]", "what the operator's override does").all(kOverrideKeys);
   d.table("[spindle]", "how the feed answers the spindle's load").all(kSpindleKeys);
   d.table("[plant]", "how the machine's motion is computed").one(kIntegrator).one(kTolerance);
-  d.table("[log]", "what a log keeps").all(kLogKeys).one(kViewerRate);
+  d.table("[log]", "what a log contains").all(kLogKeys).one(kViewerRate);
   d.table("[stock]", "material that a probe meets; optional")
       .one(kStockAxis)
       .one(kStockPosition)
@@ -58,7 +58,7 @@ std::vector<TableDocument> machine_keys() {
       .one(kHome)
       .one(kHome2)
       .all(kAxisLimitKeys);
-  d.table("[axis.plant]", "what swings; optional, an axis without it follows its steps exactly")
+  d.table("[axis.plant]", "the flexible machine; optional, an axis without it follows its steps exactly")
       .one(kMotor)
       .all(kPlantKeys);
   return d.take();

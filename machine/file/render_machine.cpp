@@ -64,7 +64,7 @@ void write_key(TomlWriter& w, const Model& model, const Key<Model, Value>& key,
                AxisKind kind = AxisKind::linear) {
   const Value value = model.*key.member;
   const std::string name = spelled(key.name, kind);
-  // the numbers that one motor alone has are left out where they are not given
+  // numbers that only one motor has are left out unless given
   if constexpr (std::is_same_v<Value, bool>)
     w.line(name, value ? "true" : "false");
   else if (value > 0 || (key.need != Need::spring && key.need != Need::stepper))
