@@ -2,8 +2,7 @@
 #include "machine/base/vocabulary.h"
 #include "machine/choices.h"
 
-/// How machine files, logs and the command line spell the machine's choices. (Methods of interpolation:
-/// machine/step_method.h.)
+/// How machine files, logs and the command line spell the choices of machine/choices.h.
 namespace kadr::machine {
 
 inline constexpr Vocabulary<AxisKind, 2> kAxisKinds{{
@@ -11,13 +10,6 @@ inline constexpr Vocabulary<AxisKind, 2> kAxisKinds{{
     {AxisKind::rotary, "rotary", "turns in degrees"},
 }};
 static_assert(kAxisKinds.complete());
-
-inline constexpr Vocabulary<MotorModel, 3> kMotorModels{{
-    {MotorModel::rigid, "rigid", "the carriage follows every step at once"},
-    {MotorModel::spring, "spring", "the motor pulls by a linear spring"},
-    {MotorModel::stepper, "stepper", "the motor pulls by the sine of its angle, and can lose steps"},
-}};
-static_assert(kMotorModels.complete());
 
 inline constexpr Vocabulary<IntegratorKind, 3> kIntegrators{{
     {IntegratorKind::smooth, "smooth", "Taylor series over the commanded motion"},
