@@ -1,11 +1,10 @@
 #pragma once
 #include <cstdint>
 
-/// The choices that a machine file makes.
+/// The choices that a machine file makes. (Motors: two_masses.h; methods of interpolation: step_method.h.)
 namespace kadr::machine {
 
 enum class AxisKind : std::uint8_t { linear, rotary };
-enum class MotorModel : std::uint8_t { rigid, spring, stepper };
 enum class IntegratorKind : std::uint8_t { smooth, reference, oracle };
 enum class TickFeed : std::uint8_t { linear, constant };
 enum class AxisLimitRule : std::uint8_t { enforce, report };

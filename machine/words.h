@@ -12,13 +12,6 @@ inline constexpr Vocabulary<AxisKind, 2> kAxisKinds{{
 }};
 static_assert(kAxisKinds.complete());
 
-inline constexpr Vocabulary<MotorModel, 3> kMotorModels{{
-    {MotorModel::rigid, "rigid", "the carriage follows every step at once"},
-    {MotorModel::spring, "spring", "the motor pulls by a linear spring"},
-    {MotorModel::stepper, "stepper", "the motor pulls by the sine of its angle, and can lose steps"},
-}};
-static_assert(kMotorModels.complete());
-
 inline constexpr Vocabulary<IntegratorKind, 3> kIntegrators{{
     {IntegratorKind::smooth, "smooth",
      "CVODE over a smoothed command plus the exact response to the steps; stepper motors: Taylor series"},

@@ -122,11 +122,9 @@ std::optional<TwoMassModel> read_plant(const Node& table, const std::string& pat
     return ((each.need == Need::link && r.has(spelled(each.name, axis.kind))) || ...);
   };
   const bool link = m.motor != MotorModel::rigid || std::apply(any_given, kPlantKeys);
-  const bool spring = m.motor == MotorModel::spring, stepper = m.motor == MotorModel::stepper;
   const auto read = [&](const auto& key) {
-    const bool needed = (key.need == Need::link && link) || (key.need == Need::spring && spring) ||
-                        (key.need == Need::stepper && stepper) ||
-                        (key.need == Need::motor && (spring || stepper));
+    const bool needed =
+        (key.need == Need::link && link) || (key.need == Need::motor && motor_needs(m.motor, key.member));
     read_key(r, m, key, axis.kind, needed);
   };
   std::apply([&](const auto&... each) { (read(each), ...); }, kPlantKeys);

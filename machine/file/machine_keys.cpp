@@ -1,10 +1,30 @@
 #include "machine/file/machine_keys.h"
 
 #include <tuple>
+#include <utility>
+#include <variant>
 
 namespace kadr::machine {
 
 namespace {
+
+/// Whether a number of the plant has a key that is required by motors.
+constexpr bool is_motor_key(double TwoMassModel::*number) {
+  return std::apply(
+      [&](const auto&... each) { return ((each.member == number && each.need == Need::motor) || ...); },
+      kPlantKeys);
+}
+template <std::size_t... kIndex>
+constexpr bool motor_keys_declared(std::index_sequence<kIndex...>) {
+  const auto declared = []<class Law>(std::in_place_type_t<Law>) {
+    for (const auto number : Law::kNeeds)
+      if (!is_motor_key(number)) return false;
+    return true;
+  };
+  return (declared(std::in_place_type<std::variant_alternative_t<kIndex, MotorLaw>>) && ...);
+}
+static_assert(motor_keys_declared(std::make_index_sequence<std::variant_size_v<MotorLaw>>()),
+              "each number that a motor needs has a key with .required(Need::motor)");
 
 /// A table of plain keys, of single keys, and of whole tuples of keys, in the order given.
 class Documents {

@@ -1,6 +1,7 @@
 #pragma once
 #include "machine/file/key.h"
 #include "machine/machine.h"
+#include "machine/motor.h"
 #include "machine/words.h"
 
 /// The keys of a machine file, each declared once: from here they are read, printed and documented
@@ -188,14 +189,14 @@ inline constexpr auto kPlantKeys = keys_of(
         "viscous friction of the guide"),
     key("motor_stiffness_{stiffness}", &TwoMassModel::motor_stiffness_N_per_m, kStiffnessBounds,
         "spring of the motor")
-        .required(Need::spring),
+        .required(Need::motor),
     key("motor_damping_{damping}", &TwoMassModel::motor_damping_Ns_per_m, kDampingBounds,
         "damping of the motor")
         .required(Need::motor),
     key("holding_force_{force}", &TwoMassModel::holding_force_N, kForceBounds, "largest force of the motor")
-        .required(Need::stepper),
+        .required(Need::motor),
     key("tooth_pitch_{u}", &TwoMassModel::tooth_pitch_u, kPitchBounds,
         "motion per electrical period: four full steps")
-        .required(Need::stepper));
+        .required(Need::motor));
 
 }  // namespace kadr::machine

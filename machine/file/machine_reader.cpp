@@ -152,9 +152,10 @@ PlantSettings read_plant_settings(const Node* table, const Span& place, const st
   r.finish();
   if (s.integrator != IntegratorKind::oracle) return s;
   for (const AxisModel& axis : axes) {
-    if (!axis.has_plant || axis.plant.motor != MotorModel::stepper) continue;
-    context.diagnostics.add(file_diagnostic(Code::machine_oracle_motor, integrator.span,
-                                            fmt::format("but axis {} has a stepper motor", axis.letter)));
+    if (!axis.has_plant || Motor(axis).linear()) continue;
+    context.diagnostics.add(file_diagnostic(
+        Code::machine_oracle_motor, integrator.span,
+        fmt::format("but axis {} has a {} motor", axis.letter, kMotorModels.word(axis.plant.motor))));
   }
   return s;
 }
