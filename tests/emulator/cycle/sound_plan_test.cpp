@@ -34,8 +34,9 @@ std::string said_of(const std::string& program, const emulator::PlanFunction& pl
   return "";
 }
 std::string said_of_damage(const Damage& damage, const std::string& program = kFourBlocks) {
-  return said_of(program, [&](const planner::Path& path, const machine::MachineModel& machine) {
-    auto plan = planner::plan(path, machine);
+  return said_of(program, [&](const planner::Path& path, const machine::MachineModel& machine,
+                              std::span<const planner::Pause> pauses) {
+    auto plan = planner::plan(path, machine, pauses);
     REQUIRE(plan);
     damage(*plan);
     return plan;
@@ -63,9 +64,10 @@ std::string dense_program() {
 
 /// Plans the path as if its segments from `first` to the one before `last` allowed half as much feed again.
 emulator::PlanFunction too_fast_on(std::size_t first, std::size_t last) {
-  return [=](planner::Path path, const machine::MachineModel& machine) {
+  return [=](planner::Path path, const machine::MachineModel& machine,
+             std::span<const planner::Pause> pauses) {
     for (std::size_t i = first; i < last; ++i) path.segments[i].feed_u_s *= 1.5;
-    return planner::plan(path, machine);
+    return planner::plan(path, machine, pauses);
   };
 }
 
@@ -81,9 +83,10 @@ TEST_CASE("prepare() takes the planner's plan and refuses it run a millionth too
 }
 
 TEST_CASE("prepare() names the line of a corner that is passed as if it were not there") {
-  const auto blind = [](const planner::Path& path, machine::MachineModel machine) {
+  const auto blind = [](const planner::Path& path, machine::MachineModel machine,
+                        std::span<const planner::Pause> pauses) {
     for (auto& axis : machine.axis) axis.junction_accel_u_s2 = 1e9;
-    return planner::plan(path, machine);
+    return planner::plan(path, machine, pauses);
   };
   const std::string said = said_of(kFourBlocks, blind);
   CHECK_MESSAGE(has(said, "test.ngc:4: junction of X is "), said);
@@ -107,6 +110,57 @@ TEST_CASE("prepare() refuses gaps, jumps, wrong ends, a wrong length and a wrong
   named([](auto& p) { p.law.pieces.clear(); }, ": path without law is ");
   named([](auto& p) { p.segments[1].end_u_s -= 0.1; }, ": table speed is ");
   named([](auto& p) { p.segments.pop_back(); }, ": table size is 3, expected 4, ");
+}
+
+TEST_CASE("prepare() refuses a pause that is too short, elsewhere, missing, or that nobody asked for") {
+  // 40 mm, 0.4 s at rest, 0.6 s more at the same joint, 30 mm, 0.5 s at the end
+  const char* const dwells = "G21 G90 G94 G17 G64\nF3000\nG1 X40\nG4 P0.4\nG4 P0.6\nG1 Y30\nG4 P0.5\nM2\n";
+  const auto stands = [](const planner::JerkPiece& p) { return p.speed_u_s == 0 && p.jerk_u_s3 == 0; };
+  const auto first_pause = [&](planner::FeedPlan& plan) {
+    return std::find_if(plan.law.pieces.begin(), plan.law.pieces.end(), stands);
+  };
+  const auto named = [&](const Damage& damage, const std::string& what, const char* program) {
+    const std::string said = said_of_damage(damage, program);
+    CHECK_MESSAGE(has(said, what), said);
+  };
+  CHECK(said_of(dwells, planner::plan).empty());
+  const auto delay = [](auto& plan, auto from, double time_s) {
+    for (auto p = from; p != plan.law.pieces.end(); ++p) p->begin_s += time_s;
+    for (std::size_t i = 1; i < plan.segments.size(); ++i)
+      plan.segments[i].begin_time_s += time_s, plan.segments[i].end_time_s += time_s;
+    plan.law.duration_s += time_s;
+  };
+  named(
+      [&](auto& plan) {
+        auto p = first_pause(plan);
+        p->duration_s -= 0.1;
+        delay(plan, p + 1, -0.1);
+      },
+      ": table times is ", dwells);
+  named([](auto& plan) { plan.segments[1].begin_time_s += 1e-9; }, ": table times is ", dwells);
+  named(
+      [&](auto& plan) {  // the last one
+        plan.law.duration_s -= plan.law.pieces.back().duration_s;
+        plan.law.pieces.pop_back();
+      },
+      ": pause is 0 s, expected 0.5 s", dwells);
+  named(
+      [&](auto& plan) {
+        plan.law.pieces.back().duration_s += 0.25;
+        plan.law.duration_s += 0.25;
+      },
+      ": pause is 0.75 s, expected 0.5 s", dwells);
+  named([](auto& plan) { plan.pause_s += 1e-9; }, ": time of all pauses is ", dwells);
+  named([](auto& plan) { plan.motion_s += 1e-9; }, ": time of motion and pauses is ", dwells);
+  named(
+      [](auto& plan) {
+        auto rest = plan.law.pieces.back();
+        rest.begin_s += rest.duration_s, rest.duration_s = 0.001, rest.s_u = plan.law.length_u;
+        rest.speed_u_s = rest.accel_u_s2 = rest.jerk_u_s3 = 0;
+        plan.law.pieces.push_back(rest);
+        plan.law.duration_s += 0.001;
+      },
+      ": pause is 0.001 s, expected 0 s", kFourBlocks);
 }
 
 TEST_CASE(
