@@ -135,7 +135,8 @@ void Interpreter::compensate(const Block& block) {
   CompensationFault fault;
   if (compensation_tilted_ && is_move(block)) {
     Block programmed = block;
-    programmed.end = near(compensation_.programmed(), state_.to_program(block.end));
+    AxisValues& end = move_of(programmed)->end;
+    end = near(compensation_.programmed(), state_.to_program(end));
     fault = compensation_.take(programmed, feeds);
   } else {
     fault = compensation_.take(block, feeds);
@@ -145,20 +146,20 @@ void Interpreter::compensate(const Block& block) {
 }
 
 void Interpreter::hand_out_compensated(Block& block) {
-  if (compensation_tilted_ && is_move(block)) {
-    block.plane_rotation_deg = 0;
-    if (block.kind == BlockKind::arc) {
-      const PlaneAxes axes = plane_axes(block.plane);
+  Move* move = compensation_tilted_ ? move_of(block) : nullptr;
+  if (move != nullptr) {
+    if (Arc* arc = std::get_if<Arc>(&block.action)) {
+      const PlaneAxes axes = plane_axes(arc->plane);
       const auto first = static_cast<std::size_t>(axes.first), second = static_cast<std::size_t>(axes.second);
-      AxisValues center = block.end;
-      center[first] = block.center_first_mm;
-      center[second] = block.center_second_mm;
+      AxisValues center = arc->end;
+      center[first] = arc->center_first_mm;
+      center[second] = arc->center_second_mm;
       center = state_.to_machine(center);
-      block.center_first_mm = center[first];
-      block.center_second_mm = center[second];
-      block.plane_rotation_deg = state_.rotation_deg;
+      arc->center_first_mm = center[first];
+      arc->center_second_mm = center[second];
+      arc->plane_rotation_deg = state_.rotation_deg;
     }
-    block.end = state_.to_machine(block.end);
+    move->end = state_.to_machine(move->end);
   }
   hand_out(block);
 }

@@ -14,34 +14,34 @@ void Interpreter::spindle() {
 
 void Interpreter::turn_spindle(Turning turning, Span span) {
   state_.turning = turning;
-  Block block = make_block(turning == Turning::clockwise          ? BlockKind::spindle_clockwise
-                           : turning == Turning::counterclockwise ? BlockKind::spindle_counterclockwise
-                                                                  : BlockKind::spindle_stop,
-                           span);
-  block.value = mean_spindle_rpm(state_.position, state_.position);
-  emit(block);
+  const double speed_rpm = mean_spindle_rpm(state_.position, state_.position);
+  switch (turning) {
+    case Turning::clockwise:
+      return emit(span, SpindleClockwise{speed_rpm});
+    case Turning::counterclockwise:
+      return emit(span, SpindleCounterclockwise{speed_rpm});
+    case Turning::stopped:
+      return emit(span, SpindleStop{});
+  }
 }
 
 void Interpreter::orient_spindle() {
   state_.turning = Turning::stopped;
-  Block block = make_block(BlockKind::spindle_stop, words_.span(*line_, MGroup::spindle));
-  block.on = true;
-  block.value = words_.has('R') ? words_.value('R') : 0;
-  int way = words_.has('R') ? 0 : -1;
-  if (words_.has('P')) near_integer(words_.value('P'), way);
-  block.number = way;
-  emit(block);
+  SpindleOrientation orientation;
+  if (words_.has('R')) orientation = {words_.value('R'), 0};
+  if (words_.has('P')) near_integer(words_.value('P'), orientation.direction);
+  emit(words_.span(*line_, MGroup::spindle), SpindleStop{orientation});
 }
 
 void Interpreter::coolant() {
   const int code = words_.m(MGroup::coolant);
   if (code == kNoCode) return;
   const Span span = words_.span(*line_, MGroup::coolant);
-  if (code == 7) simple_block(BlockKind::mist_on, span);
-  if (code == 8) simple_block(BlockKind::flood_on, span);
+  if (code == 7) emit(span, MistOn{});
+  if (code == 8) emit(span, FloodOn{});
   if (code == 9) {
-    simple_block(BlockKind::mist_off, span);
-    simple_block(BlockKind::flood_off, span);
+    emit(span, MistOff{});
+    emit(span, FloodOff{});
   }
   state_.mist = code == 7 || (state_.mist && code != 9);
   state_.flood = code == 8 || (state_.flood && code != 9);
@@ -51,16 +51,23 @@ void Interpreter::overrides() {
   const int code = words_.m(MGroup::overrides);
   if (code == kNoCode || code == 52 || code == 53) return;  // adaptive feed and feed hold are the operator's
   const bool enable = code == 48 || (code != 49 && !(words_.has('P') && words_.value('P') == 0));
-  if (code != 51) override_block(BlockKind::feed_override, enable);
-  if (code != 50) override_block(BlockKind::speed_override, enable);
+  if (code != 51) enable_feed_override(enable);
+  if (code != 50) enable_speed_override(enable);
 }
 
-void Interpreter::override_block(BlockKind kind, bool enabled) {
-  (kind == BlockKind::feed_override ? state_.feed_override : state_.speed_override) = enabled;
-  const int code = words_.m(MGroup::overrides);
-  Block block = make_block(kind, code == kNoCode ? line_span() : words_.span(*line_, MGroup::overrides));
-  block.number = enabled ? 1 : 0;
-  emit(block);
+void Interpreter::enable_feed_override(bool enabled) {
+  state_.feed_override = enabled;
+  emit(override_span(), FeedOverride{enabled});
+}
+
+void Interpreter::enable_speed_override(bool enabled) {
+  state_.speed_override = enabled;
+  emit(override_span(), SpeedOverride{enabled});
+}
+
+/// The M code of the line, or the whole line where a cycle or the end of the program switches overrides.
+Span Interpreter::override_span() const {
+  return words_.m(MGroup::overrides) == kNoCode ? line_span() : words_.span(*line_, MGroup::overrides);
 }
 
 void Interpreter::take_dwell_words() {
@@ -80,9 +87,7 @@ void Interpreter::take_dwell_words() {
 
 void Interpreter::dwell() {
   if (words_.g(GGroup::nonmodal) != 40) return;
-  Block block = make_block(BlockKind::dwell, g_span(GGroup::nonmodal));
-  block.dwell_s = words_.value('P');
-  emit(block);
+  emit(g_span(GGroup::nonmodal), Dwell{words_.value('P')});
 }
 
 /// A word or setting beside M98 P L or M99, none: null.
@@ -127,27 +132,27 @@ void Interpreter::stop() {
   const Span span = words_.span(*line_, MGroup::stop);
   switch (code) {
     case 1:
-      simple_block(BlockKind::optional_stop, span);
+      emit(span, OptionalStop{});
       break;
     case 2:
     case 30:
       end_program(span);
       break;
     default:
-      simple_block(BlockKind::program_stop, span);
+      emit(span, ProgramStop{});
       break;  // M0, and M60 for a machine without pallets
   }
 }
 
 void Interpreter::end_program(Span span) {
   state_.feed_mode = FeedMode::units_per_minute;
-  simple_block(BlockKind::set_feed_mode, span);
-  simple_block(BlockKind::set_feed_rate, span);
-  if (!state_.feed_override) override_block(BlockKind::feed_override, true);
-  if (!state_.speed_override) override_block(BlockKind::speed_override, true);
+  emit(span, SetFeedMode{state_.feed_mode});
+  emit(span, SetFeedRate{});
+  if (!state_.feed_override) enable_feed_override(true);
+  if (!state_.speed_override) enable_speed_override(true);
   turn_spindle(Turning::stopped, span);
-  if (state_.mist) simple_block(BlockKind::mist_off, span);
-  if (state_.flood) simple_block(BlockKind::flood_off, span);
+  if (state_.mist) emit(span, MistOff{});
+  if (state_.flood) emit(span, FloodOff{});
   finish(span);
 }
 

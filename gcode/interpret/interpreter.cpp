@@ -130,32 +130,13 @@ void Interpreter::recover(bool syntax) {
 void Interpreter::finish(Span end, bool by_percent) {
   if (ended_) return;
   if (nurbs_.open) drop_nurbs(end);
-  Block block = make_block(BlockKind::program_end, end);
-  block.number = by_percent ? 1 : 0;
-  emit(block);
+  emit(end, ProgramEnd{by_percent});
   ended_ = true;
 }
 
-Block Interpreter::make_block(BlockKind kind, Span span) const {
-  Block block;
-  block.kind = kind;
-  block.span = span;
-  block.end = state_.position;
-  block.feed_mode = state_.feed_mode;
-  block.path_mode = state_.path_mode;
-  block.path_tolerance_mm = state_.path_tolerance_mm;
-  block.feed_override_enabled = state_.feed_override;
-  block.plane = state_.plane;
-  return block;
-}
-
-void Interpreter::simple_block(BlockKind kind, Span span) {
-  Block block = make_block(kind, span);
-  emit(block);
-}
-
-void Interpreter::emit(Block& block) {
+void Interpreter::emit(Span span, Action action) {
   if (silent_ || ended_) return;
+  Block block{span, std::move(action)};
   if (compensation_.active()) return compensate(block);
   hand_out(block);
 }

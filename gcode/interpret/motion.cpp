@@ -159,32 +159,51 @@ void Interpreter::move_to(const AxisValues& end) {
 }
 
 void Interpreter::straight(Motion motion) {
-  Block& block = motion_block_;
-  const bool feed = motion == Motion::feed;
+  const Rate rate = motion == Motion::feed ? Rate::feed : Rate::rapid;
   state_.straight_move_due = false;
-  const bool ready = !feed || feed_ready();
-  block.kind = feed ? BlockKind::feed : BlockKind::traverse;
-  block.span = action_span();
-  block.end = target();
-  measure_straight(state_.position, block);
-  if (ready) set_feed(block);
-  move_to(block.end);
-  if (ready) emit(block);
+  const bool ready = rate == Rate::rapid || feed_ready();
+  Move move = straight_to(target());
+  if (ready && rate == Rate::feed) set_feed(move);
+  move_to(move.end);
+  if (ready) emit_straight(rate, move);
 }
 
-void Interpreter::go(BlockKind kind, const AxisValues& program) {
-  go_to(kind, near_position(state_.to_machine(program)));
+void Interpreter::go(Rate rate, const AxisValues& program) {
+  go_to(rate, near_position(state_.to_machine(program)));
 }
 
-void Interpreter::go_to(BlockKind kind, const AxisValues& end) {
-  Block& block = motion_block_;
-  block.kind = kind;
-  block.span = action_span();
-  block.end = end;
-  measure_straight(state_.position, block);
-  set_feed(block);
+void Interpreter::go_to(Rate rate, const AxisValues& end) {
+  Move move = straight_to(end);
+  if (rate == Rate::feed) set_feed(move);
   move_to(end);
-  emit(block);
+  emit_straight(rate, move);
+}
+
+/// A move under the modes in force, without length and feed.
+Move Interpreter::make_move(const AxisValues& end) const {
+  Move move;
+  move.end = end;
+  move.path_mode = state_.path_mode;
+  move.path_tolerance_mm = state_.path_tolerance_mm;
+  move.feed_override_enabled = state_.feed_override;
+  return move;
+}
+
+/// A straight move from the present position, without feed.
+Move Interpreter::straight_to(const AxisValues& end) {
+  Move move = make_move(end);
+  measure_straight(state_.position, move);
+  last_move_end_ = end;
+  return move;
+}
+
+void Interpreter::emit_straight(Rate rate, const Move& move) {
+  switch (rate) {
+    case Rate::rapid:
+      return emit(action_span(), Traverse{move});
+    case Rate::feed:
+      return emit(action_span(), Feed{move});
+  }
 }
 
 AxisValues Interpreter::near_position(const AxisValues& wanted) const {
@@ -221,29 +240,20 @@ bool Interpreter::feed_ready() {
   return error(problem(Code::feed_missing, span, "no F has been given before this move", help));
 }
 
-void Interpreter::set_feed(Block& block) {
-  block.path_mode = state_.path_mode;
-  block.path_tolerance_mm = state_.path_tolerance_mm;
-  block.feed_override_enabled = state_.feed_override;
-  block.feed_mode = state_.feed_mode;
-  block.plane = state_.plane;
-  block.feed_u_s = 0;
-  block.duration_s = 0;
-  block.pitch_u_rev = 0;
-  if (block.kind == BlockKind::traverse) return;
-  const bool rotary = block.feed_length == FeedLength::rotary;
-  if (threading_ || state_.feed_mode == FeedMode::units_per_revolution) return follow_spindle(block);
+void Interpreter::set_feed(Move& move) {
+  const bool rotary = move.feed_length == FeedLength::rotary;
+  if (threading_ || state_.feed_mode == FeedMode::units_per_revolution) return follow_spindle(move);
   if (state_.feed_mode == FeedMode::inverse_time) {
-    block.duration_s = kSecondsPerMinute / words_.value('F');
-    block.feed_u_s = block.length_u / block.duration_s;
+    move.duration_s = kSecondsPerMinute / words_.value('F');
+    move.feed_u_s = move.length_u / move.duration_s;
     // a probing move, which has no time of its own, goes on at this feed
-    state_.feed_linear_mm_min = state_.feed_rotary_deg_min = block.feed_u_s * kSecondsPerMinute;
-    const double length = rotary ? block.length_u : block.length_u / state_.length_factor();
+    state_.feed_linear_mm_min = state_.feed_rotary_deg_min = move.feed_u_s * kSecondsPerMinute;
+    const double length = rotary ? move.length_u : move.length_u / state_.length_factor();
     state_.feed_number = std::max(kLeastInverseFeed, length * words_.value('F'));
     return;
   }
   const double per_minute = rotary ? state_.feed_rotary_deg_min : state_.feed_linear_mm_min;
-  block.feed_u_s = per_minute / kSecondsPerMinute;
+  move.feed_u_s = per_minute / kSecondsPerMinute;
 }
 
 Span Interpreter::action_span() const {

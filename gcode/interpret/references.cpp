@@ -63,13 +63,11 @@ void Interpreter::set_g92_state() {
 void Interpreter::go_to_reference(int parameters) {
   // first the point that the axis words name, then those axes (all, if none is named) on to the reference:
   // along the axes of the work system, which may be rotated
-  Block block = make_block(BlockKind::traverse, action_span());
   const bool named = words_.has_axis();
   const AxisValues by = target();
   if (named && !silent_) advice_.way_to_reference(state_.position, by, action_span());
   move_to(by);
-  block.end = state_.position;
-  emit(block);
+  emit(action_span(), Traverse{make_move(state_.position)});
   AxisValues end = state_.position;
   const AxisValues reference = read_axis_parameters(state_, parameters);
   const bool turned = named && state_.rotation_deg != 0 && (words_.has('X') || words_.has('Y'));
@@ -83,8 +81,7 @@ void Interpreter::go_to_reference(int parameters) {
     state_.uncertain.axes &= ~(1U << axis);
   }
   state_.position = turned ? state_.to_machine(end) : end;
-  block.end = state_.position;
-  emit(block);
+  emit(action_span(), Traverse{make_move(state_.position)});
 }
 
 void Interpreter::set_offsets() {

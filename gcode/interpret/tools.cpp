@@ -5,14 +5,11 @@
 
 /// Tools: T, M6, M61, G43 G43.1 G43.2 G49, and G10 L1 L10 L11, which write the tool table.
 namespace kadr::gcode {
-namespace {}  // namespace
 
 void Interpreter::select_tool() {
   if (!words_.has('T')) return;
   near_integer(words_.value('T'), state_.tool_selected);
-  Block block = make_block(BlockKind::select_tool, words_.span(*line_, 'T'));
-  block.number = state_.tool_selected;
-  emit(block);
+  emit(words_.span(*line_, 'T'), SelectTool{state_.tool_selected});
 }
 
 void Interpreter::change_tool() {
@@ -21,14 +18,12 @@ void Interpreter::change_tool() {
   const Span span = words_.span(*line_, MGroup::tool_change);
   if (code == 61) {
     near_integer(words_.value('Q'), state_.tool_in_spindle);
-  } else {
-    turn_spindle(Turning::stopped, span);
-    state_.tool_in_spindle = state_.tool_selected;
-    take_real_position();
+    return emit(span, SetToolNumber{state_.tool_in_spindle});
   }
-  Block block = make_block(code == 61 ? BlockKind::set_tool_number : BlockKind::change_tool, span);
-  block.number = state_.tool_in_spindle;
-  emit(block);
+  turn_spindle(Turning::stopped, span);
+  state_.tool_in_spindle = state_.tool_selected;
+  take_real_position();
+  emit(span, ChangeTool{state_.tool_in_spindle});
 }
 
 /// At a tool change the controller asks the machine where it stands: beside the contour if no move came since
@@ -39,7 +34,7 @@ void Interpreter::take_real_position() {
     state_.position = compensation_.last_end();
     compensation_.leave();
   } else if (tapped_at_ && *tapped_at_ == state_.position) {
-    state_.position = motion_block_.end;
+    state_.position = last_move_end_;
   }
 }
 
