@@ -51,7 +51,7 @@ double hold_time_s(const ProgramEvent& event, const machine::MachineModel& machi
 std::vector<planner::Pause> pauses(const Job& job) {
   std::vector<planner::Pause> pauses;
   for (const ProgramEvent& event : job.events)
-    if (const double hold_s = hold_time_s(event.block, job.machine.model); hold_s > 0)
+    if (const double hold_s = hold_time_s(event, job.machine.model); hold_s > 0)
       pauses.push_back({event.after_segment, hold_s});
   return pauses;
 }

@@ -13,12 +13,13 @@ constexpr double kPeckClearance_in = 0.010;
 constexpr double kLargestRepeats = 1e6;
 constexpr double kMostPecks = 1e6;
 /// A level read back through offsets carries their rounding; a program has fewer decimals than this. Levels
-/// are compared, and the number of pecks hangs on it, so they must be what the program made them.
+/// decide the number of pecks, so undo that rounding.
 constexpr double kLevelDecimals = 1e10;
 constexpr double kSameLevel = 1e-9;
 
-constexpr int kTapLeft = 740, kTapRight = 840, kDrill = 810, kDrillDwell = 820, kBore = 850, kBoreStop = 860,
-              kBoreDwell = 890, kChipBreak = 730, kPeck = 830;
+constexpr int kTapLeft = code::g74, kTapRight = code::g84, kDrill = code::g81, kDrillDwell = code::g82,
+              kBore = code::g85, kBoreStop = code::g86, kBoreDwell = code::g89, kChipBreak = code::g73,
+              kPeck = code::g83;
 
 bool dwells(int code) {
   return code == kDrillDwell || code == kBoreStop || code == kBoreDwell || code == kTapLeft ||
@@ -39,14 +40,6 @@ struct Interpreter::Hole {
   double bottom = 0;
 };
 
-std::uint32_t letters_of_cycle(int code) {
-  std::uint32_t letters = letter_bit('R');
-  if (code != kTapLeft) letters |= letter_bit('L');
-  if (dwells(code)) letters |= letter_bit('P');
-  if (pecks(code)) letters |= letter_bit('Q');
-  return letters;
-}
-
 void Interpreter::check_cycle(int code) {
   const bool named = words_.g(GGroup::motion) != kNoCode;
   const bool goes_on =
@@ -62,12 +55,7 @@ void Interpreter::check_cycle(int code) {
                   fmt::format("{} needs at least one axis word", g_name(code))));
   }
   if (!goes_on) {
-    const int plane_code = words_.g(GGroup::plane);
-    const Plane plane = plane_code == 170   ? Plane::xy
-                        : plane_code == 180 ? Plane::zx
-                        : plane_code == 190 ? Plane::yz
-                                            : state_.plane;
-    const char along = kAxisLetters[static_cast<std::size_t>(plane_axes(plane).normal)];
+    const char along = kAxisLetters[static_cast<std::size_t>(plane_axes(plane_of_line()).normal)];
     std::vector<NeededWord> needed = {{along, "the bottom of the hole"}, {'R', "the retract level"}};
     if (dwells(code) && !taps(code)) needed.push_back({'P', "the seconds to wait at the bottom"});
     if (pecks(code)) needed.push_back({'Q', "the depth of a peck"});
@@ -301,7 +289,7 @@ void Interpreter::dwell_at_bottom() {
 
 void Interpreter::retract_mode() {
   const int code = words_.g(GGroup::retract);
-  if (code != kNoCode) state_.retract_to_start = code == 980;
+  if (code != kNoCode) state_.retract_to_start = code == code::g98;
 }
 
 }  // namespace kadr::gcode

@@ -5,9 +5,9 @@ namespace kadr::gcode {
 void Interpreter::spindle() {
   const int code = words_.m(MGroup::spindle);
   if (code == kNoCode) return;
-  if (code == 19) return orient_spindle();
-  turn_spindle(code == 3   ? Turning::clockwise
-               : code == 4 ? Turning::counterclockwise
+  if (code == code::m19) return orient_spindle();
+  turn_spindle(code == code::m3   ? Turning::clockwise
+               : code == code::m4 ? Turning::counterclockwise
                            : Turning::stopped,
                words_.span(*line_, MGroup::spindle));
 }
@@ -37,22 +37,22 @@ void Interpreter::coolant() {
   const int code = words_.m(MGroup::coolant);
   if (code == kNoCode) return;
   const Span span = words_.span(*line_, MGroup::coolant);
-  if (code == 7) emit(span, MistOn{});
-  if (code == 8) emit(span, FloodOn{});
-  if (code == 9) {
+  if (code == code::m7) emit(span, MistOn{});
+  if (code == code::m8) emit(span, FloodOn{});
+  if (code == code::m9) {
     emit(span, MistOff{});
     emit(span, FloodOff{});
   }
-  state_.mist = code == 7 || (state_.mist && code != 9);
-  state_.flood = code == 8 || (state_.flood && code != 9);
+  state_.mist = code == code::m7 || (state_.mist && code != code::m9);
+  state_.flood = code == code::m8 || (state_.flood && code != code::m9);
 }
 
 void Interpreter::overrides() {
   const int code = words_.m(MGroup::overrides);
-  if (code == kNoCode || code == 52 || code == 53) return;  // adaptive feed and feed hold are the operator's
-  const bool enable = code == 48 || (code != 49 && !(words_.has('P') && words_.value('P') == 0));
-  if (code != 51) enable_feed_override(enable);
-  if (code != 50) enable_speed_override(enable);
+  if (code == kNoCode || code == code::m52 || code == code::m53) return;  // adaptive feed and feed hold are the operator's
+  const bool enable = code == code::m48 || (code != code::m49 && !(words_.has('P') && words_.value('P') == 0));
+  if (code != code::m51) enable_feed_override(enable);
+  if (code != code::m50) enable_speed_override(enable);
 }
 
 void Interpreter::enable_feed_override(bool enabled) {
@@ -86,7 +86,7 @@ void Interpreter::take_dwell_words() {
 }
 
 void Interpreter::dwell() {
-  if (words_.g(GGroup::nonmodal) != 40) return;
+  if (words_.g(GGroup::nonmodal) != code::g4) return;
   emit(g_span(GGroup::nonmodal), Dwell{words_.value('P')});
 }
 
@@ -103,14 +103,14 @@ const Item* Interpreter::words_beside_call() const {
 
 /// LinuxCNC runs nothing of a line that begins with M98 but the call.
 bool Interpreter::calls_only() const {
-  return words_.m(MGroup::call) == 98 && options_.dialect != Dialect::fanuc;
+  return words_.m(MGroup::call) == code::m98 && options_.dialect != Dialect::fanuc;
 }
 
 void Interpreter::call() {
   const int code = words_.m(MGroup::call);
   if (code == kNoCode) return;
   CallRequest request;
-  request.returns = code == 99;
+  request.returns = code == code::m99;
   request.place = words_.span(*line_, MGroup::call);
   request.alone = !words_beside_call();
   int whole = 0;
@@ -131,11 +131,11 @@ void Interpreter::stop() {
   if (code == kNoCode) return;
   const Span span = words_.span(*line_, MGroup::stop);
   switch (code) {
-    case 1:
+    case code::m1:
       emit(span, OptionalStop{});
       break;
-    case 2:
-    case 30:
+    case code::m2:
+    case code::m30:
       end_program(span);
       break;
     default:

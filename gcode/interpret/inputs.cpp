@@ -11,16 +11,13 @@ constexpr double kTimedOut = -1;  // #5399 then
 void Interpreter::inputs_and_outputs() {
   const int code = words_.m(MGroup::inputs);
   if (code == kNoCode) return;
-  if (code == 66) return wait_input();
+  if (code == code::m66) return wait_input();
   const Span span = words_.span(*line_, MGroup::inputs);
-  const bool with_motion = code == 62 || code == 63 || code == 67;
+  const OutputCode& output = *output_code(code);
   int number = 0;
-  if (code == 67 || code == 68) {
-    near_integer(words_.value('E'), number);
-    return emit(span, AnalogOutput{number, words_.value('Q'), with_motion});
-  }
-  near_integer(words_.value('P'), number);
-  emit(span, DigitalOutput{number, code == 62 || code == 64, with_motion});
+  near_integer(words_.value(output.analog ? 'E' : 'P'), number);
+  if (output.analog) return emit(span, AnalogOutput{number, words_.value('Q'), output.with_motion});
+  emit(span, DigitalOutput{number, output.on, output.with_motion});
 }
 
 void Interpreter::wait_input() {

@@ -35,7 +35,7 @@ void Interpreter::run(const Line& line) {
   started_ = started_ || words_.any;
   if (line.failed) return recover(true);
   if (state_.diameter_mode || words_.g(GGroup::diameter) != kNoCode) take_diameters();
-  if (words_.g(GGroup::nonmodal) == 40 && options_.dialect != Dialect::linuxcnc) take_dwell_words();
+  if (words_.g(GGroup::nonmodal) == code::g4 && options_.dialect != Dialect::linuxcnc) take_dwell_words();
   if (readable && plain_move()) return motion();
   if (!readable || !polar_words() || !check()) return recover(false);
   if (calls_only()) return call();
@@ -102,7 +102,7 @@ void Interpreter::recover(bool syntax) {
   Uncertain& uncertain = state_.uncertain;
   const bool cycles = motion_of_line() == Motion::cycle && moves();
   const int motion_code = words_.g(GGroup::motion);
-  const bool for_this_line = motion_code == 50 || motion_code == 51;
+  const bool for_this_line = motion_code == code::g5 || motion_code == code::g5_1;
   if (motion_code != kNoCode && !for_this_line) take_motion(motion_code);
   if (for_this_line) uncertain.motion = false;
   if (cycles) uncertain.cycle = true;

@@ -88,6 +88,7 @@ class Interpreter {
   void feed_mode();
   void feed_rate();
   void plane();
+  Plane plane_of_line() const;
   void units();
   void work_system();
   void path_control();

@@ -16,33 +16,33 @@ constexpr double kLeastInverseFeed = 0.1;  // #<_feed> of a very slow move under
 
 Motion Interpreter::motion_of_line() const {
   switch (words_.g(GGroup::motion)) {
-    case 0:
+    case code::g0:
       return Motion::traverse;
-    case 10:
+    case code::g1:
       return Motion::feed;
-    case 20:
+    case code::g2:
       return Motion::arc_clockwise;
-    case 30:
+    case code::g3:
       return Motion::arc_counterclockwise;
-    case 50:
+    case code::g5:
       return Motion::cubic_spline;
-    case 51:
+    case code::g5_1:
       return Motion::quadratic_spline;
-    case 52:
+    case code::g5_2:
       return Motion::nurbs;
-    case 330:
+    case code::g33:
       return Motion::thread;
-    case 331:
+    case code::g33_1:
       return Motion::rigid_tap;
-    case 382:
-    case 383:
-    case 384:
-    case 385:
+    case code::g38_2:
+    case code::g38_3:
+    case code::g38_4:
+    case code::g38_5:
       return Motion::probe;
-    case 760:
+    case code::g76:
       return Motion::thread_cycle;
-    case 53:
-    case 800:
+    case code::g5_3:
+    case code::g80:
       return Motion::none;
     case kNoCode:
       return state_.motion;
@@ -54,12 +54,12 @@ Motion Interpreter::motion_of_line() const {
 bool Interpreter::axis_words_taken() const {
   if (takes_axis_words(words_.g(GGroup::nonmodal))) return true;
   const int tool_length = words_.g(GGroup::tool_length);
-  return tool_length == 431 || tool_length == 432;
+  return tool_length == code::g43_1 || tool_length == code::g43_2;
 }
 
 bool Interpreter::moves() const {
   const int code = words_.g(GGroup::motion);
-  if (code != kNoCode) return code != 800 && code != 53;
+  if (code != kNoCode) return code != code::g80 && code != code::g5_3;
   if (axis_words_taken()) return false;
   return words_.has_axis() || (is_arc(state_.motion) && (words_.present & letter_bits("IJK")) != 0);
 }
@@ -67,13 +67,13 @@ bool Interpreter::moves() const {
 void Interpreter::motion() {
   const int code = words_.g(GGroup::motion);
   if (code != kNoCode) {
-    if (nurbs_.open && code != 52 && code != 53) drop_nurbs(g_span(GGroup::motion));
-    if (code == 50 || code == 51) {
+    if (nurbs_.open && code != code::g5_2 && code != code::g5_3) drop_nurbs(g_span(GGroup::motion));
+    if (code == code::g5 || code == code::g5_1) {
       if ((words_.present & letter_bits("@^")) != 0 && !resolve_polar()) return;
       return spline(motion_of_line());
     }
     take_motion(code);
-    if (code == 53) return end_nurbs();
+    if (code == code::g5_3) return end_nurbs();
   }
   if (!moves()) return;
   if ((words_.present & letter_bits("@^")) != 0 && !resolve_polar()) return;
@@ -116,7 +116,7 @@ void Interpreter::take_motion(int code) {
 }
 
 AxisValues Interpreter::target() const {
-  const bool machine_coordinates = words_.g(GGroup::nonmodal) == 530;
+  const bool machine_coordinates = words_.g(GGroup::nonmodal) == code::g53;
   AxisValues wanted = state_.position;
   if (machine_coordinates || state_.rotation_deg == 0) {
     // each axis for itself

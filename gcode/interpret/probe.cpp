@@ -9,8 +9,6 @@
 namespace kadr::gcode {
 namespace {
 
-constexpr int kAway = 384;  // G38.4 G38.5
-
 bool same_point(const AxisValues& a, const AxisValues& b) {
   for (std::size_t axis = 0; axis < kProgramAxes; ++axis)
     if (std::fabs(a[axis] - b[axis]) > kSamePoint_u) return false;
@@ -31,8 +29,8 @@ void Interpreter::probe() {
     return;
   }
   Probe probe{make_move(end)};
-  probe.away = state_.probe_code >= kAway;
-  probe.must_trip = state_.probe_code == 382 || state_.probe_code == kAway;
+  probe.away = state_.probe_code == code::g38_4 || state_.probe_code == code::g38_5;
+  probe.must_trip = state_.probe_code == code::g38_2 || state_.probe_code == code::g38_4;
   double travelled = 1;
   if (!find_contact(probe, travelled)) return move_to(end);
   measure_straight(state_.position, probe);

@@ -64,8 +64,8 @@ void Interpreter::feed_mode() {
   const int code = words_.g(GGroup::feed_mode);
   if (code == kNoCode) return;
   const Span span = g_span(GGroup::feed_mode);
-  state_.feed_mode = code == 930   ? FeedMode::inverse_time
-                     : code == 940 ? FeedMode::units_per_minute
+  state_.feed_mode = code == code::g93   ? FeedMode::inverse_time
+                     : code == code::g94 ? FeedMode::units_per_minute
                                    : FeedMode::units_per_revolution;
   emit(span, SetFeedMode{state_.feed_mode});
   if (state_.feed_mode == FeedMode::inverse_time) return;
@@ -96,7 +96,7 @@ void Interpreter::feed_rate() {
   }
   emit(span, feed);
   const int units_code = words_.g(GGroup::units);
-  const bool changes_units = units_code != kNoCode && (units_code == 200) != state_.inches;
+  const bool changes_units = units_code != kNoCode && (units_code == code::g20) != state_.inches;
   if (changes_units && !inverse && !silent_) {
     report_.warning(problem(Code::feed_before_units, span,
                             fmt::format("taken as {} per {}", state_.inches ? "inches" : "mm",
@@ -105,32 +105,25 @@ void Interpreter::feed_rate() {
   }
 }
 
-void Interpreter::plane() {
-  switch (words_.g(GGroup::plane)) {
-    case 170:
-      state_.plane = Plane::xy;
-      break;
-    case 180:
-      state_.plane = Plane::zx;
-      break;
-    case 190:
-      state_.plane = Plane::yz;
-      break;
-    default:
-      break;
-  }
+Plane Interpreter::plane_of_line() const {
+  const int code = words_.g(GGroup::plane);
+  for (const Plane plane : {Plane::xy, Plane::zx, Plane::yz})
+    if (code == plane_code(plane)) return plane;
+  return state_.plane;
 }
+
+void Interpreter::plane() { state_.plane = plane_of_line(); }
 
 void Interpreter::units() {
   const int code = words_.g(GGroup::units);
-  if (code != kNoCode) state_.inches = code == 200;
+  if (code != kNoCode) state_.inches = code == code::g20;
 }
 
 void Interpreter::work_system() {
   const int code = words_.g(GGroup::coordinate_system);
   if (code == kNoCode) return;
   // G54 .. G59 are 1 .. 6, G59.1 .. G59.3 are 7 .. 9
-  const int system = code <= 590 ? (code - 530) / 10 : 6 + (code - 590);
+  const int system = code <= code::g59 ? 1 + (code - code::g54) / 10 : 6 + (code - code::g59);
   // as RS-274/NGC: parameters that a program has set take effect with the change to their system
   if (system != state_.work_system) state_.use_work_system(system);
 }
@@ -138,9 +131,9 @@ void Interpreter::work_system() {
 void Interpreter::path_control() {
   const int code = words_.g(GGroup::path);
   if (code == kNoCode) return;
-  const double tolerance = code == 640 && words_.has('P') ? words_.value('P') : 0;
-  set_path_mode(code == 610   ? PathMode::exact_path
-                : code == 611 ? PathMode::exact_stop
+  const double tolerance = code == code::g64 && words_.has('P') ? words_.value('P') : 0;
+  set_path_mode(code == code::g61   ? PathMode::exact_path
+                : code == code::g61_1 ? PathMode::exact_stop
                               : PathMode::continuous,
                 tolerance, g_span(GGroup::path));
 }
@@ -154,9 +147,9 @@ void Interpreter::set_path_mode(PathMode mode, double tolerance, Span span) {
 
 void Interpreter::distance_mode() {
   const int distance = words_.g(GGroup::distance);
-  if (distance != kNoCode) state_.incremental = distance == 910;
+  if (distance != kNoCode) state_.incremental = distance == code::g91;
   const int arc_distance = words_.g(GGroup::arc_distance);
-  if (arc_distance != kNoCode) state_.arc_centers_absolute = arc_distance == 901;
+  if (arc_distance != kNoCode) state_.arc_centers_absolute = arc_distance == code::g90_1;
 }
 
 }  // namespace kadr::gcode

@@ -34,9 +34,9 @@ void Interpreter::spindle_mode() {
   if (code == kNoCode) return;
   const Span span = g_span(GGroup::spindle_mode);
   const double maximum_rpm = words_.has('D') ? std::fabs(words_.value('D')) : 0;
-  state_.constant_surface_speed = code == 960;
+  state_.constant_surface_speed = code == code::g96;
   // D0 is the controller's way to write G97
-  state_.surface = {.on = code == 960 && !(words_.has('D') && maximum_rpm == 0),
+  state_.surface = {.on = code == code::g96 && !(words_.has('D') && maximum_rpm == 0),
                     .speed_m_min = 0,
                     .maximum_rpm = maximum_rpm};
   if (state_.surface.on) state_.surface.speed_m_min = surface_speed_m_min();

@@ -87,7 +87,7 @@ void Interpreter::check_thread_cycle() {
 void Interpreter::thread_cycle() {
   ThreadShape shape;
   const AxisValues end = target();
-  if (!spindle_turns(760) || !thread_shape(shape, end)) return move_to(end);
+  if (!spindle_turns(code::g76) || !thread_shape(shape, end)) return move_to(end);
   warn_thread(shape);
   double depth = shape.crest + shape.first_cut;
   for (int pass = 2; depth < shape.full_depth() && !ended_; ++pass) {

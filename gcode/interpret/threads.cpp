@@ -56,7 +56,7 @@ void Interpreter::warn_pitch(char letter) {
 
 void Interpreter::thread() {
   const AxisValues end = target();
-  if (!spindle_turns(330)) return move_to(end);
+  if (!spindle_turns(code::g33)) return move_to(end);
   warn_pitch('K');
   start_thread(words_.value('K'));
   go_to(Rate::feed, end);
@@ -66,7 +66,7 @@ void Interpreter::thread() {
 void Interpreter::rigid_tap() {
   const AxisValues wanted = target();
   const AxisValues from = state_.position;
-  if (!spindle_turns(331)) return;
+  if (!spindle_turns(code::g33_1)) return;
   warn_pitch('K');
   // X Y Z alone go down and come back; the other axes take their new place with the next move
   AxisValues bottom = from;

@@ -16,7 +16,7 @@ void Interpreter::change_tool() {
   const int code = words_.m(MGroup::tool_change);
   if (code == kNoCode) return;
   const Span span = words_.span(*line_, MGroup::tool_change);
-  if (code == 61) {
+  if (code == code::m61) {
     near_integer(words_.value('Q'), state_.tool_in_spindle);
     return emit(span, SetToolNumber{state_.tool_in_spindle});
   }
@@ -43,9 +43,9 @@ void Interpreter::tool_length() {
   if (code == kNoCode) return;
   advice_.length_named();
   // G43 takes the tool's offset, G43.2 adds it; axis words replace under G43.1, add under G43.2
-  if (code == 430 || code == 490) state_.tool_offset = {};
+  if (code == code::g43 || code == code::g49) state_.tool_offset = {};
   const bool by_number = words_.has('H');
-  if (code == 430 || (code == 432 && by_number)) {
+  if (code == code::g43 || (code == code::g43_2 && by_number)) {
     int number = 0;
     if (by_number) near_integer(words_.value('H'), number);
     if (const Tool* tool = length_of_tool(number)) {
@@ -55,9 +55,9 @@ void Interpreter::tool_length() {
   }
   for (int axis = 0; axis < kProgramAxes; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    if (code == 490 || !words_.has(kAxisLetters[a])) continue;
+    if (code == code::g49 || !words_.has(kAxisLetters[a])) continue;
     const double value = state_.to_base_units(axis, words_.value(kAxisLetters[a]));
-    state_.tool_offset[a] = code == 431 ? value : state_.tool_offset[a] + value;
+    state_.tool_offset[a] = code == code::g43_1 ? value : state_.tool_offset[a] + value;
   }
 }
 
