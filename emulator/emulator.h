@@ -2,6 +2,7 @@
 #include <atomic>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -91,7 +92,7 @@ struct Job {
   std::vector<std::uint32_t> called_files;  ///< indices in sources, in the order of their first call
   std::vector<ProgramEvent> events;         ///< ascending in after_segment
   planner::Path path{0};
-  planner::FeedPlan plan;    ///< laws of the runs, in path order, pauses not included
+  planner::FeedPlan plan;    ///< pauses included
   std::uint32_t blocks = 0;  ///< motion blocks
   double motion_s = 0, dwell_s = 0;
 };
@@ -102,7 +103,7 @@ enum class SoftLimitRule : std::uint8_t { error, warning };
 
 /// What a test puts in the place of planner::plan(); empty: that one.
 using PlanFunction = std::function<tl::expected<planner::FeedPlan, planner::PlanError>(
-    const planner::Path&, const machine::MachineModel&)>;
+    const planner::Path&, const machine::MachineModel&, std::span<const planner::Pause>)>;
 
 /// Reads and interprets job.sources[job.program] for job.machine, checks soft limits, plans it, and verifies
 /// the plan (require_sound_plan). Diagnostics go to `diagnostics`, all of the program at once.
@@ -111,7 +112,7 @@ using PlanFunction = std::function<tl::expected<planner::FeedPlan, planner::Plan
 bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = SoftLimitRule::error,
              const PlanFunction& plan = {});
 
-/// planner::verify() of job.plan before its pauses are put in, as planner::production_check() says.
+/// planner::verify() of job.plan with its pauses, as planner::production_check() says.
 /// @throws BrokenPromise with program line, place on the path, and what was measured and allowed
 void require_sound_plan(const Job& job);
 
@@ -122,6 +123,9 @@ bool lay_out(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = Sof
 /// Time that a dwell, a wait or a tool change holds the machine, seconds; a whole number of control ticks
 /// where motions end on them too. 0 for everything else.
 double hold_time_s(const gcode::Block& block, const machine::MachineModel& machine);
+
+/// The standstills that the program asks of plan(), ascending.
+std::vector<planner::Pause> pauses(const Job& job);
 
 /// What one motion block comes to, over all of its segments.
 struct BlockSummary {

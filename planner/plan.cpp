@@ -6,6 +6,7 @@
 
 #include "machine/base/require.h"
 #include "machine/machine.h"
+#include "planner/laws/pauses.h"
 #include "planner/limits/limits.h"
 #include "planner/planner.h"
 #include "planner/positioning/positioning.h"
@@ -152,42 +153,62 @@ class RunMaker {
   std::optional<PlanError> error_;
 };
 
-}  // namespace
-
-tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineModel& machine) {
-  require(path.axes() == static_cast<int>(machine.axis.size()), "path and machine have the same axes");
-  if (!path.faults.empty()) return tl::unexpected(PlanError{path.faults.front()});
-  FeedPlan result;
-  result.law.length_u = path.length_u();
-  if (path.size() == 0) return result;
-  auto limits = limit_table(path, machine);
-  if (!limits) return tl::unexpected(std::move(limits.error()));
-  if (machine.planner.scheduler == machine::SchedulerKind::blockwise) {
-    BlockWriter writer(path, machine.clock.tau_s(), result);
-    BlockScheduler blocks(path, *limits, machine);
-    for (BlockDiagram block; blocks.next(block);) {
-      const double time = writer.time_s() + block.time_s();
-      if (!(time < kLongest_s)) return tl::unexpected(too_long(path, {0, blocks.segment()}, time));
-      writer.add(block, blocks.reasons());
-    }
-    return result;
+/// Plans all motion of a path, block by block.
+tl::expected<void, PlanError> plan_blocks(const Path& path, const machine::MachineModel& machine,
+                                          const PathLimitTable& limits, FeedPlan& plan,
+                                          std::vector<RunBegin>& begins) {
+  BlockWriter writer(path, machine.clock.tau_s(), plan);
+  BlockScheduler blocks(path, limits, machine);
+  for (BlockDiagram block; blocks.next(block);) {
+    const double time = writer.time_s() + block.time_s();
+    if (!(time < kLongest_s)) return tl::unexpected(too_long(path, {0, blocks.segment()}, time));
+    begins.push_back({plan.segments.size(), plan.law.pieces.size()});
+    writer.add(block, blocks.reasons());
   }
-  PieceWriter writer(result.law);
+  return {};
+}
+
+/// Plans all motion of a path, run by run.
+tl::expected<void, PlanError> plan_runs(const Path& path, const machine::MachineModel& machine,
+                                        const PathLimitTable& limits, FeedPlan& plan,
+                                        std::vector<RunBegin>& begins) {
+  PieceWriter writer(plan.law);
   std::int64_t ticks = 0;
   const double tau = machine.clock.tau_s();
-  RunMaker runs(path, machine, *limits);
+  RunMaker runs(path, machine, limits);
   while (runs.next()) {
     if (!(writer.time_s() + runs.time_s() < kLongest_s))
       return tl::unexpected(too_long(path, runs.run(), writer.time_s() + runs.time_s()));
     ticks += runs.whole().ticks;
-    const bool whole = machine.planner.whole_ticks;
-    runs.write(writer, whole ? static_cast<double>(ticks) * tau : -1.0);
-    if (runs.positioned()) result.positioned.push_back(*runs.positioned());
+    begins.push_back({runs.run().first, plan.law.pieces.size()});
+    runs.write(writer, machine.planner.whole_ticks ? static_cast<double>(ticks) * tau : -1.0);
+    if (runs.positioned()) plan.positioned.push_back(*runs.positioned());
   }
   if (runs.error()) return tl::unexpected(std::move(*runs.error()));
-  result.law.duration_s = writer.time_s();
-  require(!result.law.pieces.empty(), "a path that moves has a law");
-  fill_segment_table(path, *limits, result);
+  plan.law.duration_s = writer.time_s();
+  require(!plan.law.pieces.empty(), "a path that moves has a law");
+  fill_segment_table(path, limits, plan);
+  return {};
+}
+
+}  // namespace
+
+tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineModel& machine,
+                                       std::span<const Pause> pauses) {
+  require(path.axes() == static_cast<int>(machine.axis.size()), "path and machine have the same axes");
+  if (!path.faults.empty()) return tl::unexpected(PlanError{path.faults.front()});
+  FeedPlan result;
+  result.law.length_u = path.length_u();
+  std::vector<RunBegin> begins;
+  if (path.size() > 0) {
+    auto limits = limit_table(path, machine);
+    if (!limits) return tl::unexpected(std::move(limits.error()));
+    const bool blockwise = machine.planner.scheduler == machine::SchedulerKind::blockwise;
+    auto planned = blockwise ? plan_blocks(path, machine, *limits, result, begins)
+                             : plan_runs(path, machine, *limits, result, begins);
+    if (!planned) return tl::unexpected(std::move(planned.error()));
+  }
+  add_pauses(path, pauses, begins, result);
   return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 
@@ -30,10 +31,12 @@ namespace kadr::planner {
 /// With planner.scheduler = blockwise ramps end with their segment, acceleration being zero at every joint,
 /// and each segment lasts a whole number of control ticks (BlockScheduler); speed jumps only where the plan's
 /// table states it.
-tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineModel& machine);
+/// @param pauses  ascending in after_segment; the law stands there, what follows begins later
+tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineModel& machine,
+                                       std::span<const Pause> pauses = {});
 
-/// Time that plan() gives to the segments from `first` to the path's end, where the machine stops. Segment
-/// `first` begins at rest. Runs are planned one by one, so the times of parts add up to that of the whole.
+/// Time that plan() gives to the segments from `first` to the path's end, where the machine stops, without
+/// pauses. Segment `first` begins at rest. Runs are planned one by one, so the times of parts add up to that of the whole.
 tl::expected<double, PlanError> motion_time_s(const Path& path, const machine::MachineModel& machine,
                                               std::size_t first);
 

@@ -22,7 +22,7 @@ struct AxisWork {
 };
 
 /// One machine axis under integration. The motor's equilibrium is the lattice node of the steps so far, moved
-/// by the teeth that a stepper has slipped; a rigid axis's equilibrium is its command.
+/// by the teeth that it has slipped; the equilibrium of a motor that follows its command is that command.
 struct AxisMotion {
   AxisEquations equations;
   int axis = 0;         ///< index in the machine and in the batch
@@ -58,15 +58,15 @@ class Integrator {
 /// 1000 degrees for a rotary axis. Tighter where light damping lets errors pile up.
 Vector4 local_tolerance(const AxisEquations& equations, double tolerance_um);
 
-/// CVODE on a smooth command plus the exact response to the residual staircase; all spring axes as one
-/// system.
+/// CVODE on a smooth command plus the exact response to the residual staircase; all axes with linear motors
+/// as one system.
 std::unique_ptr<Integrator> make_smooth(const std::vector<AxisMotion*>& axes, double tolerance_um);
-/// CVODE begun anew at every pulse; spring or stepper, one axis.
+/// CVODE restarted at every pulse; any motor driven by pulses, one axis.
 std::unique_ptr<Integrator> make_reference(AxisMotion& axis, double tolerance_um);
-/// Matrix exponential from pulse to pulse; spring, one axis.
+/// Matrix exponential from pulse to pulse; linear motor, one axis.
 std::unique_ptr<Integrator> make_oracle(AxisMotion& axis);
-/// Taylor series from pulse to pulse; stepper, one axis.
-std::unique_ptr<Integrator> make_stepper(AxisMotion& axis);
+/// Taylor series from pulse to pulse; any motor driven by pulses, one axis.
+std::unique_ptr<Integrator> make_taylor(AxisMotion& axis);
 /// Prescribed base, exact response of the link; one axis.
 std::unique_ptr<Integrator> make_rigid(AxisMotion& axis, bool energy);
 

@@ -11,7 +11,6 @@
 namespace kadr::plant {
 
 using machine::IntegratorKind;
-using machine::MotorModel;
 
 namespace {
 
@@ -63,24 +62,22 @@ void Plant::Impl::make_integrators(const machine::MachineModel& machine) {
   std::vector<AxisMotion*> smooth;
   for (auto& axis : motion) {
     if (!axis) continue;
-    const MotorModel motor = axis->equations.motor;
+    const machine::Motor& motor = axis->equations.motor;
     if (!axis->equations.usable() || !(tolerance_um > 0)) {
       unusable = Fault{"BAD_PARAMETERS", "masses, stiffnesses or the tolerance are not positive", axis->axis};
-    } else if (motor == MotorModel::rigid) {
+    } else if (motor.follows_command()) {
       integrator.push_back(make_rigid(*axis, options.energy));
     } else if (kind == IntegratorKind::reference) {
       integrator.push_back(make_reference(*axis, tolerance_um));
-    } else if (motor == MotorModel::stepper) {
-      if (kind == IntegratorKind::oracle) {
-        unusable =
-            Fault{"ORACLE_NEEDS_LINEAR_MOTOR", "the closed form exists for linear motors only", axis->axis};
-      } else {
-        integrator.push_back(make_stepper(*axis));
-      }
+    } else if (kind == IntegratorKind::oracle && !motor.linear()) {
+      unusable =
+          Fault{"ORACLE_NEEDS_LINEAR_MOTOR", "the closed form exists for linear motors only", axis->axis};
     } else if (kind == IntegratorKind::oracle) {
       integrator.push_back(make_oracle(*axis));
-    } else {
+    } else if (motor.linear()) {
       smooth.push_back(axis.get());
+    } else {
+      integrator.push_back(make_taylor(*axis));
     }
   }
   if (!unusable && !smooth.empty()) integrator.push_back(make_smooth(smooth, tolerance_um));
@@ -99,7 +96,7 @@ Outcome Plant::Impl::meter_energy(const StepBatch& batch) {
 // a lag of more than half a tooth settles on the next one
 void Plant::Impl::find_lost_steps(ControlTicks tick) {
   for (auto& axis : motion) {
-    if (!axis || axis->equations.motor != MotorModel::stepper) continue;
+    if (!axis || axis->equations.pitch_m == 0) continue;
     const double teeth = std::floor(axis->z[kLag] / axis->equations.pitch_m + 0.5);
     if (teeth == 0 || !(std::fabs(teeth) < 1e9)) continue;
     axis->z[kLag] -= teeth * axis->equations.pitch_m;
@@ -130,7 +127,7 @@ Outcome Plant::Impl::advance(const StepBatch& batch) {
   require(batch.axis.size() == motion.size(), "a step batch has the machine's axes");
   for (std::size_t a = 0; a < motion.size(); ++a) {
     check_pulses(batch.axis[a], control_tick);
-    const bool follows_command = !motion[a] || motion[a]->equations.motor == MotorModel::rigid;
+    const bool follows_command = !motion[a] || motion[a]->equations.motor.follows_command();
     if (follows_command && !finite(batch.axis[a].command)) {
       return tl::unexpected(Fault{"NOT_FINITE", "the command is not a finite number", static_cast<int>(a)});
     }
@@ -161,8 +158,9 @@ Plant::Plant(const machine::MachineModel& machine, PlantOptions options) : impl_
     m.motion[a]->equations = axis_equations(axis, machine.clock);
     m.motion[a]->axis = static_cast<int>(a);
     m.motion[a]->step_u = axis.step_u;
-    m.motion[a]->pitch_u = axis.plant.tooth_pitch_u;
-    if (options.energy && axis.plant.motor != MotorModel::rigid) m.meter[a].emplace(m.motion[a]->equations);
+    m.motion[a]->pitch_u = m.motion[a]->equations.motor.tooth_u();
+    if (options.energy && !m.motion[a]->equations.motor.follows_command())
+      m.meter[a].emplace(m.motion[a]->equations);
   }
   if (m.control_tick < 1 || m.control_tick > 65536 || machine.clock.base_hz < 1) {
     m.unusable = Fault{"BAD_PARAMETERS", "a control tick has 1 to 65536 base ticks", -1};

@@ -17,8 +17,7 @@ struct MachineModel;
 ///
 ///   m1 (x0'' + x1'') + c x1' + k x1 = 0
 ///   m0 x0'' = F_motor - b0 x0' + k x1 + c x1'           tool position on the axis = x0 + x1
-///   F_motor = Km (x_step - x0) - bm x0'                          spring
-///           = -F_hold sin(2 pi (x0 - x_step)/pitch) - bm x0'     stepper
+///   F_motor = force(x0 - x_step) - bm x0', force by the motor's law (machine/motor.h)
 ///   rigid: x0 follows the command (StepBatch's AxisCommand, cubic between the tick's ends) exactly
 namespace kadr::plant {
 

@@ -63,7 +63,8 @@ Vector4 local_tolerance(const AxisEquations& eq, double tolerance_um) {
   const double tolerance_m = tolerance_um * 1e-3 * eq.metre_per_unit;
   // an error of speed becomes one of position divided by the slowest frequency [rad per tick]
   double slowest = std::sqrt(eq.p1);
-  if (eq.a > 0) slowest = std::min(slowest, std::sqrt(eq.a / (1 + eq.p / eq.p1)));
+  // (of a motor that bends no frequency is the slowest: its stiffness may vanish)
+  if (eq.motor.linear() && eq.a > 0) slowest = std::min(slowest, std::sqrt(eq.a / (1 + eq.p / eq.p1)));
   // and stays for as long as the weakest damping lets it
   const double decay = std::min(eq.q1, eq.B / (1 + eq.p / eq.p1)) / 2;
   const double position_m = tolerance_m * std::min(1.0, std::max(0.01, 10 * decay));

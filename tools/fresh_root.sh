@@ -91,10 +91,10 @@ clone_into() {
   git clone --quiet --no-local --depth 1 "file://$project" "$fresh/$name$place"
 }
 
-# keep_times NAME PLACE: adds the times that tools took in that clone to this call's
+# keep_times NAME PLACE: adds the times that tools took in that clone to this call's, as steps within the present one
 keep_times() {
-  [[ -f $fresh/$1$2/build/times.tsv ]] && cat "$fresh/$1$2/build/times.tsv" >>"$times"
-  return 0
+  local inside=$fresh/$1$2/build/times.tsv
+  [[ ! -f $inside ]] || awk -F '\t' -v OFS='\t' -v depth="$KADR_STEP_DEPTH" '{ $3 += depth; print }' "$inside" >>"$times"
 }
 
 remove_root() { rm -rf "${fresh:?}/$1" "$fresh/$1".{work,lower,at,disk,log}; }

@@ -40,7 +40,7 @@ Json head(const Diff& diff, const char* align) {
   return {{"align", align}, {"a", json_of(diff.a)}, {"b", json_of(diff.b)}, {"inputs", json_of(diff.inputs)}};
 }
 
-/// What a comparison answers: inputs count under --strict alone.
+/// Exit code of a comparison: inputs count only with --strict.
 template <class Diff>
 int answer(const Diff& diff, const Arguments& arguments) {
   return diff.differ() || (arguments.strict && diff.inputs_differ()) ? kNo : kYes;

@@ -66,7 +66,7 @@ Json info_json(const LogInfo& info) {
   return j;
 }
 
-/// No: the log was cut off or damaged, or its numbers are not those that were written.
+/// No if the log was cut off or damaged, or its numbers differ from those written.
 bool sound(const LogInfo& info) {
   return (info.end.state == LogState::complete || info.end.state == LogState::interrupted) &&
          info.steps_hash_agrees().value_or(true) && info.content_hash_agrees().value_or(true);

@@ -90,10 +90,11 @@ void Options::reading(CLI::App* sub) {
            arguments.dialect = gcode::kDialects.find(text);
            if (!arguments.dialect)
              throw CLI::ValidationError(
-                 fmt::format("--dialect knows {}; got '{}'", gcode::kDialects.list(), text));
+                 fmt::format("--dialect takes one of {}; got '{}'", gcode::kDialects.list(), text));
          },
-         fmt::format("Read codes on which controllers differ as this one does: {} (default linuxcnc)",
-                     gcode::kDialects.list("|")))
+         fmt::format(
+             "Where controllers read codes differently, read them as this one does: {} (default linuxcnc)",
+             gcode::kDialects.list("|")))
       ->type_name("WORD");
   words(sub->get_option("--limit"), names_with_equals(gcode::kBoundNames));
   words(sub->get_option("--dialect"), gcode::kDialects.strings());

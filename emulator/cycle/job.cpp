@@ -35,49 +35,6 @@ gcode::InterpretOptions interpret_options(const Job& job) {
   return options;
 }
 
-/// Puts the standstills of dwells, waits and tool changes into the law, and shifts all that comes after.
-void insert_pauses(Job& job) {
-  planner::FeedPlan& plan = job.plan;
-  std::vector<planner::JerkPiece> pieces;
-  pieces.reserve(plan.law.pieces.size() + job.events.size());
-  std::size_t next_piece = 0, next_segment = 0;
-  double shift_s = 0;
-  const auto shift_segments = [&](std::size_t end) {
-    for (; next_segment < end; ++next_segment) {
-      plan.segments[next_segment].begin_time_s += shift_s;
-      plan.segments[next_segment].end_time_s += shift_s;
-    }
-  };
-  const auto copy_piece = [&] {
-    pieces.push_back(plan.law.pieces[next_piece++]);
-    pieces.back().begin_s += shift_s;
-  };
-  for (const ProgramEvent& event : job.events) {
-    const double hold_s = hold_time_s(event.block, job.machine.model);
-    if (!(hold_s > 0)) continue;
-    const double at_u = job.path.size() == 0 ? 0.0 : job.path.start_s_u[event.after_segment];
-    shift_segments(event.after_segment);
-    // the run that starts at this joint begins with a piece at rest there
-    const double slack_u = 1e-9 * (1.0 + at_u);
-    while (next_piece < plan.law.pieces.size() &&
-           !(plan.law.pieces[next_piece].s_u >= at_u - slack_u && plan.law.pieces[next_piece].speed_u_s == 0))
-      copy_piece();
-    planner::JerkPiece pause;
-    pause.begin_s = pieces.empty() ? 0.0 : pieces.back().begin_s + pieces.back().duration_s;
-    pause.duration_s = hold_s;
-    pause.s_u = at_u;
-    pause.limited_by = planner::LimitedBy::stop;
-    pieces.push_back(pause);
-    shift_s += hold_s;
-  }
-  if (shift_s == 0) return;
-  while (next_piece < plan.law.pieces.size()) copy_piece();
-  shift_segments(plan.segments.size());
-  plan.law.pieces = std::move(pieces);
-  plan.law.duration_s += shift_s;
-  job.dwell_s = shift_s;
-}
-
 }  // namespace
 
 double hold_time_s(const Block& block, const machine::MachineModel& machine) {
@@ -89,6 +46,14 @@ double hold_time_s(const Block& block, const machine::MachineModel& machine) {
   const double tau_s = machine.clock.tau_s();
   // 1e-9: a dwell of whole ticks stays what it is although it was read from decimals
   return std::ceil(wish_s / tau_s - 1e-9) * tau_s;
+}
+
+std::vector<planner::Pause> pauses(const Job& job) {
+  std::vector<planner::Pause> pauses;
+  for (const ProgramEvent& event : job.events)
+    if (const double hold_s = hold_time_s(event.block, job.machine.model); hold_s > 0)
+      pauses.push_back({event.after_segment, hold_s});
+  return pauses;
 }
 
 bool lay_out(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
@@ -120,16 +85,17 @@ bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits, cons
   place_on_path(job, diagnostics);
   if (diagnostics.errors() != errors) return false;
 
-  auto plan = plan_path ? plan_path(job.path, job.machine.model) : planner::plan(job.path, job.machine.model);
+  const std::vector<planner::Pause> held = pauses(job);
+  auto plan = plan_path ? plan_path(job.path, job.machine.model, held)
+                        : planner::plan(job.path, job.machine.model, held);
   if (!plan) {
     diagnostics.add(plan.error().diagnostic);
     return false;
   }
   job.plan = std::move(*plan);
   require_sound_plan(job);
-  job.motion_s = job.plan.law.duration_s;
-  job.dwell_s = 0;
-  insert_pauses(job);
+  job.motion_s = job.plan.motion_s;
+  job.dwell_s = job.plan.pause_s;
   return true;
 }
 

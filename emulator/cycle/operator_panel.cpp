@@ -76,8 +76,8 @@ void place_on_path(Job& job, Diagnostics& diagnostics) {
     }
     Diagnostic d = machine::file_diagnostic(
         Code::scenario_step, step.span,
-        segment ? fmt::format("{} and {:.6g} behind it lie beyond the path", wish(place), place.after_u)
-                : fmt::format("{} of the program makes no motion", wish(place)));
+        segment ? fmt::format("{} and {:.6g} after it is beyond the path", wish(place), place.after_u)
+                : fmt::format("{} of the program starts no motion", wish(place)));
     d.notes.push_back(fmt::format("the program has {} motion blocks and a path of {:.6g}", job.blocks,
                                   job.path.length_u()));
     d.help = "kadr plan shows the lines that move";

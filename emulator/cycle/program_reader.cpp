@@ -87,7 +87,7 @@ void ProgramReader::take_wait(Block block) {
   diagnostics_.add(warning(
       Code::wait_timed_out, block,
       fmt::format("{} read {:.6g} for {:.6g} s; #5399 is -1", input, outcome.value, block.wait.timeout_s),
-      fmt::format("a scenario moves it: [[step]] at_s = 1.5 {} = {} value = 1",
+      fmt::format("a scenario sets it: [[step]] at_s = 1.5 {} = {} value = 1",
                   block.wait.analog ? "analog_input" : "input", block.wait.number)));
 }
 

@@ -155,7 +155,7 @@ class Cycle {
                       motion_.s_end_u == motion_.s_begin_u;
     if (!held || !panel_.at_its_end()) return std::nullopt;
     add_alarm(Code::held_to_the_end, motion_.s_end_u, job_.path.length_u(),
-              fmt::format("held at {:.6g} of {:.6g}, and no step lets it go", motion_.s_end_u,
+              fmt::format("held at {:.6g} of {:.6g}, and no step releases it", motion_.s_end_u,
                           job_.path.length_u()));
     return Outcome::held;
   }
@@ -186,8 +186,9 @@ class Cycle {
       ++deferred_ticks_;
     const bool locked_overload = motion_.note == OverrideNote::locked && panel_.spindle_percent() < 1;
     if (locked_overload && !overload_told_)
-      add_alarm(Code::overload_locked, panel_.spindle_percent() * 100, 100,
-                fmt::format("the load asks for {:.6g} %, the lock waits", panel_.spindle_percent() * 100));
+      add_alarm(
+          Code::overload_locked, panel_.spindle_percent() * 100, 100,
+          fmt::format("the load asks for {:.6g} %, but the feed is locked", panel_.spindle_percent() * 100));
     overload_told_ = locked_overload;
     const bool rests = motion_.s_end_u == motion_.s_begin_u;
     if (rests && motion_.limited_by == LimitedBy::stop) return;  // a pause of the program

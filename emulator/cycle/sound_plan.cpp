@@ -16,7 +16,7 @@ std::string unit_of(const planner::Violation& v, const machine::MachineModel& ma
   const std::string_view what = v.what;
   const auto has = [&](std::string_view word) { return what.find(word) != std::string_view::npos; };
   if (what == "kl" || what == "table size") return "";
-  if (has("time") || has("duration") || has("ticks") || what == "block end inside a piece") return " s";
+  if (has("time") || has("duration") || has("ticks") || what == "pause" || what == "block end inside a piece") return " s";
   const bool rotary = v.axis >= 0 && is_rotary_letter(machine.axis[static_cast<std::size_t>(v.axis)].letter);
   const std::string length = rotary ? " deg" : " mm";
   if (has("jerk")) return length + "/s3";
@@ -29,7 +29,8 @@ std::string unit_of(const planner::Violation& v, const machine::MachineModel& ma
 /// Whether two numbers are to be the same, rather than one below the other.
 bool is_equality(std::string_view what) {
   return what.starts_with("continuity") || what.starts_with("table") || what.starts_with("length") ||
-         what == "start" || what == "duration" || what == "gap in time" || what == "path without law";
+         what == "start" || what == "duration" || what == "gap in time" || what == "path without law" ||
+         what == "pause" || what.starts_with("time of");
 }
 
 /// "part.ngc:12: axis acceleration of X is 39991 mm/s2, allowed 2500 mm/s2, at 1.5 s and 20 of 38 mm of path"
@@ -59,7 +60,8 @@ std::string violation_text(const planner::Violation& v, const Job& job) {
 }  // namespace
 
 void require_sound_plan(const Job& job) {
-  const auto found = planner::verify(job.path, job.plan, job.machine.model, planner::production_check());
+  const auto found = planner::verify(job.path, job.plan, job.machine.model, planner::production_check(),
+                                     pauses(job));
   if (!found.empty()) throw BrokenPromise(violation_text(found.front(), job));
 }
 

@@ -159,7 +159,7 @@ tl::expected<Decoded<R>, std::string> decode(std::span<const std::uint8_t> data,
     return tl::unexpected<std::string>("its fingerprint is not that of its type");
   if (!in.ok()) return tl::unexpected<std::string>("its fields do not fit its length");
   if (!message.newer && !in.at_end())
-    return tl::unexpected<std::string>("bytes are left over behind its fields");
+    return tl::unexpected<std::string>("bytes are left over after its fields");
   if constexpr (requires { check_message(message.record, channel, header); })
     if (const char* wrong = check_message(message.record, channel, header))
       return tl::unexpected<std::string>(wrong);

@@ -9,7 +9,7 @@
 namespace kadr::emulator {
 namespace {
 
-// times are decimals: 0.3 s is 300 ticks of 1 ms but for a rounding
+// times are decimals: 0.3 s is 300 ticks of 1 ms up to rounding
 constexpr double kSameTick = 1e-6;
 
 }  // namespace

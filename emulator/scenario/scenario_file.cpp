@@ -46,7 +46,7 @@ class ScenarioReader {
     read_tools(table);
     scenario_.dialect = table.choice("dialect", gcode::kDialects, gcode::Dialect::linuxcnc).value;
     if (const Node* settings = table.table("settings")) flatten_settings(*settings, "");
-    // the stock of a scenario goes before that of the machine file
+    // the stock of a scenario overrides that of the machine file
     if (const Node* stock = table.table("stock")) flatten_settings(*stock, "stock");
     for (const Node& point : table.tables("technology")) read_technology(point);
     for (const Node& step : table.tables("step")) read_step(step);
@@ -145,7 +145,7 @@ class ScenarioReader {
     const fs::path inside = fs::path(name.value).lexically_normal();
     if (inside.is_absolute() || *inside.begin() == "..")
       return tell(Code::scenario_file_missing, name.span, "lies outside the scenario's folder",
-                  "a tool table lies beside scenario.toml or below its folder");
+                  "a tool table is next to scenario.toml or below its folder");
     const fs::path path = fs::path(scenario_.folder) / inside;
     scenario_.tools_path = path.string();
     if (!fs::is_regular_file(path))
@@ -233,10 +233,10 @@ class ScenarioReader {
       return tell(Code::scenario_step, node.span, fmt::format("does {} things at once", actions),
                   "write a [[step]] for each, at the same tick if need be");
     if (!step.action && step.place)
-      return tell(Code::scenario_step, step.span, "an input changes at a time, not at a place",
+      return tell(Code::scenario_step, step.span, "an input changes at a time, not at a position",
                   "write at_s or at_tick");
     if (step.place && step.for_s > 0)
-      return tell(Code::scenario_step, step.span, "for_s counts from a time, not from a place",
+      return tell(Code::scenario_step, step.span, "for_s counts from a time, not from a position",
                   "write a second step where the load falls again");
     table.finish();
     scenario_.steps.push_back(step);
@@ -308,7 +308,7 @@ class ScenarioReader {
     const auto code = parse_code(text);
     if (!code)
       tell(Code::scenario_value, span, fmt::format("there is no code {}", text),
-           "kadr explain --list names all");
+           "kadr explain --list lists all");
     return code;
   }
 
@@ -325,12 +325,12 @@ class ScenarioReader {
 
   void read_axis(const machine::Entry& entry) {
     if (entry.key.size() != 1 || axis_index(entry.key.front()) < 0)
-      return tell(Code::scenario_value, entry.key_span, fmt::format("'{}' is no axis letter", entry.key),
+      return tell(Code::scenario_value, entry.key_span, fmt::format("'{}' is not an axis letter", entry.key),
                   fmt::format("axes are named by one of {}", kAxisLetters));
     AxisExpectation axis;
     axis.letter = entry.key.front();
     TableReader table(&entry.value, "expect.axis." + entry.key, entry.key_span, context_);
-    // vibration stands in thousandths of the axis unit; U V W may be of either kind
+    // vibration is in thousandths of the axis unit; U V W may be of either kind
     const bool rotary = is_rotary_letter(axis.letter) ||
                         (std::string_view("UVW").find(axis.letter) != std::string_view::npos &&
                          (table.has("vibration_mdeg") || table.has("residual_mdeg")));

@@ -53,7 +53,7 @@ Json rule(Code code) {
   return j;
 }
 
-/// Headline and measured value, then notes and help on lines of their own.
+/// Headline and measured value, then notes and help on their own lines.
 std::string message(const Diagnostic& d) {
   std::string text = d.message.empty() ? std::string(code_entry(d.code).title) : d.message;
   if (!d.label.empty()) text += ": " + d.label;
@@ -112,7 +112,7 @@ std::string SarifLog::fingerprint(const Diagnostic& d, const SourceSet& sources)
   Hash64 hash;
   hash.integer(static_cast<std::int64_t>(d.code));
   hash.bytes(line.data(), line.size());
-  // the same text twice in a file is told apart by its order
+  // identical texts in a file are numbered in order
   const std::string text = hash_text(hash.digest());
   return fmt::format("{}:{}", text, ++seen_[source.name() + '\n' + text]);
 }
@@ -154,7 +154,7 @@ Json SarifLog::document(int exit_code) const {
   Json rules = Json::array();
   for (const Code code : codes_) rules.push_back(rule(code));
 
-  // viewers show the first few thousand results: errors have the first right to them
+  // viewers truncate long lists: emit errors first
   std::vector<const Result*> sorted;
   for (const Result& result : results_) sorted.push_back(&result);
   std::stable_sort(sorted.begin(), sorted.end(),

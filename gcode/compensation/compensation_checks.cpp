@@ -14,7 +14,7 @@ std::string_view conflict_of_nonmodal(int code) {
       return "moves to a reference point";
     case 281:
     case 301:
-      return "stores the position, which lies beside the contour";
+      return "stores the position, which is off the contour";
     case 520:
     case 920:
       return "moves the origin";
@@ -65,19 +65,19 @@ void Interpreter::check_compensation_words() {
   if (state_.compensating()) {
     Diagnostic d =
         problem(Code::compensation_twice, span,
-                fmt::format("{}, but compensation is on already", g_name(code)), "write G40 before");
-    d.notes.push_back(fmt::format("it is on since line {}", compensation_span_.line));
+                fmt::format("{}, but compensation is already on", g_name(code)), "write G40 before");
+    d.notes.push_back(fmt::format("it has been on since line {}", compensation_span_.line));
     error(std::move(d));
   }
   if (yz) {
     error(problem(Code::compensation_plane, span, "the plane in force is YZ (G19)",
-                  "choose the plane with G17 or G18 before"));
+                  "choose the plane with G17 or G18 first"));
   }
   if (code == 411 || code == 421) {
     require_word('D', GGroup::compensation, "the diameter of the tool");
     if (words_.has('L') && !zx) {
       error(problem(Code::compensation_lathe_tool, words_.span(*line_, 'L'),
-                    "L is the orientation of a lathe tool", "write G18 before, or leave L out"));
+                    "L is the orientation of a lathe tool", "write G18 first, or leave L out"));
     } else {
       check_whole('L', 0, kLargestOrientation);
     }
@@ -151,7 +151,7 @@ void Interpreter::refuse_while_compensating(Span span, std::string_view name, st
   Diagnostic d = problem(Code::compensation_conflict, span, fmt::format("{} {}", name, what),
                          "write G40 and a straight move before it");
   const Span since = state_.compensating() ? compensation_span_ : g_span(GGroup::compensation);
-  d.notes.push_back(fmt::format("cutter compensation is on since line {}", since.line));
+  d.notes.push_back(fmt::format("cutter compensation has been on since line {}", since.line));
   error(std::move(d));
 }
 

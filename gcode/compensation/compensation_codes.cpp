@@ -179,14 +179,14 @@ void Interpreter::report_compensation_fault(const CompensationFault& fault, Span
     case Kind::entry_short:
       d = problem(Code::compensation_entry_short, span,
                   fault.measured > 0 ? fmt::format("entry move of {} mm", figure(fault.measured))
-                                     : "this move does not move in the plane",
-                  fault.measured > 0 ? "begin further away from the contour"
-                                     : "write it before G41, and a longer move in the plane behind");
+                                     : "nothing moves in the plane",
+                  fault.measured > 0 ? "start further away from the contour"
+                                     : "write it before G41, and a longer move in the plane after it");
       d.notes.push_back(
           fmt::format("it must be longer than the tool's radius, {} mm", figure(fault.allowed)));
       break;
     case Kind::entry_arc:
-      d = problem(Code::compensation_entry_arc, span, "no arc leads from here to beside the contour",
+      d = problem(Code::compensation_entry_arc, span, "no arc leads from here to the offset contour",
                   "enter with a straight move, or with an arc of another radius");
       break;
     case Kind::arc_small:
@@ -217,7 +217,7 @@ void Interpreter::report_compensation_fault(const CompensationFault& fault, Span
     d.notes.push_back(fmt::format("the move before the corner is on line {}", fault.earlier.line));
   }
   if (d.code == Code::compensation_gouge) d.help = "choose a smaller tool, or leave out the short move";
-  d.notes.push_back(fmt::format("cutter compensation is on since line {}", compensation_span_.line));
+  d.notes.push_back(fmt::format("cutter compensation has been on since line {}", compensation_span_.line));
   ++compensation_faults_;
   report_.error(std::move(d));
 }

@@ -15,8 +15,8 @@ bool Flow::count_pass(int beginning) {
   if (++passes_ <= most || most == 0) return true;
   Diagnostic d =
       problem(Code::loop_too_long, at(beginning).span, fmt::format("pass {} of the program's loops", passes_),
-              "look at the condition and at what changes it");
-  d.notes.push_back(fmt::format("allowed are {} in all (--limit loop_passes=N)", most));
+              "check the condition and what changes it");
+  d.notes.push_back(fmt::format("allowed: {} in all (--limit loop_passes=N)", most));
   error(std::move(d));
   stopped_ = true;
   return false;
@@ -53,8 +53,8 @@ void Flow::do_foot(const Line& line, int index) {
   const bool again = argument(line, condition) && condition != 0 && report_.errors() == 0;
   if (again && !break_kept_) return unit_->program.go_to(at(at(index).begin).at);
   if (again) {
-    warn_kept(index, "the loop ends here though its condition holds",
-              "a break that was met or passed over since the last do loop still counts");
+    warn_kept(index, "the loop ends here although its condition holds",
+              "a break reached or passed over since the last do loop still counts");
   }
   break_kept_ = false;
 }
@@ -64,7 +64,7 @@ void Flow::break_loop(int index) {
   break_kept_ = at(loop).word != FlowWord::do_once;
   if (break_kept_ && continue_kept_ && report_.errors() == 0) {
     continue_kept_ = false;
-    warn_kept(index, "the loop goes on though it was to be left",
+    warn_kept(index, "the loop continues although it should be left here",
               "a continue of a do loop before this loop still counts");
     return next_pass(loop);
   }
@@ -110,7 +110,7 @@ void Flow::repeat(const Line& line, int index) {
   left = kNoPasses;
   if (!continue_kept_ || report_.errors() > 0) return leave_loop(index);
   continue_kept_ = false;
-  warn_kept(index, "the loop begins anew after its last pass",
+  warn_kept(index, "the loop starts again after its last pass",
             "a continue of a do loop before it still counts");
   unit_->program.go_to(at(index).at);
 }

@@ -61,7 +61,7 @@ void Advice::look(const Block& block) {
       tell_cut_without_spindle();
       if (spindle_runs_) {
         report_.warning(problem(Code::spindle_left_running, spindle_began_,
-                                fmt::format("started here, still running in line {}", block.span.line),
+                                fmt::format("started here, still running on line {}", block.span.line),
                                 "end the program with M2 or M30, or stop the spindle with M5"));
       }
       break;
@@ -130,12 +130,12 @@ void Advice::move_block(const Block& block) {
 
 void Advice::tell_cut_without_spindle() {
   if (cut_.line == 0 || !spindle_ran_) return;
-  Diagnostic d = problem(Code::cut_without_spindle, cut_, "goes down at feed, and the spindle does not turn",
+  Diagnostic d = problem(Code::cut_without_spindle, cut_, "goes down at feed with the spindle stopped",
                          "start it with M3 and S before this line");
   if (spindle_stopped_.line > 0)
-    d.notes.push_back(fmt::format("stopped in line {}", spindle_stopped_.line));
+    d.notes.push_back(fmt::format("stopped on line {}", spindle_stopped_.line));
   else
-    d.notes.push_back(fmt::format("first started in line {}", spindle_began_.line));
+    d.notes.push_back(fmt::format("first started on line {}", spindle_began_.line));
   report_.warning(std::move(d));
   cut_ = {};
 }
@@ -150,7 +150,7 @@ void Advice::check_length(const Block& block) {
   if (std::fabs(length_mm - in_force_mm) < kSameLength_mm) return;
   Diagnostic d = problem(Code::length_of_other_tool, block.span,
                          fmt::format("goes down with length {} mm in force", figure(in_force_mm)),
-                         "write G43 after the tool change, G49 if no length is meant");
+                         "write G43 after the tool change, G49 if no length is intended");
   d.notes.push_back(
       fmt::format("tool T{} in the spindle is {} mm long (tool table)", tool->number, figure(length_mm)));
   report_.warning(std::move(d));

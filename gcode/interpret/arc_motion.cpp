@@ -34,7 +34,7 @@ void Interpreter::arc(Motion motion) {
   const PlaneAxes axes = plane_axes(state_.plane);
   if (state_.straight_move_due) {
     error(problem(Code::compensation_exit_arc, action_span(),
-                  "an arc can't lead back from beside the contour",
+                  "an arc can't lead back from the offset contour",
                   "write a straight move, G0 or G1, before it"));
     state_.straight_move_due = false;
     return move_to(target());
@@ -200,17 +200,17 @@ void Interpreter::warn_arc(const Arc& arc) {
   const double apart = std::fabs(arc.radius_start_mm - arc.radius_end_mm);
   if (arc.half_circle_taken &&
       arc.half_chord_mm - std::fabs(words_.value('R')) * state_.length_factor() > kHalfCircleNoise_mm) {
-    Diagnostic d =
-        problem(Code::arc_by_tolerance, words_.span(*line_, 'R'),
-                fmt::format("radius short of {:.5f} mm: the half circle is taken", arc.half_chord_mm));
+    Diagnostic d = problem(Code::arc_by_tolerance, words_.span(*line_, 'R'),
+                           fmt::format("radius below {:.5f} mm: the half circle is used", arc.half_chord_mm));
     d.notes.push_back(fmt::format("accepted up to {} mm short", figure(kRadiusTolerance_mm, 5)));
     report_.warning(std::move(d));
   } else if (apart > options_.arc_end_tolerance_mm) {
     Diagnostic d = problem(Code::arc_by_tolerance, action_span(),
                            fmt::format("radius at start {:.3f} mm, at end {:.3f} mm: a spiral",
                                        arc.radius_start_mm, arc.radius_end_mm));
-    d.notes.push_back(fmt::format("accepted up to {:.3f} mm; told above {} mm (path.arc_end_tolerance_mm)",
-                                  arc.allowed_mm, figure(options_.arc_end_tolerance_mm)));
+    d.notes.push_back(
+        fmt::format("accepted up to {:.3f} mm; reported above {} mm (path.arc_end_tolerance_mm)",
+                    arc.allowed_mm, figure(options_.arc_end_tolerance_mm)));
     report_.warning(std::move(d));
   }
 }

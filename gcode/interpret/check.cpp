@@ -120,7 +120,7 @@ void Interpreter::check_codes() {
     if (!state_.uncertain.motion && (!line_motion || incremental)) {
       error(problem(
           Code::g53_misplaced, g_span(GGroup::nonmodal),
-          incremental ? "G53 in G91: machine coordinates are absolute" : "G53 holds for G0 and G1 only",
+          incremental ? "G53 in G91: machine coordinates are absolute" : "G53 works with G0 and G1 only",
           "write it as G90 G53 G0 ... or G90 G53 G1 ..."));
     }
   }
@@ -143,7 +143,7 @@ void Interpreter::check_call() {
   }
   if (const Item* other = words_beside_call()) {
     report_.warning(problem(Code::word_not_run, line_->span(other->bytes),
-                            "LinuxCNC runs no other word of a line with M98",
+                            "LinuxCNC runs no other word on a line with M98",
                             "write it on a line of its own"));
   }
 }
@@ -316,7 +316,7 @@ void Interpreter::check_shared_p() {
                     (motion_code == 20 || motion_code == 30 ? 1 : 0);
   if (users < 2) return;
   report_.warning(problem(Code::word_shared, words_.span(*line_, 'P'),
-                          fmt::format("{} codes of this line read this P", users),
+                          fmt::format("{} codes on this line read this P", users),
                           "write them on separate lines"));
 }
 

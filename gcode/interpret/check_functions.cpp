@@ -28,7 +28,7 @@ void Interpreter::check_functions() {
 void Interpreter::check_orientation() {
   if (words_.has('R') && !(words_.value('R') >= 0 && words_.value('R') <= kFullTurn_deg)) {
     error(problem(Code::word_out_of_range, words_.span(*line_, 'R'),
-                  fmt::format("M19 R{}: allowed are 0 to 360 degrees", figure(words_.value('R')))));
+                  fmt::format("M19 R{}: allowed: 0 to 360 degrees", figure(words_.value('R')))));
   }
   check_whole('P', 0, kLastOrientWay);
   if (words_.has('Q') && !(words_.value('Q') > 0)) {
@@ -69,7 +69,7 @@ void Interpreter::check_wait() {
                   "an analog input can only be read at once: L0"));
   } else if (waits && !(words_.has('Q') && words_.value('Q') > 0)) {
     error(problem(Code::input_unclear, words_.span(*line_, 'L'),
-                  "a wait needs Q above 0: the seconds after which it is given up"));
+                  "a wait needs Q above 0: the seconds after which it gives up"));
   }
 }
 

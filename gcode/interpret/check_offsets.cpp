@@ -87,7 +87,7 @@ void Interpreter::check_g10() {
       if (state_.tool_in_spindle == 0) return;
       error(problem(Code::tool_table_busy, g_span(GGroup::nonmodal),
                     fmt::format("tool {} is in the spindle", state_.tool_in_spindle),
-                    "put it away before: T0 M6"));
+                    "put it away first: T0 M6"));
       return;
     case 1:
     case 10:
@@ -98,7 +98,7 @@ void Interpreter::check_g10() {
       return check_g10_work_offset(l);
     default:
       error(problem(Code::word_out_of_range, words_.span(*line_, 'L'),
-                    fmt::format("L is {}, allowed are 0, 1, 2, 10, 11 and 20", figure(words_.value('L')))));
+                    fmt::format("L is {}, allowed: 0, 1, 2, 10, 11 and 20", figure(words_.value('L')))));
   }
 }
 

@@ -145,15 +145,15 @@ bool Interpreter::cycle_levels(Hole& hole) {
   if (hole.retract < hole.bottom) {
     const char along = kAxisLetters[static_cast<std::size_t>(hole.axes.normal)];
     return error(problem(Code::cycle_retract_below_bottom, action_span(),
-                         fmt::format("R lies at {0}{1}, the bottom of the hole at {0}{2}", along,
+                         fmt::format("R is at {0}{1}, the bottom of the hole at {0}{2}", along,
                                      figure(hole.retract), figure(hole.bottom)),
                          state_.incremental
-                             ? fmt::format("under G91 {} counts from R: downwards it has a minus", along)
+                             ? fmt::format("under G91 {} counts from R: downwards is negative", along)
                              : "R is the level above the hole to which the tool goes at the rapid rate"));
   }
   if (pecks(kept.code) && hole.retract - hole.bottom > kMostPecks * kept.peck) {
     return error(problem(Code::word_out_of_range, words_.has('Q') ? words_.span(*line_, 'Q') : action_span(),
-                         fmt::format("pecks of {} for a depth of {}, allowed are {:.0f} pecks",
+                         fmt::format("pecks of {} for a depth of {}, allowed: {:.0f} pecks",
                                      figure(kept.peck, 9), figure(hole.retract - hole.bottom), kMostPecks)));
   }
   // a sequence that began below R: first straight up

@@ -164,7 +164,7 @@ void Interpreter::hand_out(Block& block) {
   if (ended_) return;
   if (options_.bounds.blocks != 0 && blocks_ >= options_.bounds.blocks) {
     error(problem(Code::too_many_blocks, block.span, fmt::format("block {} would begin here", blocks_ + 1),
-                  fmt::format("allowed are {} (--limit blocks=N)", options_.bounds.blocks)));
+                  fmt::format("allowed: {} (--limit blocks=N)", options_.bounds.blocks)));
     ended_ = true;
     return;
   }

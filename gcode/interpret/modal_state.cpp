@@ -118,8 +118,8 @@ void Interpreter::modal_state() {
     case 72: {
       const Span place = words_.span(*line_, MGroup::modal_state);
       if (level.modal) return restore(*level.modal, place);
-      error(problem(Code::modal_state_missing, place, "nothing was kept at this level of calls",
-                    "M70 keeps the modes for an M72 of the same subroutine; M71 forgets them"));
+      error(problem(Code::modal_state_missing, place, "nothing was saved at this level of calls",
+                    "M70 saves the modes for an M72 in the same subroutine; M71 discards them"));
       return;
     }
     default:

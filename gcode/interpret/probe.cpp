@@ -67,8 +67,8 @@ bool Interpreter::probe_allowed() {
                 fmt::format("{} needs an axis word: the point to probe towards", g_name(state_.probe_code))));
   }
   if (state_.feed_mode == FeedMode::units_per_revolution) {
-    return error(
-        problem(Code::probe_feed_mode, action_span(), "G95 holds here", "write G94 and a feed before it"));
+    return error(problem(Code::probe_feed_mode, action_span(), "G95 is in force here",
+                         "write G94 and a feed before it"));
   }
   return true;
 }
@@ -124,8 +124,8 @@ std::string Interpreter::stock_text() const {
 bool Interpreter::refuse_probe_start(const Block& block, double beyond_mm) {
   const std::string apart = figure(std::fabs(beyond_mm));
   Diagnostic d = problem(Code::probe_already_there, block.span,
-                         block.probe.away ? fmt::format("the probe stands {} mm outside of the stock", apart)
-                                          : fmt::format("the probe stands {} mm inside of the stock", apart));
+                         block.probe.away ? fmt::format("the probe is {} mm outside the stock", apart)
+                                          : fmt::format("the probe is {} mm inside the stock", apart));
   d.notes.push_back(stock_text());
   d.help = block.probe.away ? "probe towards the stock first: G38.2" : "retract before probing: G0 or G38.4";
   return error(std::move(d));

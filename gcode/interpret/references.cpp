@@ -135,9 +135,9 @@ void Interpreter::turn_under_g92(double rotation_deg) {
   state_.position[kY] += dy;
   if (silent_) return;
   Diagnostic d = problem(Code::rotation_under_g92, words_.span(*line_, 'R'),
-                         fmt::format("the controller takes X and Y {} and {} mm off where the tool stands",
+                         fmt::format("the controller assumes X and Y {} and {} mm off where the tool is",
                                      figure(dx), figure(dy)),
-                         "cancel G92 and G52 before (G92.1), or name both X and Y in the next move");
+                         "cancel G92 and G52 first (G92.1), or name both X and Y in the next move");
   report_.warning(std::move(d));
 }
 

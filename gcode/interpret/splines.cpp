@@ -166,8 +166,8 @@ void Interpreter::set_nurbs_order() {
 bool Interpreter::nurbs_words_allowed(bool first) {
   for (const char letter : {'@', '^'}) {
     if (!words_.has(letter)) continue;
-    return error(problem(Code::nurbs_point, words_.span(*line_, letter), "a control point has no polar words",
-                         "give it by X and Y"));
+    return error(problem(Code::nurbs_point, words_.span(*line_, letter),
+                         "a control point can't have polar words", "give it by X and Y"));
   }
   const bool x = words_.has('X'), y = words_.has('Y'), p = words_.has('P');
   if (p && !(words_.value('P') > 0)) {
@@ -181,7 +181,7 @@ bool Interpreter::nurbs_words_allowed(bool first) {
   if (first) return true;
   if (!x) {
     return error(problem(Code::nurbs_point, action_span(), "X and Y are missing",
-                         "a weight without a point stands on the first line only, for the start"));
+                         "a weight without a point is allowed on the first line only, for the start"));
   }
   if (p) return true;
   return error(problem(Code::nurbs_point, action_span(), "P is missing",
@@ -206,7 +206,7 @@ void Interpreter::end_nurbs() {
   }
   if (nurbs.points.size() < static_cast<std::size_t>(nurbs.order)) {
     Diagnostic d = problem(Code::nurbs_too_few_points, span,
-                           fmt::format("{} points, the start among them", nurbs.points.size()));
+                           fmt::format("{} points, including the start", nurbs.points.size()));
     d.notes.push_back(fmt::format("a curve of order {} (L) needs {} points", nurbs.order, nurbs.order));
     error(std::move(d));
     return;
@@ -250,7 +250,7 @@ void Interpreter::drop_nurbs(Span span) {
   const Nurbs nurbs = std::exchange(nurbs_, Nurbs{});
   if (nurbs.faulty) return;
   report_.warning(problem(Code::nurbs_dropped, span,
-                          fmt::format("the G5.2 of line {} is not closed", nurbs.span.line),
+                          fmt::format("the G5.2 on line {} is not closed", nurbs.span.line),
                           "close it with G5.3 on a line before this one"));
 }
 

@@ -73,7 +73,7 @@ void Interpreter::check_thread_cycle() {
   const bool below = k <= j;
   if (i == 0) {
     error(problem(Code::thread_depth, words_.span(*line_, 'I'), "I is 0",
-                  "I is negative for an outside thread and positive for an inside one"));
+                  "I is negative for an external thread and positive for an internal one"));
   }
   if (j <= 0) {
     error(problem(Code::thread_depth, words_.span(*line_, 'J'),
@@ -160,8 +160,7 @@ void Interpreter::warn_thread(const ThreadShape& shape) {
   }
   if (state_.plane == Plane::zx) return;
   report_.warning(problem(Code::thread_unusual, action_span(),
-                          "G76 cuts in X and Z whatever the plane; the plane in force is another",
-                          "write G18 before it"));
+                          "G76 cuts in X and Z although another plane is in force", "write G18 before it"));
 }
 
 void Interpreter::thread_pass(const ThreadShape& shape, double depth) {

@@ -12,7 +12,7 @@ void Interpreter::check_thread(int code) {
   }
   if (!words_.has('K')) {
     error(problem(Code::word_missing, span,
-                  fmt::format("{} needs K on each line: the way per turn of the spindle", name)));
+                  fmt::format("{} needs K on each line: the travel per turn of the spindle", name)));
   }
   if (words_.has('F')) {
     error(problem(Code::thread_with_feed, words_.span(*line_, 'F'),
@@ -22,15 +22,14 @@ void Interpreter::check_thread(int code) {
   check_whole('$', 0, 0);
   if (words_.has('E')) {
     report_.warning(problem(Code::thread_unusual, words_.span(*line_, 'E'),
-                            fmt::format("{} takes E, but nothing comes of it", name),
-                            "E is the taper of G76"));
+                            fmt::format("{} accepts E, but ignores it", name), "E is the taper of G76"));
   }
 }
 
 bool Interpreter::spindle_turns(int code) {
   if (state_.turning == Turning::stopped) {
     return error(problem(Code::thread_spindle_stopped, action_span(),
-                         fmt::format("{} and the spindle is not turning", g_name(code)),
+                         fmt::format("{} with the spindle stopped", g_name(code)),
                          "write M3 or M4 and S before it"));
   }
   warn_standing_spindle();

@@ -113,7 +113,7 @@ bool Program::read(Line& line) {
   if (line_bytes_ != 0 && length > line_bytes_) {
     parser_.leave_unread(line);
     Diagnostic d = problem(Code::line_too_long, line.span({0, 1}), fmt::format("{} bytes", length));
-    d.notes.push_back(fmt::format("allowed are {} (--limit line_bytes=N)", line_bytes_));
+    d.notes.push_back(fmt::format("allowed: {} (--limit line_bytes=N)", line_bytes_));
     report_.error(std::move(d));
     return true;
   }

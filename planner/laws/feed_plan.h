@@ -90,10 +90,18 @@ struct PositionedSegment {
   std::array<double, kProgramAxes> residual_u{};  ///< [machine axes] amplitude that is left to swing
 };
 
+/// A standstill that the program asks for where the path rests: a dwell, a tool change, a wait.
+struct Pause {
+  std::size_t after_segment = 0;  ///< number of path segments before it; the path rests there
+  double hold_s = 0;              ///< > 0
+};
+
 struct FeedPlan {
   std::vector<SegmentPlan> segments;  ///< [path.size()]
-  MotionLaw law;
+  MotionLaw law;                      ///< pauses included
   std::vector<PositionedSegment> positioned;  ///< ascending
+  double motion_s = 0;                        ///< what the law would last without its pauses
+  double pause_s = 0;                         ///< sum of the pauses
 };
 
 }  // namespace kadr::planner

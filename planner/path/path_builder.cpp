@@ -361,7 +361,7 @@ bool PathBuilder::plane_axes(const gcode::Block& block, ArcShape& arc) {
   fault(
       Code::arc_axis_missing, block,
       std::string(block.kind == gcode::BlockKind::arc ? "the arc" : "the spline") + " needs axis " + missing,
-      "choose the plane with G17, G18 or G19, or a machine that has both axes of it");
+      "choose the plane with G17, G18 or G19, or a machine that has both of its axes");
   std::string letters;
   for (const machine::AxisModel& axis : machine_.axis) letters += axis.letter;
   path_.faults.back().notes.push_back("machine '" + machine_.name + "' has the axes " + letters);

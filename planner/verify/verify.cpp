@@ -9,6 +9,7 @@
 #include "planner/path/path.h"
 #include "planner/verify/verify_blocks.h"
 #include "planner/verify/verify_curve.h"
+#include "planner/verify/verify_pauses.h"
 
 namespace kadr::planner {
 namespace {
@@ -60,12 +61,13 @@ Derivatives derivatives(const Path& path, std::size_t segment, double local_s) {
 class Verifier {
  public:
   Verifier(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
-           const VerifyOptions& options)
+           const VerifyOptions& options, std::span<const Pause> pauses)
       : path_(path),
         plan_(plan),
         law_(plan.law),
         machine_(machine),
         options_(options),
+        pauses_(pauses),
         blocks_(plan, machine) {
     tolerance_s_ = 16.0 * kUlp * std::max(path.length_u(), 1.0);
     for (const JerkPiece& p : law_.pieces) top_speed_ = std::max(top_speed_, p.speed_u_s);
@@ -73,7 +75,9 @@ class Verifier {
 
   std::vector<Violation> run() {
     if (path_.size() == 0) {
-      if (!law_.pieces.empty()) report("law without path", 0.0, 0, -1, law_.duration_s, 0.0);
+      if (!law_.pieces.empty() && pauses_.empty())
+        report("law without path", 0.0, 0, -1, law_.duration_s, 0.0);
+      check_pauses();
       return std::move(found_);
     }
     if (law_.pieces.empty()) {
@@ -91,9 +95,10 @@ class Verifier {
     }
     check_stops();
     check_table();
+    check_pauses();
     if (!full() && plan_.segments.size() == path_.size())
       verify_blocks(
-          plan_, machine_, options_, [this](std::size_t i) { return jerk_limited(i); }, found_);
+          plan_, machine_, options_, pauses_.size(), [this](std::size_t i) { return jerk_limited(i); }, found_);
     return std::move(found_);
   }
 
@@ -253,6 +258,7 @@ class Verifier {
     const double s_end = at(p, end).s;
     look(p, 0.0);
     look(p, end);
+    if (stands(p)) return;
     if (p.quintic_rise_u_s != 0.0) {
       // largest acceleration in the middle, largest jerks where 1 - 6 x + 6 x^2 = 0
       for (const double x : {0.5, 0.5 - std::sqrt(1.0 / 12.0), 0.5 + std::sqrt(1.0 / 12.0)})
@@ -445,11 +451,19 @@ class Verifier {
       if (moves(i, j) && machine_.axis[j].has_plant) return true;
     return false;
   }
-  static bool stands(const JerkPiece& p) { return p.speed_u_s == 0.0 && at(p, p.duration_s).s == p.s_u; }
+  void check_pauses() {
+    // the copies of a shaped rapid need not overlap
+    const auto between_copies = [this](double s) {
+      const std::size_t i = segment_at(s);
+      return positions(i) && s - path_.start_s_u[i] > tolerance_s_ && path_.start_s_u[i + 1] - s > tolerance_s_;
+    };
+    verify_pauses(path_, plan_, machine_, pauses_, tolerance_s_, between_copies, options_, found_);
+  }
 
   void check_stops() {
     std::size_t k = 0;
     const double tau = machine_.clock.tau_s();
+    const double ulps = kTickUlps + static_cast<double>(pauses_.size());  // every pause adds its rounding
     for (std::size_t i = 0; i < path_.size() && !full(); ++i) {
       const bool end = i + 1 == path_.size();
       const bool rapid = positions(i) || (!end && positions(i + 1));
@@ -472,7 +486,7 @@ class Verifier {
       if (!rests) report("rest at a stop", time, i, -1, s, s);
       if (!machine_.planner.whole_ticks || !rests) continue;
       const double off = std::fabs(time - std::floor(time / tau + 0.5) * tau);
-      if (!(off <= 1e-12 + kTickUlps * kUlp * time)) report("whole ticks", time, i, -1, off, 1e-12);
+      if (!(off <= kTickSlack_s + ulps * kUlp * time)) report("whole ticks", time, i, -1, off, kTickSlack_s);
     }
   }
 
@@ -484,10 +498,13 @@ class Verifier {
     }
     double time = 0.0, speed = 0.0;
     std::size_t hint = 0;
+    HeldTimes held_times(pauses_);
     for (std::size_t i = 0; i < path_.size() && !full(); ++i) {
       const SegmentPlan& row = plan_.segments[i];
-      if (row.begin_time_s != time || !(row.end_time_s >= time))
-        report("table times", time, i, -1, row.begin_time_s, time);
+      const double held = held_times.held_s(i);
+      const double late = std::fabs(row.begin_time_s - (time + held));
+      if (!(late <= (held > 0.0 ? kHeldUlps * kUlp * row.begin_time_s : 0.0)) || !(row.end_time_s >= time))
+        report("table times", time, i, -1, row.begin_time_s, time + held);
       if (!(row.peak_u_s >= std::max(speed, row.end_u_s) * (1.0 - options_.relative_tolerance)))
         report("table peak", time, i, -1, row.peak_u_s, speed);
       // where the speed jumps, the row tells the one before
@@ -514,6 +531,7 @@ class Verifier {
   const MotionLaw& law_;
   const machine::MachineModel& machine_;
   const VerifyOptions& options_;
+  std::span<const Pause> pauses_;
   StatedJumps blocks_;
   double tolerance_s_ = 0;  // s can't be told apart below this
   double top_speed_ = 0;
@@ -542,8 +560,8 @@ VerifyOptions production_check() {
 }
 
 std::vector<Violation> verify(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
-                              const VerifyOptions& options) {
-  return Verifier(path, plan, machine, options).run();
+                              const VerifyOptions& options, std::span<const Pause> pauses) {
+  return Verifier(path, plan, machine, options, pauses).run();
 }
 
 }  // namespace kadr::planner

@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,8 @@ VerifyOptions production_check();
 /// jerk (PlannerSettings::keeps_jerk): theirs is not looked at. Of a plan block by block also: whole ticks
 /// and acceleration zero at every block end, and a jump of speed there only if the table states it and kl
 /// explains it.
+/// @param pauses  that plan() was asked for: the law stands there so long, and nowhere else
 std::vector<Violation> verify(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
-                              const VerifyOptions& options = {});
+                              const VerifyOptions& options = {}, std::span<const Pause> pauses = {});
 
 }  // namespace kadr::planner

@@ -4,10 +4,13 @@
 #include <cmath>
 
 #include "machine/machine.h"
+#include "planner/verify/verify_pauses.h"
 
 namespace kadr::planner {
 namespace {
 
+// a block's end is a product and a sum; every pause before it adds its rounding
+constexpr double kTickUlps = 4.0;
 // kl are numbers near 1: their products agree to this
 constexpr double kSameFeed = 1e-9;
 
@@ -18,11 +21,13 @@ bool is_blockwise(const machine::MachineModel& machine) {
 class BlockVerifier {
  public:
   BlockVerifier(const FeedPlan& plan, const machine::MachineModel& machine, const VerifyOptions& options,
-                const std::function<bool(std::size_t)>& jerk_limited, std::vector<Violation>& found)
+                std::size_t pauses, const std::function<bool(std::size_t)>& jerk_limited,
+                std::vector<Violation>& found)
       : plan_(plan),
         law_(plan.law),
         tau_s_(machine.clock.tau_s()),
         whole_ticks_(machine.planner.whole_ticks),
+        tick_ulps_(kTickUlps + static_cast<double>(pauses)),
         options_(options),
         jerk_limited_(jerk_limited),
         found_(found) {
@@ -46,16 +51,19 @@ class BlockVerifier {
   void check_row(std::size_t i, const SegmentPlan& row) {
     const double time = row.end_time_s;
     const double off = std::fabs(time - std::floor(time / tau_s_ + 0.5) * tau_s_);
-    if (whole_ticks_ && !(off <= 1e-12 + 4.0 * kUlp * time)) report("whole ticks", time, i, off, 1e-12);
+    if (whole_ticks_ && !(off <= kTickSlack_s + tick_ulps_ * kUlp * time))
+      report("whole ticks", time, i, off, kTickSlack_s);
     const bool sound = row.rule == TickRule::scale ? row.kl > 0.0 && row.kl <= 1.0 : row.kl == 1.0;
     if (!sound) report("kl", time, i, row.kl, 1.0);
   }
 
   /// The pieces of one block: they end with it, rise, then fall, and have no acceleration at the ends.
   void check_diagram(std::size_t i, double end_s) {
+    while (piece_ < law_.pieces.size() && stands(law_.pieces[piece_])) ++piece_;
     const std::size_t first = piece_;
     bool falls = false;
     for (; piece_ < law_.pieces.size() && law_.pieces[piece_].begin_s < end_s; ++piece_) {
+      if (stands(law_.pieces[piece_]) && begins_at(law_.pieces[piece_], end_s)) break;  // a pause behind it
       const JerkPiece& p = law_.pieces[piece_];
       const double change = verified_state(p, p.duration_s).v - p.speed_u_s;
       const double tolerance = options_.relative_tolerance * top_speed_;
@@ -65,10 +73,14 @@ class BlockVerifier {
     if (first == piece_) return report("block without pieces", end_s, i, 0.0, 1.0);
     const JerkPiece& p = law_.pieces[piece_ - 1];
     const double gap = std::fabs(p.begin_s + p.duration_s - end_s);
-    if (!(gap <= 4.0 * kUlp * end_s)) report("block end inside a piece", end_s, i, gap, 0.0);
+    if (!(gap <= kTickUlps * kUlp * end_s)) report("block end inside a piece", end_s, i, gap, 0.0);
     if (!jerk_limited_(i)) return;
     check_rest_of_accel(i, law_.pieces[first], 0.0);
     check_rest_of_accel(i, p, p.duration_s);
+  }
+
+  static bool begins_at(const JerkPiece& p, double time_s) {
+    return std::fabs(p.begin_s - time_s) <= kTickUlps * kUlp * time_s;
   }
 
   void check_rest_of_accel(std::size_t i, const JerkPiece& p, double t) {
@@ -83,6 +95,7 @@ class BlockVerifier {
   const MotionLaw& law_;
   double tau_s_;
   bool whole_ticks_;
+  double tick_ulps_;
   const VerifyOptions& options_;
   const std::function<bool(std::size_t)>& jerk_limited_;
   std::vector<Violation>& found_;
@@ -121,8 +134,8 @@ double StatedJumps::stated_jump_u_s(double time_s) {
 }
 
 void verify_blocks(const FeedPlan& plan, const machine::MachineModel& machine, const VerifyOptions& options,
-                   const std::function<bool(std::size_t)>& jerk_limited, std::vector<Violation>& found) {
-  if (is_blockwise(machine)) BlockVerifier(plan, machine, options, jerk_limited, found).run();
+                   std::size_t pauses, const std::function<bool(std::size_t)>& jerk_limited, std::vector<Violation>& found) {
+  if (is_blockwise(machine)) BlockVerifier(plan, machine, options, pauses, jerk_limited, found).run();
 }
 
 }  // namespace kadr::planner

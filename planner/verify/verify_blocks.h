@@ -9,6 +9,8 @@
 namespace kadr::planner {
 
 inline constexpr double kUlp = std::numeric_limits<double>::epsilon();
+/// A time this close to a control tick is on it, however early it is.
+inline constexpr double kTickSlack_s = 1e-12;
 
 struct VerifiedState {
   double s, v, a, j;
@@ -33,8 +35,9 @@ class StatedJumps {
 /// For planner.scheduler = blockwise, at every block end: a whole number of control ticks (where asked), and
 /// acceleration zero on both sides where jerk is limited; within a block the feed first rises, then falls
 /// (paper 003, Fig. 2 and 3). Does nothing for another scheduler.
+/// @param pauses        how many the law has
 /// @param jerk_limited  whether anything limits the jerk on a segment
 void verify_blocks(const FeedPlan& plan, const machine::MachineModel& machine, const VerifyOptions& options,
-                   const std::function<bool(std::size_t)>& jerk_limited, std::vector<Violation>& found);
+                   std::size_t pauses, const std::function<bool(std::size_t)>& jerk_limited, std::vector<Violation>& found);
 
 }  // namespace kadr::planner

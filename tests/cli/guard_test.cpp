@@ -40,8 +40,9 @@ TEST_CASE("a broken plan ends a command with 70") {
     });
   };
   CHECK(end_of(planner::plan) == 0);
-  CHECK(end_of([](const planner::Path& path, const machine::MachineModel& machine) {
-          auto plan = planner::plan(path, machine);
+  CHECK(end_of([](const planner::Path& path, const machine::MachineModel& machine,
+                  std::span<const planner::Pause> pauses) {
+          auto plan = planner::plan(path, machine, pauses);
           plan->law.pieces.pop_back();
           return plan;
         }) == 70);

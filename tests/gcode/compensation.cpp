@@ -39,8 +39,7 @@ std::vector<std::string> outline(const std::string& program, const InterpretOpti
 }
 using Lines = std::vector<std::string>;
 
-/// The contour or its path seen in the mirror: Y and J change sign, left is right, clockwise is
-/// counter-clockwise.
+/// The contour or its path seen in the mirror: Y and J change sign, left is right, clockwise is counter-clockwise.
 std::string mirrored(const std::string& text, std::string_view across) {
   std::string other;
   for (std::size_t i = 0; i < text.size(); ++i) {

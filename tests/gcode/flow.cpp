@@ -11,8 +11,7 @@ using namespace kadr;
 using namespace kadr::gcode;
 using namespace kadr::gcode::test;
 
-/// O words, named parameters, M98 and M99. Expected traces were compared with rs274 where it runs the
-/// program.
+/// O words, named parameters, M98 and M99. Expected traces were compared with rs274 where it runs the program.
 namespace {
 
 /// Texts of (PRINT, ...) in the order they were run.

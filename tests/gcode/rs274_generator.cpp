@@ -372,7 +372,8 @@ void Generator::store() {
       is_stored_ = true;
       break;
     case 1:
-      if (!is_stored_) return;
+      // M72 runs G43, whose tool is another one in rs274 after M61
+      if (!is_stored_ || number_set_) return;
       text_ += modes_.inches != stored_.inches ? "G49\nM72\n" : "M72\n";
       modes_ = stored_;
       break;

@@ -85,7 +85,7 @@ TEST_CASE("the programs of a folder make the same canonical calls as in rs274") 
   for (const fs::path& path : programs_under(folder)) {
     const TestProgram program = read_lines(path);
     const Trace other = oracle_trace(rs274, program);
-    if (other.timed_out) {
+    if (other.no_verdict) {
       ++endless;
       continue;
     }

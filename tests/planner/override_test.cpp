@@ -119,8 +119,7 @@ TEST_CASE("S01 to S03: a cruise, a step down and a step up in it last as many ti
   CHECK(ride(m, kLine, {{0, 1.0}}).count() == 1100);
 
   const Ride down = ride(m, kLine, {{0, 1.0}, {500, 0.5}});
-  // 45 mm to tick 500, 70.7 ms down to 50 mm/s over 5.303 mm, 47.93 mm at 50 mm/s, 70.7 ms and 1.768 mm to
-  // rest
+  // 45 mm to tick 500, 70.7 ms down to 50 mm/s over 5.303 mm, 47.93 mm at 50 mm/s, 70.7 ms and 1.768 mm to rest
   CHECK(down.count() == 1600);
   CHECK(down.end_feed(499) == 100.0);
   CHECK(down.end_feed(500) < 100.0);

@@ -158,8 +158,7 @@ inline std::uint64_t environment(const char* name, std::uint64_t otherwise) {
 }
 
 machine::MachineModel random_machine(Random& random);
-/// Lines, arcs, helices, full circles, tiny and collinear segments, rotary motion, stops. @param end the last
-/// position
+/// Lines, arcs, helices, full circles, tiny and collinear segments, rotary motion, stops. @param end the last position
 planner::Path random_path(Random& random, const machine::MachineModel& machine, AxisValues& end);
 
 }  // namespace kadr::test

@@ -6,8 +6,7 @@
 #include "machine/machine.h"
 #include "planner_support.h"
 
-// How good the plans are: against a lower bound that no planner can beat, and against the optimum without
-// jerk limit.
+// How good the plans are: against a lower bound that no planner can beat, and against the optimum without jerk limit.
 namespace kadr::test {
 namespace {
 

@@ -107,8 +107,7 @@ TEST_CASE("on a helical stroke the free fibre leaves the mandrel as a tangent at
     if (a.fibre_angle_deg == alpha_deg || i == 1)
       CHECK((b.a_deg - a.a_deg) * kPi / 180 / std::fabs(b.contact_x_mm - a.contact_x_mm) ==
             doctest::Approx(std::tan(alpha_deg * kPi / 180) / 40).epsilon(1e-9));
-    // seen from the contact the eye is sqrt(65^2 - 40^2) = 51.235 mm round and 51.235/tan(55) = 35.875 mm
-    // along
+    // seen from the contact the eye is sqrt(65^2 - 40^2) = 51.235 mm round and 51.235/tan(55) = 35.875 mm along
     CHECK(std::fabs(b.x_mm - b.contact_x_mm) == doctest::Approx(35.875).epsilon(1e-4));
     CHECK(std::fabs(b.b_deg) == doctest::Approx(90 - alpha_deg));
   }

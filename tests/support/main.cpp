@@ -6,8 +6,7 @@
 
 namespace {
 
-/// Exit code of a run in which nothing was checked because something is not installed (ctest:
-/// SKIP_RETURN_CODE).
+/// Exit code of a run in which nothing was checked because something is not installed (ctest: SKIP_RETURN_CODE).
 constexpr int kSkipped = 77;
 
 /// What a whole run checked.

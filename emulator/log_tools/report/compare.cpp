@@ -140,8 +140,8 @@ std::string compared_note(const std::vector<ComparedRun>& runs) {
   std::string out;
   for (std::size_t k = 1; k < runs.size(); ++k) {
     const LogHeader &a = runs.front().data.header, &b = runs[k].data.header;
-    if (a.program_hash != b.program_hash) out += fmt::format("{} is of another program than A\n", letter(k));
-    if (a.machine_name != b.machine_name) out += fmt::format("{} is on another machine than A\n", letter(k));
+    if (a.program_hash != b.program_hash) out += fmt::format("{} ran another program than A\n", letter(k));
+    if (a.machine_name != b.machine_name) out += fmt::format("{} ran on another machine than A\n", letter(k));
   }
   return out;
 }

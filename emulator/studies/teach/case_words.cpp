@@ -11,7 +11,7 @@ using lattice::Turn;
 using Words = std::vector<std::string>;
 using Numbers = std::vector<std::int64_t>;
 
-/// The numbers of a case, and the turn that may stand behind them.
+/// The numbers of a case, and the turn that may follow them.
 struct Given {
   Numbers numbers;
   std::string text;  ///< a polynomial
@@ -129,7 +129,7 @@ const std::vector<TeachKind>& teach_kinds() {
   static const std::vector<TeachKind> kinds = {
       {"line", "DX DY [DZ ...]", "straight from the origin, 2 to 9 axes"},
       {"polyline", "X1 Y1 X2 Y2 ...", "lines from node to node; --axes, --mode ptp"},
-      {"arc", "X0 Y0 X1 Y1 [ccw|cw]", "about the origin; a full turn where both ends are one node"},
+      {"arc", "X0 Y0 X1 Y1 [ccw|cw]", "about the origin; a full turn where both ends coincide"},
       {"circle", "R [ccw|cw]", "a full turn from (R, 0)"},
       {"ellipse", "A B [ccw|cw]", "once around from (A, 0)"},
       {"parabola", "P Y0 Y1", "y^2 = 2 P x from Y0 to Y1"},

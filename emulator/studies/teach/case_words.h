@@ -6,8 +6,7 @@
 #include "emulator/interpolator/lattice/curve.h"
 #include "machine/base/vocabulary.h"
 
-/// What is to be interpolated, as words: `line 7 4`. Shared by `kadr teach` and its page, so nothing here
-/// throws.
+/// The curve to interpolate, as words: `line 7 4`. Shared by `kadr teach` and its page, so nothing here throws.
 namespace kadr::emulator {
 
 /// How a path of several lines is followed: the axes together along it, or each at its own rate from node to
@@ -19,7 +18,7 @@ inline constexpr Vocabulary<TeachMode, 2> kTeachModes{{
 }};
 static_assert(kTeachModes.complete());
 
-/// What is to be interpolated: curves end to end, each given from its own beginning. Steps throughout.
+/// The curve to interpolate: curves end to end, each given from its own beginning. Steps throughout.
 struct TeachCase {
   std::string title;  ///< "line 7 4"
   std::string kind;   ///< "line"
@@ -36,7 +35,7 @@ struct TeachKind {
 };
 const std::vector<TeachKind>& teach_kinds();
 
-/// What is wrong with the words of a case.
+/// Errors in the words of a case.
 enum class CaseFault : std::uint8_t {
   none,
   kind,          ///< no such kind
@@ -56,7 +55,7 @@ inline constexpr std::int64_t kMostHalfAxis_steps = 10'000;
 inline constexpr std::int64_t kMostParabola_steps = std::int64_t{1} << 29;
 inline constexpr int kMostPolynomialDegree = 6;
 
-/// A case, or what is wrong with which of its words.
+/// A case, or the error with its word.
 struct CaseReading {
   TeachCase subject;
   CaseFault fault = CaseFault::none;
@@ -65,7 +64,7 @@ struct CaseReading {
 };
 
 /// Reads the words of a case: the kind and its numbers, in steps.
-/// @param axes  of Beziers and polylines, whose words are taken in groups of so many
+/// @param axes  of Beziers and polylines, whose words are taken in groups of this size
 CaseReading read_case(const std::vector<std::string>& words, int axes);
 
 /// "6400 y - x^3": whole coefficients, powers of x and y, degree kMostPolynomialDegree at most.

@@ -11,7 +11,7 @@ namespace {
 using lattice::Curve;
 using lattice::Method;
 
-/// What the columns of a method are called on a curve.
+/// The column names of a method on a curve.
 void name_columns(StepTable& table, const Curve& curve) {
   const bool line = std::holds_alternative<lattice::LineCurve>(curve);
   const bool arc = std::holds_alternative<lattice::ArcCurve>(curve);
@@ -96,7 +96,7 @@ void add_leg(StepTable& table, const Curve& curve, const lattice::Trace& trace, 
     table.worst_square_steps = std::max(table.worst_square_steps, square_deviation_steps(curve, node));
     squares += row.deviation_steps * row.deviation_steps;
     if (i == trace.slots.size()) {
-      // the curve itself goes on from the last crossing to its end
+      // the curve itself continues from the last crossing to its end
       if (t >= 0) row.deviation_steps = deviation_steps(curve, node, 1);
       table.last = row;
       break;

@@ -38,7 +38,7 @@ Travel travel_at(const Curve& curve, PlaneNode node) {
   return {a.sx, a.sy};
 }
 
-/// F = 0 beside the nodes of a path: the feet of the nodes and of the places between them.
+/// F = 0 along the nodes of a path: the feet of the nodes and of the points between them.
 std::vector<Place> feet(const lattice::Polynomial& f, const StepTable& table) {
   const lattice::Polynomial fx = f.derivative_x(), fy = f.derivative_y();
   const auto foot = [&](double x, double y) { return foot_of(f, fx, fy, {x, y}); };

@@ -13,19 +13,18 @@ std::string refusal_text(Refusal refusal, const Curve& curve, Method method, con
   const auto name = lattice::entry_of(method).name();
   switch (refusal) {
     case Refusal::no_length:
-      return fmt::format("{}: there is no way to go: both ends are one node", kind);
+      return fmt::format("{}: nothing to follow: both ends are the same node", kind);
     case Refusal::range:
       return fmt::format("{}: a coordinate is beyond what {} counts in integers, {} steps", kind, name,
                          lattice::most_steps(curve));
     case Refusal::off_curve:
-      return fmt::format("{}: the end lies more than 0.707 steps beside the circle through the beginning",
-                         kind);
+      return fmt::format("{}: the end is more than 0.707 steps off the circle through the start", kind);
     case Refusal::one_quadrant:
-      return fmt::format("{}: {} stays within the quadrant of its beginning; the end lies in another one",
-                         kind, name);
+      return fmt::format("{}: {} stays within the quadrant of its start; the end is in another one", kind,
+                         name);
     case Refusal::in_line:
-      return fmt::format("{}: the control points are in line, so it is no conic; use --method crossing",
-                         kind);
+      return fmt::format(
+          "{}: the control points are collinear, so this is not a conic; use --method crossing", kind);
     case Refusal::none:
     case Refusal::other_curve:
       break;

@@ -24,7 +24,7 @@ std::string fault_text(const CaseReading& reading) {
     case CaseFault::far_parabola:
       return fmt::format("parabola: {} is beyond 2^29 steps", word);
     case CaseFault::flat_parabola:
-      return "parabola: P is not 0";
+      return "parabola: P must not be 0";
     case CaseFault::none:
     case CaseFault::kind:
     case CaseFault::count:

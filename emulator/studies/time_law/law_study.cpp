@@ -17,8 +17,8 @@ using planner::LawResult;
 constexpr double kMostMemory_bytes = 4e9;
 constexpr double kMostTransitions = 1e12;  ///< of one pass, if every transition were admissible
 constexpr double kMostJerkRows = 1e7;      ///< their tangents are some hundred steps over all rows
-constexpr double kManyDerivatives =
-    1e6;  ///< nodes times axes, from which on fewer inner points are looked at
+/// nodes times axes, from which on fewer inner points are looked at
+constexpr double kManyDerivatives = 1e6;
 
 double tube_bytes(const TimeLawProblem& p, bool keep_profiles) {
   const auto nodes = static_cast<double>(p.law.nodes());
@@ -32,7 +32,7 @@ double rows(const TimeLawProblem& p, bool jerk) {
   return nodes * (2 * (1 + axes * ends) + 1 + (jerk ? 2 : 0));
 }
 
-/// A row has its multiplier, slack and their steps, and a place in the certificate.
+/// Per row: multiplier, slack, their Newton steps, one certificate entry.
 constexpr double kRow_bytes = 128;
 
 double bytes(const TimeLawProblem& p, LawMethod method, bool keep_profiles) {
@@ -130,10 +130,10 @@ std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::v
                              problem.law.nodes());
       allowed = bytes_text(static_cast<std::int64_t>(kMostMemory_bytes));
     } else if (work > kMostTransitions) {
-      measured = fmt::format("looks at up to {:.1e} transitions a pass, nodes times levels squared", work);
+      measured = fmt::format("looks at up to {:.1e} transitions per pass, nodes times levels squared", work);
       allowed = fmt::format("{:.0e} transitions", kMostTransitions);
     } else if (jerk_rows > kMostJerkRows) {
-      measured = fmt::format("has {:.1e} limits to keep, for each node two an axis and end", jerk_rows);
+      measured = fmt::format("has {:.1e} limits to keep, two per node, axis and end", jerk_rows);
       allowed = fmt::format("{:.0e} limits", kMostJerkRows);
     } else {
       continue;
@@ -141,7 +141,7 @@ std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::v
     Diagnostic d = machine::file_diagnostic(Code::problem_too_large, problem.size_span,
                                             fmt::format("method {} {}", kLawMethods.word(method), measured));
     d.notes.push_back("allowed: " + allowed);
-    d.help = "take fewer nodes or levels, or name other methods with --method";
+    d.help = "use fewer nodes or levels, or choose other methods with --method";
     return d;
   }
   return {};

@@ -11,17 +11,17 @@ namespace kadr::emulator {
 enum class LawMethod : std::uint8_t { classical, tube, greedy, optimum, certified, jerk_limited };
 inline constexpr Vocabulary<LawMethod, 6> kLawMethods{{
     {LawMethod::classical, "classical", "one dynamic programme over all speeds of each node"},
-    {LawMethod::tube, "tube", "the paper's algorithm: dynamic programmes in a tube that narrows"},
-    {LawMethod::greedy, "greedy", "the shortest time, by reachability: one pass back, one forth"},
+    {LawMethod::tube, "tube", "the paper's algorithm: dynamic programmes in a narrowing tube"},
+    {LawMethod::greedy, "greedy", "the shortest time, by reachability: one pass backward, one forward"},
     {LawMethod::optimum, "optimum", "the least J, by an interior point method, with the proof"},
     {LawMethod::certified, "certified", "the greedy law, polished for J in a narrow tube, with the proof"},
     {LawMethod::jerk_limited, "jerk-limited", "the least J with the jerk along the path limited"},
 }};
 static_assert(kLawMethods.complete());
-/// All that the problem states: jerk-limited needs a limit.
+/// All methods that the problem states: jerk-limited needs a limit.
 std::vector<LawMethod> methods_of(const TimeLawProblem& problem);
 
-/// What one method found, and what was measured of it.
+/// The law that one method found, and its measurements.
 struct MethodOutcome {
   LawMethod method;
   planner::LawResult law;  ///< or why there is none, and at which node
@@ -44,9 +44,9 @@ struct TubeStory {
 
 struct LawStudy {
   std::vector<MethodOutcome> outcomes;
-  TubeStory tube;                  ///< empty unless the tube was asked for
-  double lower_bound_s = 0;        ///< of J, by optimum or certified; 0 if neither was asked for
-  std::uint32_t inner_points = 0;  ///< looked at in every interval
+  TubeStory tube;                  ///< empty unless the tube was requested
+  double lower_bound_s = 0;        ///< of J, by optimum or certified; 0 if neither was requested
+  std::uint32_t inner_points = 0;  ///< sampled in every interval
 
   bool good() const;
 };
@@ -58,7 +58,7 @@ std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::v
                                      bool keep_profiles);
 
 /// Solves a problem by each method, and measures every law by law_metrics() and verify_law().
-/// Told how far a study is: method, what it does, how much of that is done (planner::LawProgress).
+/// Reports the progress of a study: method, its stage, the share done (planner::LawProgress).
 using StudyProgress = std::function<void(LawMethod method, std::string_view stage, double done)>;
 /// @param keep_profiles  of every pass of the tube
 LawStudy study_laws(const TimeLawProblem& problem, const std::vector<LawMethod>& methods, bool keep_profiles,

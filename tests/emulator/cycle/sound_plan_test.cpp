@@ -8,8 +8,7 @@
 #include "tests/support/run_program.h"
 #include "tests/support/test_machine.h"
 
-// No broken plan leaves prepare(), no wrong node leaves run(): both end with a broken promise that names the
-// place.
+// No broken plan leaves prepare(), no wrong node leaves run(): both end with a broken promise that names the position.
 
 using namespace kadr;
 using namespace kadr::test;
@@ -35,8 +34,9 @@ std::string said_of(const std::string& program, const emulator::PlanFunction& pl
   return "";
 }
 std::string said_of_damage(const Damage& damage, const std::string& program = kFourBlocks) {
-  return said_of(program, [&](const planner::Path& path, const machine::MachineModel& machine) {
-    auto plan = planner::plan(path, machine);
+  return said_of(program, [&](const planner::Path& path, const machine::MachineModel& machine,
+                              std::span<const planner::Pause> pauses) {
+    auto plan = planner::plan(path, machine, pauses);
     REQUIRE(plan);
     damage(*plan);
     return plan;
@@ -64,9 +64,10 @@ std::string dense_program() {
 
 /// Plans the path as if its segments from `first` to the one before `last` allowed half as much feed again.
 emulator::PlanFunction too_fast_on(std::size_t first, std::size_t last) {
-  return [=](planner::Path path, const machine::MachineModel& machine) {
+  return [=](planner::Path path, const machine::MachineModel& machine,
+             std::span<const planner::Pause> pauses) {
     for (std::size_t i = first; i < last; ++i) path.segments[i].feed_u_s *= 1.5;
-    return planner::plan(path, machine);
+    return planner::plan(path, machine, pauses);
   };
 }
 
@@ -82,9 +83,10 @@ TEST_CASE("prepare() takes the planner's plan and refuses it run a millionth too
 }
 
 TEST_CASE("prepare() names the line of a corner that is passed as if it were not there") {
-  const auto blind = [](const planner::Path& path, machine::MachineModel machine) {
+  const auto blind = [](const planner::Path& path, machine::MachineModel machine,
+                        std::span<const planner::Pause> pauses) {
     for (auto& axis : machine.axis) axis.junction_accel_u_s2 = 1e9;
-    return planner::plan(path, machine);
+    return planner::plan(path, machine, pauses);
   };
   const std::string said = said_of(kFourBlocks, blind);
   CHECK_MESSAGE(has(said, "test.ngc:4: junction of X is "), said);
@@ -110,11 +112,62 @@ TEST_CASE("prepare() refuses gaps, jumps, wrong ends, a wrong length and a wrong
   named([](auto& p) { p.segments.pop_back(); }, ": table size is 3, expected 4, ");
 }
 
+TEST_CASE("prepare() refuses a pause that is too short, elsewhere, missing, or that nobody asked for") {
+  // 40 mm, 0.4 s at rest, 0.6 s more at the same joint, 30 mm, 0.5 s at the end
+  const char* const dwells = "G21 G90 G94 G17 G64\nF3000\nG1 X40\nG4 P0.4\nG4 P0.6\nG1 Y30\nG4 P0.5\nM2\n";
+  const auto stands = [](const planner::JerkPiece& p) { return p.speed_u_s == 0 && p.jerk_u_s3 == 0; };
+  const auto first_pause = [&](planner::FeedPlan& plan) {
+    return std::find_if(plan.law.pieces.begin(), plan.law.pieces.end(), stands);
+  };
+  const auto named = [&](const Damage& damage, const std::string& what, const char* program) {
+    const std::string said = said_of_damage(damage, program);
+    CHECK_MESSAGE(has(said, what), said);
+  };
+  CHECK(said_of(dwells, planner::plan).empty());
+  const auto delay = [](auto& plan, auto from, double time_s) {
+    for (auto p = from; p != plan.law.pieces.end(); ++p) p->begin_s += time_s;
+    for (std::size_t i = 1; i < plan.segments.size(); ++i)
+      plan.segments[i].begin_time_s += time_s, plan.segments[i].end_time_s += time_s;
+    plan.law.duration_s += time_s;
+  };
+  named(
+      [&](auto& plan) {
+        auto p = first_pause(plan);
+        p->duration_s -= 0.1;
+        delay(plan, p + 1, -0.1);
+      },
+      ": table times is ", dwells);
+  named([](auto& plan) { plan.segments[1].begin_time_s += 1e-9; }, ": table times is ", dwells);
+  named(
+      [&](auto& plan) {  // the last one
+        plan.law.duration_s -= plan.law.pieces.back().duration_s;
+        plan.law.pieces.pop_back();
+      },
+      ": pause is 0 s, expected 0.5 s", dwells);
+  named(
+      [&](auto& plan) {
+        plan.law.pieces.back().duration_s += 0.25;
+        plan.law.duration_s += 0.25;
+      },
+      ": pause is 0.75 s, expected 0.5 s", dwells);
+  named([](auto& plan) { plan.pause_s += 1e-9; }, ": time of all pauses is ", dwells);
+  named([](auto& plan) { plan.motion_s += 1e-9; }, ": time of motion and pauses is ", dwells);
+  named(
+      [](auto& plan) {
+        auto rest = plan.law.pieces.back();
+        rest.begin_s += rest.duration_s, rest.duration_s = 0.001, rest.s_u = plan.law.length_u;
+        rest.speed_u_s = rest.accel_u_s2 = rest.jerk_u_s3 = 0;
+        plan.law.pieces.push_back(rest);
+        plan.law.duration_s += 0.001;
+      },
+      ": pause is 0.001 s, expected 0 s", kFourBlocks);
+}
+
 TEST_CASE(
     "of a thousand blocks limits are looked at in the sample that the page states, the law everywhere") {
   // 64 blocks would be looked at wholly; of a thousand those from 0, 256, 512, 768 on, 16 each, and the
-  // last 16. The law needs some blocks to get fast, so blocks 480 to 560 are planned at 75 mm/s where 50 are
-  // programmed.
+  // last 16. The law needs some blocks to get fast, so blocks 480 to 560 are planned at 75
+  // mm/s where 50 are programmed.
   const std::string program = dense_program();
   CHECK(said_of(program, planner::plan).empty());
   const std::string said = said_of(program, too_fast_on(480, 560));
@@ -146,11 +199,10 @@ TEST_CASE("curves are verified but for acceleration and jerk of those that turn 
   CHECK(said_of(bend, planner::plan).empty());
   CHECK(has(said_of_damage([](auto& p) { hurry(p, 1.01); }, bend), "test.ngc:3: "));
   // the known fault: the tip of this one, 1.6 um wide, is passed far above the axis jerk. When the planner is
-  // mended, the exception goes (VerifyOptions::curves_that_turn_back), and the last line of this test with
-  // it.
+  // mended, the exception goes (VerifyOptions::curves_that_turn_back), and the last line of this test with it.
   const char* const tip = "G21 G90 G94 G17 G64\nF1200\nG5 X10 Y0 I30 J0.05 P20 Q0.05\nM2\n";
   CHECK(said_of(tip, planner::plan).empty());
-  // what is not excused there: feed and the law itself
+  // not exempt there: feed and the law itself
   CHECK(has(said_of_damage([](auto& p) { p.law.pieces[2].speed_u_s += 1e-3; }, tip), "continuity of speed"));
   emulator::Job job = make_job(tip, test_machine());
   Diagnostics diagnostics;

@@ -47,8 +47,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a quarter of 10 mm radius crosses the first half-steps where cosine and sine say") {
-  // x = 10 cos(phi): 9.9995 at phi = acos(0.99995) = 0.0100000417; y = 0.0005 at phi = asin(0.00005); s = 10
-  // phi
+  // x = 10 cos(phi): 9.9995 at phi = acos(0.99995) = 0.0100000417; y = 0.0005 at phi = asin(0.00005); s = 10 phi
   const auto machine = machine_with(2);
   PathMaker maker({10.0, 0.0});
   maker.arc(0, 1, -10.0, 0.0, 0.5 * kPi, 0.0, {0.0, 0.0});

@@ -91,7 +91,7 @@ TEST_CASE("the pulses along a curve are those of the lattice's Bezier events, in
       }
     const planner::Path path = curve_path(control, 3);
     const Run run = run_path(path, machine, drive(path.length_u(), 5.0, machine, Feed::linear, i));
-    // by axis: events of two axes at one place may change places by rounding
+    // by axis: events of two axes at one position may swap by rounding
     std::array<Moments, 3> of_run, of_lattice;
     for (const auto& e : run.events)
       add_moment(of_run[static_cast<std::size_t>(e.axis)], {path.curves[0].t(e.s_u), e.sign});

@@ -11,8 +11,7 @@ using emulator::lattice_node;
 
 namespace {
 
-/// Arc blocks as a program gives them: coordinates with three decimals, so that both radii differ by
-/// rounding.
+/// Arc blocks as a program gives them: coordinates with three decimals, so that both radii differ by rounding.
 gcode::Block random_block(Dice& dice, const AxisValues& at) {
   gcode::Block block;
   block.kind = gcode::BlockKind::feed;

@@ -77,7 +77,7 @@ std::vector<std::tuple<std::size_t, std::int32_t, std::int32_t, double>> sequenc
   return all;
 }
 
-/// Rounding of coordinates and of path length, in steps: places nearer than that cannot be told apart.
+/// Rounding of coordinates and of path length, in steps: positions closer than that cannot be told apart.
 double blur_steps(const Case& c, std::size_t axis) {
   double reach = c.path.length_u();
   for (std::size_t i = 0; i <= c.path.size(); ++i) reach = std::max(reach, std::fabs(c.path.node(i)[axis]));

@@ -218,7 +218,7 @@ TEST_CASE(
   bytes.push_back(0);
   damaged = decode<Sample>(bytes, "KADR_SAMPLE", header);
   REQUIRE_FALSE(damaged.has_value());
-  CHECK(damaged.error() == "bytes are left over behind its fields");
+  CHECK(damaged.error() == "bytes are left over after its fields");
   bytes = message_of(sample, 4);
   bytes.pop_back();
   CHECK_FALSE(decode<Sample>(bytes, "KADR_SAMPLE", header).has_value());

@@ -25,7 +25,7 @@
 #include "emulator/log/pulse_code.h"
 #include "log_support.h"
 
-/// docs/log_format.md says what the log is.
+/// The log as docs/log_format.md describes it.
 using namespace kadr;
 using namespace kadr::emulator;
 

@@ -136,7 +136,7 @@ Verdict replay(const std::string& path, const std::string& url) {
   return compare(receiver.messages, written);
 }
 
-/// Publishes a run live, with a file besides, and compares both.
+/// Publishes a run live and to a file, and compares both.
 Verdict publish(const std::string& path, const std::string& url) {
   Receiver receiver(url);
   if (!receiver.good()) return Verdict::no_multicast;
@@ -155,7 +155,7 @@ Verdict publish(const std::string& path, const std::string& url) {
   return compare(receiver.messages, written);
 }
 
-/// A network of its own: loopback up, multicast routed to it. False if this host allows none.
+/// A separate network: loopback up, multicast routed to it. False if this host allows none.
 bool enter_own_network() {
   const int spaces = ::geteuid() == 0 ? CLONE_NEWNET : CLONE_NEWNET | CLONE_NEWUSER;
   if (::unshare(spaces) != 0) return false;
