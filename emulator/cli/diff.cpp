@@ -2,6 +2,7 @@
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
+#include "emulator/cli/log_notes.h"
 #include "emulator/log_tools/diff/diff_report.h"
 
 namespace kadr::cli {
@@ -71,6 +72,8 @@ int by_tick(const Arguments& arguments, Console& console) {
   if (json && options.all) document.end_list();
   if (json) document.end(emulator::json_of(*diff));
   if (text) console.data(emulator::render_log_diff(*diff));
+  note_passed_over(diff->a.path, diff->a.end, console);
+  note_passed_over(diff->b.path, diff->b.end, console);
   return answer(*diff, arguments);
 }
 
@@ -99,6 +102,8 @@ int by_path(const Arguments& arguments, Console& console) {
   if (json && options.all) document.end_list();
   if (json) document.end(emulator::json_of(*diff));
   if (text) console.data(emulator::render_path_diff(*diff));
+  note_passed_over(diff->a.path, diff->a.end, console);
+  note_passed_over(diff->b.path, diff->b.end, console);
   return answer(*diff, arguments);
 }
 

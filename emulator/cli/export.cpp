@@ -4,6 +4,7 @@
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
+#include "emulator/cli/log_notes.h"
 #include "emulator/cli/output_file.h"
 #include "emulator/log_tools/export/export.h"
 #include "emulator/text/text.h"
@@ -51,9 +52,10 @@ tl::expected<LogSamples, int> open_log(const Arguments& arguments, const char* w
   return std::move(*log);
 }
 
-/// Yes if everything requested was there: a log that breaks off is reported.
+/// Yes if everything requested was there. Reports a log that breaks off, and what of it was passed over.
 int end_of(const LogSamples& log, const std::string& path, Console& console) {
   const emulator::LogEnd* end = log.end();
+  if (end != nullptr) note_passed_over(path, *end, console);
   if (end == nullptr || end->state == LogState::complete || end->state == LogState::interrupted) return kYes;
   console.error(fmt::format("{}: {}; what was written ends at {} s", path, end->detail,
                             emulator::fixed(log.header().seconds(end->valid_until), 6)));

@@ -62,6 +62,7 @@ Json info_json(const LogInfo& info) {
   j["content_hash"] = hash_text(info.content_hash);
   j["content_hash_agrees"] = agreement(info.content_hash_agrees());
   j["file_hash"] = hash_text(info.file_hash);
+  if (!info.end.passed_over.empty()) j["passed_over"] = info.end.passed_over;
   return j;
 }
 

@@ -156,6 +156,7 @@ std::string render_log_info(const LogInfo& info) {
   if (info.steps_hash) line("steps hash", hash_text(*info.steps_hash) + agreement(info.steps_hash_agrees()));
   line("content", hash_text(info.content_hash) + agreement(info.content_hash_agrees()));
   line("file", fmt::format("{}  {} bytes", hash_text(info.file_hash), grouped(info.end.file_bytes)));
+  for (const std::string& note : info.end.passed_over) line("newer", note);
   out += fmt::format("  {:<20}{:>12}{:>16}{:>9}\n", "channel", "messages", "bytes", "share");
   for (const ChannelInfo& c : info.channels)
     out += fmt::format("  {:<20}{:>12}{:>16}{:>7.1f} %\n", c.name, grouped(c.messages), grouped(c.bytes),
