@@ -40,10 +40,11 @@ enum class FeedLength : std::uint8_t { xyz, uvw, rotary };
 struct Move {
   AxisValues end{};  ///< mm, deg; machine coordinates; every axis, moved or not
   FeedLength feed_length = FeedLength::xyz;
-  double length_u = 0;     ///< length that F measures, mm or deg (arc: along the helix)
-  double feed_u_s = 0;     ///< programmed feed in mm/s or deg/s along length_u; 0 for a traverse
-  double duration_s = 0;   ///< inverse time (G93): seconds for the whole move; 0 otherwise
-  double pitch_u_rev = 0;  ///< feed that follows the spindle: mm or deg per turn along length_u; 0: it does not
+  double length_u = 0;    ///< length that F measures, mm or deg (arc: along the helix)
+  double feed_u_s = 0;    ///< programmed feed in mm/s or deg/s along length_u; 0 for a traverse
+  double duration_s = 0;  ///< inverse time (G93): seconds for the whole move; 0 otherwise
+  double pitch_u_rev =
+      0;  ///< feed that follows the spindle: mm or deg per turn along length_u; 0: it does not
   PathMode path_mode = PathMode::exact_path;
   double path_tolerance_mm = 0;  ///< G64 P
   bool feed_override_enabled = true;
@@ -264,14 +265,13 @@ struct Comment {
 
 // --- the block ---
 
-using Action =
-    std::variant<Traverse, Feed, Arc, Spline, Probe, RigidTap,                                       // moves
-                 Dwell, SetFeedRate, SetFeedMode, SetPathMode,                                       //
-                 SpindleSpeed, SpindleClockwise, SpindleCounterclockwise, SpindleStop,               //
-                 MistOn, MistOff, FloodOn, FloodOff, SyncStart, SyncStop, SpindleMode,               //
-                 SelectTool, ChangeTool, SetToolNumber, DigitalOutput, AnalogOutput, InputWait,      //
-                 Message, ProgramStop, OptionalStop, ProgramEnd, FeedOverride, SpeedOverride,        //
-                 SpeedPoint, Comment>;
+using Action = std::variant<Traverse, Feed, Arc, Spline, Probe, RigidTap,                          // moves
+                            Dwell, SetFeedRate, SetFeedMode, SetPathMode,                          //
+                            SpindleSpeed, SpindleClockwise, SpindleCounterclockwise, SpindleStop,  //
+                            MistOn, MistOff, FloodOn, FloodOff, SyncStart, SyncStop, SpindleMode,  //
+                            SelectTool, ChangeTool, SetToolNumber, DigitalOutput, AnalogOutput, InputWait,  //
+                            Message, ProgramStop, OptionalStop, ProgramEnd, FeedOverride, SpeedOverride,    //
+                            SpeedPoint, Comment>;
 
 template <class A>
 concept MoveAction = std::derived_from<A, Move>;

@@ -38,7 +38,7 @@ gcode::InterpretOptions interpret_options(const Job& job) {
 
 double hold_time_s(const ProgramEvent& event, const machine::MachineModel& machine) {
   const auto* dwell = std::get_if<gcode::Dwell>(&event.block.action);
-  const double wish_s = dwell != nullptr                               ? dwell->time_s
+  const double wish_s = dwell != nullptr                            ? dwell->time_s
                         : gcode::is<gcode::InputWait>(event.block)  ? event.wait.waited_s
                         : gcode::is<gcode::ChangeTool>(event.block) ? machine.planner.tool_change_s
                                                                     : 0.0;

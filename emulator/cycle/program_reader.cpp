@@ -84,13 +84,12 @@ void ProgramReader::take_wait(const Block& block, const gcode::InputWait& wait) 
   }
   job_.events.push_back({block, builder_.blocks(), outcome});
   if (outcome.reached) return;
-  const std::string input =
-      fmt::format("{} input {}", wait.analog ? "analog" : "digital", wait.number);
-  diagnostics_.add(warning(
-      Code::wait_timed_out, block,
-      fmt::format("{} read {:.6g} for {:.6g} s; #5399 is -1", input, outcome.value, wait.timeout_s),
-      fmt::format("a scenario sets it: [[step]] at_s = 1.5 {} = {} value = 1",
-                  wait.analog ? "analog_input" : "input", wait.number)));
+  const std::string input = fmt::format("{} input {}", wait.analog ? "analog" : "digital", wait.number);
+  diagnostics_.add(
+      warning(Code::wait_timed_out, block,
+              fmt::format("{} read {:.6g} for {:.6g} s; #5399 is -1", input, outcome.value, wait.timeout_s),
+              fmt::format("a scenario sets it: [[step]] at_s = 1.5 {} = {} value = 1",
+                          wait.analog ? "analog_input" : "input", wait.number)));
 }
 
 gcode::InputReading ProgramReader::read_input(const gcode::InputWait& wait) {

@@ -279,13 +279,9 @@ AxisValues Interpreter::place_at(const Hole& hole, double level) const {
   return program;
 }
 
-void Interpreter::go_to_level(const Hole& hole, Rate rate, double level) {
-  go(rate, place_at(hole, level));
-}
+void Interpreter::go_to_level(const Hole& hole, Rate rate, double level) { go(rate, place_at(hole, level)); }
 
-void Interpreter::dwell_at_bottom() {
-  emit(action_span(), Dwell{state_.cycle.dwell_s});
-}
+void Interpreter::dwell_at_bottom() { emit(action_span(), Dwell{state_.cycle.dwell_s}); }
 
 void Interpreter::retract_mode() {
   const int code = words_.g(GGroup::retract);

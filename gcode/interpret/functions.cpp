@@ -8,7 +8,7 @@ void Interpreter::spindle() {
   if (code == code::m19) return orient_spindle();
   turn_spindle(code == code::m3   ? Turning::clockwise
                : code == code::m4 ? Turning::counterclockwise
-                           : Turning::stopped,
+                                  : Turning::stopped,
                words_.span(*line_, MGroup::spindle));
 }
 
@@ -49,8 +49,10 @@ void Interpreter::coolant() {
 
 void Interpreter::overrides() {
   const int code = words_.m(MGroup::overrides);
-  if (code == kNoCode || code == code::m52 || code == code::m53) return;  // adaptive feed and feed hold are the operator's
-  const bool enable = code == code::m48 || (code != code::m49 && !(words_.has('P') && words_.value('P') == 0));
+  if (code == kNoCode || code == code::m52 || code == code::m53)
+    return;  // adaptive feed and feed hold are the operator's
+  const bool enable =
+      code == code::m48 || (code != code::m49 && !(words_.has('P') && words_.value('P') == 0));
   if (code != code::m51) enable_feed_override(enable);
   if (code != code::m50) enable_speed_override(enable);
 }

@@ -75,7 +75,8 @@ bool Interpreter::find_contact(Probe& probe, double& travelled) {
   probe.contact = probe.end;
   if (!options_.stock) {
     if (!probe_stock_told_) {
-      report_.warning(problem(Code::probe_without_stock, action_span(), "the probe meets the end of each move",
+      report_.warning(problem(Code::probe_without_stock, action_span(),
+                              "the probe meets the end of each move",
                               "give [stock] in the machine or scenario file"));
     }
     probe_stock_told_ = true;
@@ -106,7 +107,7 @@ bool Interpreter::find_contact(Probe& probe, double& travelled) {
       fmt::format("the move ends {} mm {} the stock", figure(left_mm), probe.away ? "inside" : "from"));
   d.notes.push_back(stock_text());
   d.help = probe.away ? "probe further away, or use G38.5 and look at #5070"
-                            : "probe further, or use G38.3 and look at #5070";
+                      : "probe further, or use G38.3 and look at #5070";
   return error(std::move(d));
 }
 
@@ -121,7 +122,7 @@ bool Interpreter::refuse_probe_start(const Probe& probe, double beyond_mm) {
   const std::string apart = figure(std::fabs(beyond_mm));
   Diagnostic d = problem(Code::probe_already_there, action_span(),
                          probe.away ? fmt::format("the probe is {} mm outside the stock", apart)
-                                          : fmt::format("the probe is {} mm inside the stock", apart));
+                                    : fmt::format("the probe is {} mm inside the stock", apart));
   d.notes.push_back(stock_text());
   d.help = probe.away ? "probe towards the stock first: G38.2" : "retract before probing: G0 or G38.4";
   return error(std::move(d));

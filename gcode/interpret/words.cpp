@@ -156,7 +156,7 @@ bool Words::read_g(const Line& line, std::uint32_t at, double value, Report* rep
     const auto nearest = static_cast<int>(tenths_value + 0.5);
     if (std::fabs(tenths_value - nearest) <= kCodeTolerance) tenths = nearest;
   }
-  if (dialect_ != Dialect::linuxcnc) tenths = meant_g_code(dialect_, tenths);
+  if (dialect_ != Dialect::linuxcnc) tenths = meant_code(dialect_, 'G', tenths);
   const GCode code = g_code(tenths);
   if (code.standing != Standing::runs) {
     refused_motion = true;
@@ -192,6 +192,7 @@ bool Words::read_m(const Line& line, std::uint32_t at, double value, Report* rep
   const Span span = line.span(line.items[at].bytes);
   int number = -1;
   const bool whole = near_integer(value, number);
+  if (dialect_ != Dialect::linuxcnc) number = meant_code(dialect_, 'M', number);
   const MCode code = whole ? m_code(number) : MCode{};
   if (code.standing == Standing::not_run) {
     return refuse(report, Code::word_not_run, span, fmt::format("kadr does not run M{}", number));

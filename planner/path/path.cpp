@@ -64,9 +64,7 @@ Path Path::tail(std::size_t i) const {
   return rest;
 }
 
-std::string_view motion_name(const PathSegment& segment) {
-  return gcode::kBlockKinds.word(segment.made_by);
-}
+std::string_view motion_name(const PathSegment& segment) { return gcode::kBlockKinds.word(segment.made_by); }
 
 void eval_position(const Path& path, std::size_t segment, double s_u, std::span<double> position_u) {
   const PathSegment& seg = path.segments[segment];

@@ -95,7 +95,7 @@ class PathBuilder {
   std::vector<int> program_axis_;  ///< [machine axes] index into AxisValues
   std::uint32_t blocks_ = 0;
   bool follows_spindle_ = false;
-  double pitch_u_rev_ = 0;  ///< of the move being added
+  double pitch_u_rev_ = 0;                       ///< of the move being added
   double speed_limit_u_s_ = machine::kInfinity;  ///< of the next segment's beginning
   SmoothLine last_line_;
   std::size_t curve_begin_ =

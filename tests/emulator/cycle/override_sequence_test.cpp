@@ -32,9 +32,10 @@ planner::Path random_program(Dice& dice, const machine::MachineModel& machine) {
     }
     if (dice.chance(0.15)) block.path_mode = gcode::PathMode::exact_stop;
     block.feed_override_enabled = !dice.chance(0.1);
-    builder.add({{}, arc     ? gcode::Action(block)
-                     : rapid ? gcode::Action(gcode::Traverse{block})
-                             : gcode::Action(gcode::Feed{block})});
+    builder.add({{},
+                 arc     ? gcode::Action(block)
+                 : rapid ? gcode::Action(gcode::Traverse{block})
+                         : gcode::Action(gcode::Feed{block})});
     at = block.end;
   }
   return builder.take();

@@ -30,9 +30,7 @@ Block feed_to(double x_mm, double from_mm) {
   feed.feed_u_s = 100;
   return {{}, feed};
 }
-Block output(int number, bool on, bool with_motion) {
-  return {{}, DigitalOutput{number, on, with_motion}};
-}
+Block output(int number, bool on, bool with_motion) { return {{}, DigitalOutput{number, on, with_motion}}; }
 
 }  // namespace
 
@@ -126,7 +124,9 @@ TEST_CASE("an output of M62 changes as the next motion begins, one of M64 at onc
   reader.take(output(6, true, true));  // no motion follows
   reader.finish();
   REQUIRE(job.events.size() == 4);
-  const auto digital_output = [&](std::size_t i) { return std::get<DigitalOutput>(job.events[i].block.action); };
+  const auto digital_output = [&](std::size_t i) {
+    return std::get<DigitalOutput>(job.events[i].block.action);
+  };
   CHECK(gcode::is<gcode::Dwell>(job.events[0].block));
   CHECK(digital_output(1).number == 2);
   CHECK(job.events[1].after_segment == 1);
