@@ -67,8 +67,7 @@ struct OperatorStep {
   double value = 1;
   ControlTicks tick;  ///< unless place is given
   std::optional<PathPlace> place;
-  double path_u = 0;  ///< of the place, once the path is known
-  Span span;          ///< in the scenario file
+  Span span;  ///< in the scenario file
 };
 
 /// A technology point where the first motion of a program line begins.
@@ -99,8 +98,9 @@ struct Job {
   std::vector<std::uint32_t> called_files;  ///< indices in sources, in the order of their first call
   std::vector<ProgramEvent> events;         ///< ascending in after_segment
   planner::Path path{0};
-  planner::FeedPlan plan;    ///< pauses included
-  std::uint32_t blocks = 0;  ///< motion blocks
+  planner::FeedPlan plan;             ///< pauses included
+  std::uint32_t blocks = 0;           ///< motion blocks
+  std::vector<double> step_places_u;  ///< [operator_steps] path length of those that have a place
   double motion_s = 0, dwell_s = 0;
 };
 
@@ -154,25 +154,32 @@ std::vector<LimitShare> limit_shares(const Job& job);
 /// "program", "junction", "axis X speed", ...
 std::string limited_by_text(planner::LimitedBy reason, int axis, const machine::MachineModel& machine);
 
-struct RunOptions {
+/// How a session is run (emulator/cycle/session.h).
+struct SessionOptions {
   bool plant = true;
-  int threads = 1;                      ///< 1, or 2: the second encodes and writes; same bytes
-  double until_s = machine::kInfinity;  ///< stop after that much machine time
-  std::size_t warnings = 0;             ///< of the program: RunSummary::warnings
+  /// Highest feed override that a live operator may ask for, ratio >= 1; none: the run has no live operator.
+  /// The override keeps every limit up to it, so it is part of what the run gives.
+  std::optional<double> most_override;
+  std::size_t warnings = 0;  ///< of the program: RunSummary::warnings
   /// What the run's command will answer to the shell: RunSummary::exit_code. None: 0.
   std::function<int(const RunSummary&)> exit_code;
+};
+
+/// How a program is run to its end.
+struct RunOptions : SessionOptions {
+  int threads = 1;                      ///< 1, or 2: the second encodes and writes; same bytes
+  double until_s = machine::kInfinity;  ///< stop after that much machine time
   std::function<void(double done_fraction, std::uint32_t line, double sim_s)>
       progress;                                  ///< called about every 1000 ticks
   const std::atomic<bool>* interrupt = nullptr;  ///< set by a signal handler
 };
 
-/// How a run ended apart from its summary.
+/// I/O error that ended a run: its log could not be written.
 struct RunFailure {
-  std::string what;    ///< sentence for the user
-  bool world = false;  ///< disk, network (exit 2); else numerics (exit 3)
+  std::string what;  ///< sentence for the user
 };
 
-/// Runs a prepared job; records go to `log` (may be null).
+/// Runs a prepared job to its end: a loop over a Session. Records go to `log` (may be null).
 tl::expected<RunSummary, RunFailure> run(const Job& job, RunLog* log, const RunOptions& options);
 
 }  // namespace kadr::emulator

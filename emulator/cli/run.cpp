@@ -204,11 +204,7 @@ int move(RunInputs& in, Console& console) {
   const auto result = emulator::run(job, &alarms, options);
   const double wall_s = progress.wall_s();
   progress.erase();
-  if (!result) {
-    if (result.error().world) fail(result.error().what);
-    console.error(result.error().what);
-    return kAlarm;
-  }
+  if (!result) fail(result.error().what);
 
   const int code = result->exit_code;
   emulator::SummaryContext context;

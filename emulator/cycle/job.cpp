@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "emulator/cycle/operator_panel.h"
+#include "emulator/cycle/operator/place_on_path.h"
 #include "emulator/cycle/place_limits.h"
 #include "emulator/cycle/program_reader.h"
 #include "emulator/cycle/soft_limits.h"
@@ -82,7 +82,7 @@ bool lay_out(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
 bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits, const PlanFunction& plan_path) {
   if (!lay_out(job, diagnostics, soft_limits)) return false;
   const std::size_t errors = diagnostics.errors();
-  place_on_path(job, diagnostics);
+  job.step_places_u = place_on_path(job.operator_steps, job.path, job.blocks, job.program, diagnostics);
   if (diagnostics.errors() != errors) return false;
 
   const std::vector<planner::Pause> held = pauses(job);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "machine/base/require.h"
+#include "planner/planner.h"
 #include "tests/support/run_program.h"
 #include "tests/support/test_machine.h"
 
