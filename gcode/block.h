@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gcode/block_kind.h"
+#include "gcode/wait_mode.h"
 #include "machine/base/axes.h"
 #include "machine/base/diagnostic.h"
 
@@ -36,8 +37,6 @@ struct SplinePoint {
   double weight = 1;
 };
 
-/// What M66 waits for.
-enum class WaitMode : std::uint8_t { immediate, rise, fall, high, low };
 struct InputWait {
   int number = 0;
   bool analog = false;

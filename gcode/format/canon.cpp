@@ -114,11 +114,6 @@ void append_place(std::string& out, const Block& block, std::string_view called_
   out.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
 }
 
-std::string_view wait_name(WaitMode mode) {
-  constexpr std::array<std::string_view, 5> kNames = {" immediate", " rise", " fall", " high", " low"};
-  return kNames[static_cast<std::size_t>(mode)];
-}
-
 void numbered(LineWriter& line, std::string_view name, int number) {
   line.text(name);
   line.text(" ");
@@ -244,7 +239,8 @@ bool write(LineWriter& line, const Block& block) {
     case BlockKind::wait_input:
       numbered(line, "WAIT_INPUT", block.wait.number);
       line.text(block.wait.analog ? " analog" : " digital");
-      line.text(wait_name(block.wait.mode));
+      line.text(" ");
+      line.text(kWaitModes.word(block.wait.mode));
       line.fixed(block.wait.timeout_s);
       break;
     case BlockKind::program_stop:

@@ -29,7 +29,7 @@ void Interpreter::wait_input() {
   near_integer(words_.value(wait.analog ? 'E' : 'P'), wait.number);
   int mode = 0;
   if (words_.has('L')) near_integer(words_.value('L'), mode);
-  wait.mode = static_cast<WaitMode>(mode);
+  wait.mode = kWaitModes.at(mode).value_or(WaitMode::immediate);
   if (wait.mode != WaitMode::immediate) wait.timeout_s = words_.value('Q');
   emit(block);
   // without a machine to ask, every input reads 0
