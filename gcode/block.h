@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gcode/block_kind.h"
+#include "gcode/wait_mode.h"
 #include "machine/base/axes.h"
 #include "machine/base/diagnostic.h"
 
@@ -207,17 +208,6 @@ struct AnalogOutput {
   double value = 0;
   bool with_motion = false;  ///< changes as the next motion begins, not at once
 };
-
-/// What M66 waits for, in the order of its L word.
-enum class WaitMode : std::uint8_t { immediate, rise, fall, high, low };
-inline constexpr Vocabulary<WaitMode, 5> kWaitModes{{
-    {WaitMode::immediate, "immediate", "reads the input and goes on"},
-    {WaitMode::rise, "rise"},
-    {WaitMode::fall, "fall"},
-    {WaitMode::high, "high"},
-    {WaitMode::low, "low"},
-}};
-static_assert(kWaitModes.complete());
 
 struct InputWait {
   static constexpr BlockKind kKind = BlockKind::wait_input;

@@ -138,7 +138,7 @@ class TaylorIntegrator final : public Integrator {
     const AxisPulses& pulses = batch.axis[static_cast<std::size_t>(axis_.axis)];
     Outcome outcome = series_.advance_tick(axis_.z, pulses, nullptr);
     if (!outcome) return outcome;
-    axis_.move_node(pulses.net_steps().value);
+    axis_.move_node(pulses.net_steps());
     axis_.motor_force_N = axis_.equations.motor_force_N(axis_.z);
     return {};
   }

@@ -8,7 +8,7 @@ namespace kadr::gcode {
 namespace {
 
 constexpr double kLargestChannel = 9999;
-constexpr double kLastWaitMode = 4;
+constexpr double kLastWaitMode = kWaitModes.size() - 1;
 constexpr double kLastOrientWay = 2;  // P of M19: 0 the nearer way, 1 clockwise, 2 counter-clockwise
 
 }  // namespace

@@ -167,8 +167,9 @@ inline constexpr auto kJunctionAccel =
 inline constexpr auto kJunctionJerk =
     key("junction_jerk_{u}_s3", &AxisModel::junction_jerk_u_s3, kJerkBounds,
         "at a corner the axis may change its acceleration by this in one control period");
-/// Those behind `home2_{u}`, in the order of the file.
-inline constexpr auto kAxisLimitKeys = keys_of(kMaxFeed, kMaxAccel, kMaxJerk, kJunctionAccel, kJunctionJerk);
+/// Those behind `max_{u}_s`, in the order of the file. The defaults of the second table depend on the first.
+inline constexpr auto kAxisLimitKeys = keys_of(kMaxAccel, kMaxJerk);
+inline constexpr auto kJunctionKeys = keys_of(kJunctionAccel, kJunctionJerk);
 
 inline constexpr auto kMotor =
     key("model", &TwoMassModel::motor, kMotorModels,
