@@ -35,7 +35,7 @@ struct AxisMotion {
   std::int64_t slipped = 0;  ///< teeth, since the reset
   double equilibrium_u = 0;  ///< absolute
   double motor_force_N = 0;
-  AxisWork work;  ///< kept only if asked for
+  AxisWork work;  ///< kept only if requested
 
   /// Takes a tick's net steps into node and equilibrium.
   void move_node(std::int64_t steps) {
@@ -44,7 +44,7 @@ struct AxisMotion {
   }
 };
 
-/// What every integrator does: moves its axes from one tick end to the next.
+/// Moves its axes from one tick end to the next.
 class Integrator {
  public:
   virtual ~Integrator() = default;

@@ -16,7 +16,7 @@ constexpr double kRestartRatio = 3.5e13;       // position over tolerance: a rou
 constexpr double kCredibleSteps = 2;           // a command further off the lattice is not used
 
 /// The staircase of steps is u = s + r. s, a spline through the command some ticks late, is smooth, and CVODE
-/// integrates the response to it: it never meets a jump, is not begun anew while the axes move, and may look
+/// integrates the response to it: it never meets a jump, is not restarted while the axes move, and may look
 /// ahead (the delay is what makes the spline known there). The response to r = u - s is known in closed form:
 ///
 ///   z_r(T) = Phi z_r(0) + sum_i d_i R[T - t_i] - sum_q P_q c_q
@@ -99,8 +99,7 @@ class Smooth final : public Integrator {
     axis.framed[at][0] = from_node(axis.piece[at], axis.frame_node, axis.motion->equations.step_m);
   }
 
-  // the command at this tick's end becomes the newest point of the spline, which reaches kLookAhead ticks
-  // ahead
+  // the command at this tick's end becomes the newest point of the spline, which reaches kLookAhead ticks ahead
   void take_command(Axis& axis, const AxisPulses& pulses) {
     const AxisMotion& motion = *axis.motion;
     SplinePoint newest{motion.node + pulses.net_steps().value, 0};
