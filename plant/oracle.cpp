@@ -6,7 +6,7 @@ namespace kadr::plant {
 namespace {
 
 /// The closed form of the spring motor: between pulses z(t) = e^{A t} z(0) in coordinates relative to the
-/// current node, and a pulse moves the node under the base. Exact up to rounding.
+/// current node, and a pulse moves the node under the base. Exact but for rounding.
 class Oracle final : public Integrator {
  public:
   explicit Oracle(AxisMotion& axis)

@@ -6,7 +6,7 @@
 
 namespace kadr::gcode {
 
-/// The controller whose reading applies where controllers differ.
+/// Which controller's reading of codes that differ.
 enum class Dialect : std::uint8_t { linuxcnc, grbl, marlin, fanuc };
 
 inline constexpr Vocabulary<Dialect, 4> kDialects{{
@@ -17,25 +17,26 @@ inline constexpr Vocabulary<Dialect, 4> kDialects{{
 }};
 static_assert(kDialects.complete());
 
-// only the differences; Marlin's G5 is with the other splines
+// what differs, and nothing else; Marlin's G5 stands with the other splines
 
 /// A word of G4 and the seconds that 1 of it means.
 struct DwellWord {
   char letter;
   double unit_s;
 };
-/// If a line has several words, the first of these counts.
+/// Of several words on a line the first of these holds.
 std::span<const DwellWord> dwell_words(Dialect dialect);
 
-/// The meaning of a G code in RS-274/NGC, both as ten times their numbers: G70 and G71 of fanuc are G20 and G21.
+/// What a G code means in RS-274/NGC, both as ten times their numbers: G70 and G71 of fanuc are G20 and G21.
 int meant_g_code(Dialect dialect, int tenths);
 
-/// The program called by P of M98.
+/// What P of M98 calls.
 struct SubprogramCall {
   std::int64_t number = 0;
   std::uint64_t repeats = 1;
 };
-/// fanuc: the last four digits of P are the program, those before them the repeats: P30004 runs O4 three times.
+/// fanuc: the last four digits of P are the program, those before them the repeats: P30004 runs O4 three
+/// times.
 SubprogramCall subprogram_call(Dialect dialect, std::int64_t p);
 
 }  // namespace kadr::gcode
