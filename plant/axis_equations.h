@@ -52,8 +52,7 @@ struct AxisEquations {
 /// From the machine's units to those of the equations (the border inwards).
 AxisEquations axis_equations(const machine::AxisModel& axis, const machine::ClockModel& clock);
 
-/// From the equations to axis units (the border outwards). The equilibrium is the lattice node plus slipped
-/// teeth.
+/// From the equations to axis units (the border outwards). The equilibrium is the lattice node plus slipped teeth.
 AxisState axis_state(const AxisEquations& equations, const Vector4& z, double equilibrium_u);
 
 }  // namespace kadr::plant

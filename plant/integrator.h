@@ -49,7 +49,7 @@ struct AxisMotion {
   Teeth slipped;             ///< since the reset
   double equilibrium_u = 0;  ///< absolute
   double motor_force_N = 0;
-  AxisWork work;  ///< kept only if asked for
+  AxisWork work;  ///< kept only if requested
 
   /// Takes a tick's net steps into node and equilibrium.
   void move_node(Steps steps) {
@@ -59,7 +59,7 @@ struct AxisMotion {
   }
 };
 
-/// What every integrator does: moves its axes from one tick end to the next.
+/// Moves its axes from one tick end to the next.
 class Integrator {
  public:
   virtual ~Integrator() = default;

@@ -6,7 +6,7 @@ namespace kadr::plant {
 
 namespace {
 
-// theta^q / q! as a chain of integrators behind the axis: u = chain[0], chain[i]' = chain[i + 1]
+// theta^q / q! as a chain of integrators after the axis: u = chain[0], chain[i]' = chain[i + 1]
 std::array<Vector4, 6> monomial_responses(const AxisEquations& eq) {
   const Matrix4 a = eq.system();
   Matrix<10> chained;

@@ -42,7 +42,7 @@ struct Plant::Impl {
   Ticks control_tick;
   PlantOptions options;
   std::vector<std::unique_ptr<AxisMotion>> motion;  // [axes], null without plant
-  std::vector<std::optional<TaylorAxis>> meter;     // [axes], motors driven by pulses, if energy is asked for
+  std::vector<std::optional<TaylorAxis>> meter;     // [axes], motors driven by pulses, if energy is requested
   std::vector<std::unique_ptr<Integrator>> integrator;
   std::vector<AxisState> state;
   std::vector<LostSteps> lost;

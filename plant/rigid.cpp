@@ -52,7 +52,7 @@ class Rigid final : public Integrator {
   void reset() override {}
 
  private:
-  // what the motor must give to move the base so: m0 a + b0 v0 - k x1 - c v1
+  // force of the motor for this motion of the base: m0 a + b0 v0 - k x1 - c v1
   double force(double accel_m, double speed_m, double link_m, double link_speed_m) const {
     const machine::TwoMassModel& m = axis_.equations.model;
     const double tau_s = axis_.equations.tau_s;
@@ -60,8 +60,7 @@ class Rigid final : public Integrator {
            m.link_stiffness_N_per_m * link_m - m.link_damping_Ns_per_m * link_speed_m / tau_s;
   }
 
-  // work of that force and of the impulse at the tick's beginning, which changes the base's kinetic energy
-  // alone
+  // work of that force and of the impulse at the tick's beginning, which changes the base's kinetic energy alone
   void add_work(double before_m, const BaseMotion& base) {
     const machine::TwoMassModel& m = axis_.equations.model;
     const double tau_s = axis_.equations.tau_s;

@@ -99,8 +99,7 @@ class Smooth final : public Integrator {
     axis.framed[at][0] = from_node(axis.piece[at], axis.frame_node, axis.motion->equations.step_m);
   }
 
-  // the command at this tick's end becomes the newest point of the spline, which reaches kLookAhead ticks
-  // ahead
+  // the command at this tick's end becomes the newest point of the spline, which reaches kLookAhead ticks ahead
   void take_command(Axis& axis, const AxisPulses& pulses) {
     const AxisMotion& motion = *axis.motion;
     SplinePoint newest{motion.node + pulses.net_steps(), 0};

@@ -12,8 +12,7 @@ struct SplinePiece {
   bool constant = true;
 };
 
-/// A point of the smooth command, kept as a lattice node and a small rest, so that no precision goes with the
-/// position.
+/// A point of the smooth command, kept as a lattice node and a small rest, so that no precision goes with the position.
 struct SplinePoint {
   Steps node;
   double rest_m = 0;

@@ -95,8 +95,7 @@ void TaylorAxis::add_work(AxisWork& work, const Products& of) const {
 
 Outcome TaylorAxis::advance(Vector4& z, double ticks, AxisWork* work) const {
   if (ticks == 0) return {};
-  // a motor that slips runs through its law at this rate; the speed it can gain on the way is covered by
-  // rate_
+  // a motor that slips runs through its law at this rate; the speed it can gain on the way is covered by rate_
   const double rate = rate_ + eq_.pull.bend_per_m() * std::fabs(z[kBaseSpeed]);
   const double parts = std::floor(ticks * rate) + 1;
   if (!(parts <= kMaxParts)) {

@@ -172,7 +172,7 @@ bool Words::read_g(const Line& line, std::uint32_t at, double value, Report* rep
     other_codes_ = true;
   }
   if (g_[group] != kNoCode) {
-    // G80 beside a motion code is the usual safety line of a postprocessor: the motion code holds. Between
+    // G80 with a motion code is the usual safety line of a postprocessor: the motion code wins. Between
     // G5.2 and G5.3 no other motion code is allowed, so G5.3 does not take it.
     const bool harmless = code.group == GGroup::motion && (tenths == 800 || g_[group] == 800) &&
                           tenths != 53 && g_[group] != 53;

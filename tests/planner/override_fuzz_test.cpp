@@ -78,7 +78,7 @@ planner::FeedPlan track(const planner::Path& path, const machine::MachineModel& 
   return plan;
 }
 
-/// The path with the feeds that the highest percent allows: what verify() measures against.
+/// The path with the feeds that the highest override allows: the reference for verify().
 planner::Path at_most_percent(planner::Path path, double most) {
   for (planner::PathSegment& s : path.segments) s.feed_u_s *= most;
   return path;
