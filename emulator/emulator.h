@@ -19,11 +19,18 @@
 /// The cycle: program -> path -> law -> step pulses -> plant -> log, event to event.
 namespace kadr::emulator {
 
+/// How a wait ends (M66).
+struct WaitOutcome {
+  bool reached = false;  ///< the awaited level or edge came; always of an immediate reading
+  double value = 0;      ///< of the input as the wait ends
+  double waited_s = 0;
+};
+
 /// What happens between motions, in program order.
 struct ProgramEvent {
-  gcode::Block block;             ///< dwell, spindle, coolant, tool, output, message, stop, end ...; a wait
-                                  ///< carries what came of it: value, on = reached, dwell_s = time waited
+  gcode::Block block;             ///< dwell, spindle, coolant, tool, output, wait, message, stop, end ...
   std::size_t after_segment = 0;  ///< number of path segments before it
+  WaitOutcome wait = {};          ///< of a wait
 };
 
 /// A step of the scenario's timeline: what an input reads from a control tick on, until its next step.
@@ -60,8 +67,7 @@ struct OperatorStep {
   double value = 1;
   ControlTicks tick;  ///< unless place is given
   std::optional<PathPlace> place;
-  double path_u = 0;  ///< of the place, once the path is known
-  Span span;          ///< in the scenario file
+  Span span;  ///< in the scenario file
 };
 
 /// A technology point where the first motion of a program line begins.
@@ -87,17 +93,17 @@ struct Job {
   gcode::Reading reading;                    ///< of the program
   std::vector<InputStep> inputs;             ///< what M66 meets; ascending by tick
   std::vector<OperatorStep> operator_steps;  ///< by tick those that have one, in the file's order the others
-  /// Highest override as a ratio, 1 to 2, that the run must be able to follow: limits of corners and short
-  /// blocks are kept for it. Empty: the highest of operator_steps, at least 1. A run whose steps come while
-  /// it runs gives 2; its record, played again, is the same run only with the same number.
-  std::optional<double> most_percent;
+  /// Highest override that the run is prepared for, a ratio from 1 to 2; empty: the highest of operator_steps. The
+  /// record of a live run (SessionOptions::most_override) gives the same run only with the same number.
+  std::optional<double> most_override;
   std::vector<LineLimit> line_limits;  ///< technology points of a scenario
   std::vector<PlaceLimit> place_limits;
   std::vector<std::uint32_t> called_files;  ///< indices in sources, in the order of their first call
   std::vector<ProgramEvent> events;         ///< ascending in after_segment
   planner::Path path{0};
-  planner::FeedPlan plan;    ///< pauses included
-  std::uint32_t blocks = 0;  ///< motion blocks
+  planner::FeedPlan plan;             ///< pauses included
+  std::uint32_t blocks = 0;           ///< motion blocks
+  std::vector<double> step_places_u;  ///< [operator_steps] path length of those that have a place
   double motion_s = 0, dwell_s = 0;
 };
 
@@ -126,7 +132,7 @@ bool lay_out(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = Sof
 
 /// Time that a dwell, a wait or a tool change holds the machine, seconds; a whole number of control ticks
 /// where motions end on them too. 0 for everything else.
-double hold_time_s(const gcode::Block& block, const machine::MachineModel& machine);
+double hold_time_s(const ProgramEvent& event, const machine::MachineModel& machine);
 
 /// The standstills that the program asks of plan(), ascending.
 std::vector<planner::Pause> pauses(const Job& job);
@@ -151,25 +157,32 @@ std::vector<LimitShare> limit_shares(const Job& job);
 /// "program", "junction", "axis X speed", ...
 std::string limited_by_text(planner::LimitedBy reason, int axis, const machine::MachineModel& machine);
 
-struct RunOptions {
+/// How a session is run (emulator/cycle/session.h).
+struct SessionOptions {
   bool plant = true;
-  int threads = 1;                      ///< 1, or 2: the second encodes and writes; same bytes
-  double until_s = machine::kInfinity;  ///< stop after that much machine time
-  std::size_t warnings = 0;             ///< of the program: RunSummary::warnings
+  /// Highest feed override that a live operator may ask for, ratio >= 1; none: the run has no live operator.
+  /// The override keeps every limit up to it, so it is part of what the run gives.
+  std::optional<double> most_override;
+  std::size_t warnings = 0;  ///< of the program: RunSummary::warnings
   /// What the run's command will answer to the shell: RunSummary::exit_code. None: 0.
   std::function<int(const RunSummary&)> exit_code;
+};
+
+/// How a program is run to its end.
+struct RunOptions : SessionOptions {
+  int threads = 1;                      ///< 1, or 2: the second encodes and writes; same bytes
+  double until_s = machine::kInfinity;  ///< stop after that much machine time
   std::function<void(double done_fraction, std::uint32_t line, double sim_s)>
       progress;                                  ///< called about every 1000 ticks
   const std::atomic<bool>* interrupt = nullptr;  ///< set by a signal handler
 };
 
-/// How a run ended apart from its summary.
+/// I/O error that ended a run: its log could not be written.
 struct RunFailure {
-  std::string what;    ///< sentence for the user
-  bool world = false;  ///< disk, network (exit 2); else numerics (exit 3)
+  std::string what;  ///< sentence for the user
 };
 
-/// Runs a prepared job; records go to `log` (may be null).
+/// Runs a prepared job to its end: a loop over a Session. Records go to `log` (may be null).
 tl::expected<RunSummary, RunFailure> run(const Job& job, RunLog* log, const RunOptions& options);
 
 }  // namespace kadr::emulator

@@ -9,24 +9,12 @@
 #include "gcode/block.h"
 #include "gcode/dialect/dialect.h"
 #include "gcode/read/tool_table.h"
+#include "gcode/reading_bounds.h"
 #include "machine/base/diagnostic.h"
 
 /// The G-code front end: text -> parse tree (what was written, with spans) -> Blocks (what it means).
 /// Dialect: RS-274/NGC. Every mistake of a program is told in one run; an unknown word is never skipped.
 namespace kadr::gcode {
-
-/// Bounds that a program may not exceed; each message names the setting. 0: no bound.
-struct ReadingBounds {
-  std::uint64_t blocks = 0;
-  std::uint32_t call_depth = 100;          ///< subroutines within each other
-  std::uint64_t loop_passes = 10'000'000;  ///< passes of all loops together
-  std::uint64_t file_bytes = 4ULL << 30;   ///< of the program and of each file that it calls
-  std::uint32_t line_bytes = 1U << 20;
-};
-
-inline constexpr std::string_view kBoundNames = "blocks call_depth loop_passes file_bytes line_bytes";
-/// Sets a bound by its name. @return false if there is no such bound or the value is beyond its type
-bool set_bound(ReadingBounds& bounds, std::string_view name, std::uint64_t value);
 
 /// Material that a probe meets: the half space below (or above) a plane across one axis, machine coordinates.
 struct StockPlane {

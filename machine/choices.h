@@ -1,17 +1,16 @@
 #pragma once
 #include <cstdint>
 
-/// What a machine file chooses among, beside the methods (step_method.h, plan_method.h).
+/// The choices that a machine file makes. (Motors: two_masses.h; methods of interpolation: step_method.h.)
 namespace kadr::machine {
 
 enum class AxisKind : std::uint8_t { linear, rotary };
-enum class MotorModel : std::uint8_t { rigid, spring, stepper };
 enum class IntegratorKind : std::uint8_t { smooth, reference, oracle };
 enum class TickFeed : std::uint8_t { linear, constant };
 enum class AxisLimitRule : std::uint8_t { enforce, report };
 enum class OnAlarm : std::uint8_t { report, stop };
 enum class SchedulerKind : std::uint8_t { chained, blockwise };
-/// How a G0 gets from rest to rest where a flexible link swings (paper 001).
+/// How a G0 gets from rest to rest where a flexible link vibrates (paper 001).
 enum class RapidShape : std::uint8_t { scurve, t_zero, zv, zvd, automatic };
 enum class RampLaw : std::uint8_t { jerk_limited, quintic };
 enum class BlockTicks : std::uint8_t { exact, kl };

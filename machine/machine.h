@@ -9,7 +9,7 @@
 #include "machine/settings.h"
 #include "machine/step_method.h"
 
-/// The machine: facts that are true before a program is loaded. Read by all, changed by none. Whoever only
+/// The machine: facts that are true before a program is loaded. Read by all, changed by none. Code that only
 /// passes it on declares it (struct MachineModel); machine_file.h reads it from a file. Units: `_u` is the
 /// axis's own unit, mm for a linear and degrees for a rotary axis.
 namespace kadr::machine {

@@ -12,8 +12,7 @@
 /// Machine files: read, shipped, printed.
 namespace kadr::machine {
 
-/// Where a value comes from: its key as in a setting ("axis.X.max_mm_s") and "mill3.toml:42" or "command
-/// line".
+/// Where a value comes from: its key as in a setting ("axis.X.max_mm_s") and "mill3.toml:42" or "command line".
 struct KeyOrigin {
   std::string key;
   std::string origin;
@@ -23,18 +22,17 @@ struct KeyOrigin {
 struct MachineFile {
   MachineModel model;
   std::string text;
-  std::vector<KeyOrigin> origins =
-      {};  ///< values that were given, in the order of reading; all others are defaults
+  /// values that were given, in the order of reading; all others are defaults
+  std::vector<KeyOrigin> origins = {};
 };
 
-/// Reads a machine file (TOML; docs in machine/files/mill3.toml). All mistakes of the file are told at once.
+/// Reads a machine file (TOML; docs in machine/files/mill3.toml). All mistakes of the file are reported at once.
 /// @param sources   the text is added here, so that diagnostics can be rendered
 /// @param overrides "key=value" settings from the command line, same keys as in the file
 tl::expected<MachineFile, Diagnostics> read_machine(SourceText text, SourceSet& sources,
                                                     const std::vector<std::string>& overrides = {});
 
-/// A machine that ships with kadr: "mill3", "winder4", "rig1", "robot7"; empty text if there is none of that
-/// name.
+/// A machine that ships with kadr: "mill3", "winder4", "rig1", "robot7"; empty text if there is none of that name.
 std::string_view shipped_machine(std::string_view name);
 std::vector<std::string_view> shipped_machine_names();
 
@@ -53,7 +51,7 @@ struct KeyDocument {
 
 /// The keys of one table.
 struct TableDocument {
-  std::string header;  ///< "[planner]"; empty for the keys in front of all tables
+  std::string header;  ///< "[planner]"; empty for the keys before all tables
   std::string sentence;
   std::vector<KeyDocument> keys;
 };

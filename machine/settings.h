@@ -3,11 +3,11 @@
 #include "machine/infinity.h"
 #include "machine/plan_method.h"
 
-/// What a machine file sets for planner, override, plant and log.
+/// The settings of a machine file for planner, override, plant and log.
 /// Units: `_u` is the axis's own unit, mm for a linear and degrees for a rotary axis.
 namespace kadr::machine {
 
-/// Limits along the tool path of X Y Z, in mm; axis limits hold besides.
+/// Limits along the tool path of X Y Z, in mm; axis limits apply as well.
 struct PathLimits {
   double max_feed_mm_s = kInfinity;
   double max_accel_mm_s2 = kInfinity;
@@ -22,7 +22,7 @@ struct PlannerSettings {
   bool whole_ticks = true;  ///< motion ends on a control tick (paper 003, eq. 2)
   AxisLimitRule axis_limits = AxisLimitRule::enforce;
   TickFeed tick_feed = TickFeed::linear;
-  double tool_change_s = 0;                          ///< dwell that M6 costs
+  double tool_change_s = 0;                          ///< dwell caused by M6
   SchedulerKind scheduler = SchedulerKind::chained;  ///< ramps over many blocks, or block by block
   BlockTicks block_ticks = BlockTicks::exact;        ///< blockwise: how a block gets its whole control ticks
   RampLaw law = RampLaw::jerk_limited;               ///< shape of a planned ramp
@@ -31,25 +31,24 @@ struct PlannerSettings {
   int tube_levels = 100;                             ///< tube: speeds tried at a node, 3 to 1000
   RapidShape rapid_law = RapidShape::scurve;         ///< scurve: a rapid is planned as any other move
   double rapid_frequency_pct = 1;                    ///< automatic: links' frequencies are known to +- this
-  /// Whether plans keep the jerk limits of axes and path: the laws of paper 000 know none.
+  /// Whether plans keep the jerk limits of axes and path: the laws of paper 000 have none.
   bool keeps_jerk() const { return facts(method).keeps_jerk; }
   bool operator==(const PlannerSettings&) const = default;
 };
 
-/// What an operator's percent does to the feed, and what an axis that is asked for too much does to it (paper
+/// What the operator's override does to the feed, and what an axis beyond its limit does to it (paper
 /// 003, sections 3 to 5).
 struct OverrideSettings {
   OverrideMode mode = OverrideMode::corrected_plus;
-  LockedFeed locked = LockedFeed::full;      ///< threads and taps: 100 %, or the percent of their beginning
+  LockedFeed locked = LockedFeed::full;      ///< threads and taps: 100 %, or the override at their beginning
   LockedFeed disabled = LockedFeed::freeze;  ///< between M49 (M50 P0) and M48: the same choice
   LimiterKind limiter = LimiterKind::off;
-  bool predictive = false;      ///< the limiter looks one control tick ahead, in place of one back
+  bool predictive = false;      ///< the limiter looks one control tick ahead instead of back
   double limiter_band_u_s = 3;  ///< delta of eq. 13-16: half the range in which it sets in smoothly, > 0
   bool operator==(const OverrideSettings&) const = default;
 };
 
-/// How the feed answers a spindle that carries too much. The product of this percent and the operator's is in
-/// force.
+/// How the feed responds to spindle load. The product of this override and the operator's is in force.
 struct SpindleReaction {
   double high_load_pct = 110;  ///< above it for high_ms, and again every down_ms: down_pct less
   double high_ms = 20;

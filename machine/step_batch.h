@@ -10,22 +10,21 @@ namespace kadr {
 /// block. Positions beyond 2^52 steps break a promise: doubles count no further.
 std::int64_t lattice_node(double position_u, double step_u);
 
-/// Motion of one axis that the interpolator followed in this control tick, before the lattice; axis units (mm
-/// or deg).
+/// Motion of one axis that the interpolator followed in this control tick, before the lattice; axis units (mm or deg).
 struct AxisCommand {
   double position_begin_u = 0;
   double position_end_u = 0;
   double speed_begin_u_s = 0;  ///< just after the tick's beginning
-  double speed_end_u_s =
-      0;  ///< just before its end; differs from the next begin at a corner taken without a stop
+  /// just before its end; differs from the next begin at a corner taken without a stop
+  double speed_end_u_s = 0;
 };
 
 /// Pulses of one axis in one control tick. Offsets never decrease and are < the control tick's length.
 struct AxisPulses {
   std::vector<std::uint16_t> offset_ticks;  ///< [count], base ticks from the beginning of the control tick
   std::int8_t first_sign = 1;               ///< +1 or -1, direction of the first pulse
-  std::vector<std::uint16_t>
-      reversals;  ///< pulse indices at which the direction flips; empty in almost every tick
+  /// pulse indices at which the direction flips; empty in almost every tick
+  std::vector<std::uint16_t> reversals;
   AxisCommand command;
 
   std::size_t count() const { return offset_ticks.size(); }

@@ -5,8 +5,8 @@
 
 namespace kadr::machine {
 
-/// Which pulses a segment gives, and when: half-crossings at their moments, or a method of paper 002 at one
-/// clock slot a step, for study. `newton` and all after it are of the laboratory (`kadr teach`) alone: no
+/// The pulses of a segment and their moments: half-crossings when they occur, or a method of paper 002 at one
+/// clock slot per step, for study. `newton` and all after it belong to the laboratory (`kadr teach`): no
 /// machine runs them.
 enum class StepMethod : std::uint8_t {
   crossing,
@@ -44,7 +44,7 @@ inline constexpr Vocabulary<StepMethod, 17> kStepMethods{{
     {StepMethod::ptp, "ptp", "point to point: each axis at its own rate"},
     {StepMethod::newton, "newton", "Newton's forward differences in fixed point"},
     {StepMethod::printed_difference, "printed_difference", "as printed: sign of F(i,j+1) - F(i+1,j)"},
-    {StepMethod::printed_half_step, "printed_half_step", "as printed: eq. 7 in the place of F'"},
+    {StepMethod::printed_half_step, "printed_half_step", "as printed: eq. 7 in place of F'"},
     {StepMethod::magnitudes, "magnitudes", "sign of |F(i,j+1)| - |F(i+1,j)|: the nearer neighbour"},
 }};
 static_assert(kStepMethods.complete());

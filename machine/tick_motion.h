@@ -7,7 +7,7 @@
 /// How the path moves in a control tick: made by a planner's MotionSource, read by interpolator and log.
 namespace kadr {
 
-/// What held the feed at a place: our signature column.
+/// What limited the feed at a position: the "limited by" column.
 enum class LimitedBy : std::uint8_t {
   program,           ///< programmed feed reached
   rapid,             ///< axis speed during a rapid
@@ -17,8 +17,8 @@ enum class LimitedBy : std::uint8_t {
   junction,          ///< corner ahead or behind
   length,            ///< accelerating or braking: the path is too short for more
   stop,              ///< at rest
-  override_percent,  ///< programmed feed times the operator's percent
-  hold,              ///< feed hold, or a percent of 0
+  override_percent,  ///< programmed feed times the operator's override
+  hold,              ///< feed hold, or an override of 0
   limiter,           ///< the axis limiter
 };
 inline constexpr Vocabulary<LimitedBy, 11> kLimitedBy{{
@@ -36,16 +36,16 @@ inline constexpr Vocabulary<LimitedBy, 11> kLimitedBy{{
 }};
 static_assert(kLimitedBy.complete());
 
-/// Why a percent that was asked for is not in force in a control tick.
+/// Why a requested override is not in force in a control tick.
 enum class OverrideNote : std::uint8_t {
   none,
-  deferred,  ///< the motion brakes for a place ahead
+  deferred,  ///< the motion brakes for a point ahead
   locked,    ///< thread, tap, M49
   limited,   ///< the axis limiter lowers the feed
 };
 inline constexpr Vocabulary<OverrideNote, 4> kOverrideNotes{{
     {OverrideNote::none, "in force"},
-    {OverrideNote::deferred, "deferred: braking", "the motion brakes for a place ahead"},
+    {OverrideNote::deferred, "deferred: braking", "the motion brakes for a point ahead"},
     {OverrideNote::locked, "locked", "thread, tap, M49"},
     {OverrideNote::limited, "axis limiter", "the axis limiter lowers the feed"},
 }};
@@ -53,7 +53,7 @@ static_assert(kOverrideNotes.complete());
 
 /// How s moves in one control tick. Exact at both ends of the tick; between them the feed runs linearly over
 /// [move_begin, move_end] (base ticks within the tick, fractions allowed) and the path rests outside of it,
-/// so that s never runs back, also where a motion starts or ends inside the tick:
+/// so that s never decreases, even where a motion starts or ends inside the tick:
 ///   s(t) = s_begin + ramp_begin * (t - t_b) + (ramp_end - ramp_begin) * (t - t_b)^2 / (2 (t_e - t_b))
 struct TickMotion {
   ControlTicks tick;
@@ -63,8 +63,8 @@ struct TickMotion {
   double speed_end_u_s = 0;
   double move_begin_ticks = 0;
   double move_end_ticks = 0;
-  double ramp_begin_u_s =
-      0;  ///< speed at move_begin and move_end of the linear feed; (sum / 2) * (t_e - t_b) = s_end - s_begin
+  /// speed at move_begin and move_end of the linear feed; (sum / 2) * (t_e - t_b) = s_end - s_begin
+  double ramp_begin_u_s = 0;
   double ramp_end_u_s = 0;
   double accel_end_u_s2 = 0;        ///< of the law at the tick's end, for the log
   double override_requested = 1.0;  ///< ratio

@@ -2,8 +2,8 @@
 #include "machine/base/vocabulary.h"
 #include "machine/choices.h"
 
-/// How machine files, logs and the command line spell the machine's choices. (Methods of interpolation:
-/// machine/step_method.h; of planning: machine/plan_method.h.)
+/// The machine's choices as machine files, logs and the command line spell them.
+/// (Methods of interpolation: machine/step_method.h.)
 namespace kadr::machine {
 
 inline constexpr Vocabulary<AxisKind, 2> kAxisKinds{{
@@ -12,15 +12,9 @@ inline constexpr Vocabulary<AxisKind, 2> kAxisKinds{{
 }};
 static_assert(kAxisKinds.complete());
 
-inline constexpr Vocabulary<MotorModel, 3> kMotorModels{{
-    {MotorModel::rigid, "rigid", "the carriage follows every step at once"},
-    {MotorModel::spring, "spring", "the motor pulls by a linear spring"},
-    {MotorModel::stepper, "stepper", "the motor pulls by the sine of its angle, and can lose steps"},
-}};
-static_assert(kMotorModels.complete());
-
 inline constexpr Vocabulary<IntegratorKind, 3> kIntegrators{{
-    {IntegratorKind::smooth, "smooth", "Taylor series over the commanded motion"},
+    {IntegratorKind::smooth, "smooth",
+     "CVODE over a smoothed command plus the exact response to the steps; stepper motors: Taylor series"},
     {IntegratorKind::reference, "reference", "SUNDIALS CVODE from pulse to pulse"},
     {IntegratorKind::oracle, "oracle", "closed form; linear motors only"},
 }};

@@ -1,40 +1,29 @@
 #include "plant/axis_equations.h"
 
-#include "machine/base/numbers.h"
+#include <cmath>
 
 namespace kadr::plant {
-
-using machine::AxisKind;
-using machine::MotorModel;
 
 Matrix4 AxisEquations::system() const {
   return {{{{0, 1, 0, 0}, {-a, -B, p, q}, {0, 0, 0, 1}, {a, B, -p - p1, -q - q1}}}};
 }
 
 Vector4 AxisEquations::derivative(const Vector4& z) const {
-  const double motor_accel =
-      motor == MotorModel::stepper ? -G * exact_sincos(kappa * z[kLag]).sin : -a * z[kLag];
-  const double base_accel = motor_accel - B * z[kBaseSpeed] + p * z[kLink] + q * z[kLinkSpeed];
+  const double base_accel = pull.force(z[kLag]) - B * z[kBaseSpeed] + p * z[kLink] + q * z[kLinkSpeed];
   return {z[kBaseSpeed], base_accel, z[kLinkSpeed], -base_accel - p1 * z[kLink] - q1 * z[kLinkSpeed]};
 }
 
 double AxisEquations::motor_force_N(const Vector4& z) const {
-  const double damping_N = model.motor_damping_Ns_per_m * z[kBaseSpeed] / tau_s;
-  if (motor == MotorModel::stepper) {
-    return -model.holding_force_N * exact_sincos(kappa * z[kLag]).sin - damping_N;
-  }
-  return -model.motor_stiffness_N_per_m * z[kLag] - damping_N;
+  return motor.force(z[kLag]) - motor.damping_Ns_per_m() * z[kBaseSpeed] / tau_s;
 }
 
-double AxisEquations::rate() const {
-  return std::sqrt(a) + std::sqrt(G * kappa) + std::sqrt(p + p1) + B + q + q1;
-}
+double AxisEquations::rate() const { return std::sqrt(a) + std::sqrt(p + p1) + B + q + q1; }
 
 bool AxisEquations::usable() const {
-  const double all = a + G + kappa + B + p + q + p1 + q1;
+  const double all = B + p + q + p1 + q1;
+  const bool whole_teeth = motor.tooth_u() == 0 || pitch_steps > Steps{};
   return all > 0 && all < machine::kInfinity && model.base_mass_kg > 0 && model.link_mass_kg > 0 &&
-         model.link_stiffness_N_per_m > 0 && step_m > 0 && (motor != MotorModel::spring || a > 0) &&
-         (motor != MotorModel::stepper || (G > 0 && kappa > 0 && pitch_steps > 0));
+         model.link_stiffness_N_per_m > 0 && step_m > 0 && pull.usable() && whole_teeth;
 }
 
 double AxisEquations::kinetic_J(const Vector4& z) const {
@@ -50,9 +39,9 @@ double AxisEquations::spring_J(const Vector4& z) const {
 AxisEquations axis_equations(const machine::AxisModel& axis, const machine::ClockModel& clock) {
   const machine::TwoMassModel& model = axis.plant;
   AxisEquations e;
-  e.motor = model.motor;
+  e.motor = machine::Motor(axis);
   e.model = model;
-  e.metre_per_unit = axis.kind == AxisKind::rotary ? kPi / 180 : 1e-3;
+  e.metre_per_unit = axis.si_per_u();
   e.tau_s = clock.tau_s();
   e.control_ticks = static_cast<double>(clock.control_tick.value);
   e.step_m = axis.step_u * e.metre_per_unit;
@@ -62,15 +51,12 @@ AxisEquations axis_equations(const machine::AxisModel& axis, const machine::Cloc
   e.p1 = model.link_stiffness_N_per_m * tau2_s2 / model.link_mass_kg;
   e.q1 = model.link_damping_Ns_per_m * e.tau_s / model.link_mass_kg;
   e.B = model.base_friction_Ns_per_m * e.tau_s / model.base_mass_kg;
-  if (model.motor != MotorModel::rigid) e.B += model.motor_damping_Ns_per_m * e.tau_s / model.base_mass_kg;
-  if (model.motor == MotorModel::spring) e.a = model.motor_stiffness_N_per_m * tau2_s2 / model.base_mass_kg;
-  if (model.motor == MotorModel::stepper) {
-    e.G = model.holding_force_N * tau2_s2 / model.base_mass_kg;
-    e.pitch_m = model.tooth_pitch_u * e.metre_per_unit;
-    e.kappa = 2 * kPi / e.pitch_m;
-    const double steps = model.tooth_pitch_u / axis.step_u;
-    if (steps < 1e9) e.pitch_steps = static_cast<std::int64_t>(std::floor(steps + 0.5));
-  }
+  e.B += e.motor.damping_Ns_per_m() * e.tau_s / model.base_mass_kg;
+  e.pull = e.motor.over(model.base_mass_kg, e.tau_s);
+  e.a = e.pull.stiffness();
+  e.pitch_m = e.motor.tooth_u() * e.metre_per_unit;
+  const double steps = e.motor.tooth_u() / axis.step_u;
+  if (steps < 1e9) e.pitch_steps = Steps{static_cast<std::int64_t>(std::floor(steps + 0.5))};
   return e;
 }
 

@@ -17,8 +17,7 @@ struct MachineModel;
 ///
 ///   m1 (x0'' + x1'') + c x1' + k x1 = 0
 ///   m0 x0'' = F_motor - b0 x0' + k x1 + c x1'           tool position on the axis = x0 + x1
-///   F_motor = Km (x_step - x0) - bm x0'                          spring
-///           = -F_hold sin(2 pi (x0 - x_step)/pitch) - bm x0'     stepper
+///   F_motor = force(x0 - x_step) - bm x0', force by the motor's law (machine/motor.h)
 ///   rigid: x0 follows the command (StepBatch's AxisCommand, cubic between the tick's ends) exactly
 namespace kadr::plant {
 
@@ -36,14 +35,12 @@ struct PlantError {
 struct LostSteps {
   int axis = 0;
   ControlTicks tick;
-  /// Whole teeth in steps, since the last report; negative if the rotor stayed behind a motion in plus
-  /// direction.
+  /// Whole teeth in steps, since the last report; negative if the rotor stayed behind a motion in plus direction.
   Steps steps;
 };
 
 /// Per axis energy since the reset, joules; closes: motor work = kinetic + spring + dissipated, to 1e-9 of
-/// the work with a tolerance of 1e-8 um. motor_damping is part of the motor, so its losses are negative motor
-/// work.
+/// the work with a tolerance of 1e-8 um. motor_damping is part of the motor, so its losses are negative motor work.
 struct EnergyBalance {
   double motor_work_J = 0;
   /// Where the motor drives; positive_J - motor_work_J is what the load gives back to it (recuperated), their

@@ -7,7 +7,7 @@ namespace kadr::plant {
 
 namespace {
 
-/// CVODE as the textbook uses it at discontinuities: stopped at every pulse and begun anew behind it. Slow (5
+/// CVODE as the textbook uses it at discontinuities: stopped at every pulse and restarted behind it. Slow (5
 /// to 10 us per pulse) and plain; the states are relative to the current node, so no precision is lost with
 /// the position.
 class Reference final : public Integrator {
@@ -29,7 +29,7 @@ class Reference final : public Integrator {
     if (outcome)
       outcome = integrate((axis_.equations.control_ticks - static_cast<double>(now)) * tick_per_base);
     if (!outcome) return outcome;
-    axis_.move_node(pulses.net_steps().value);
+    axis_.move_node(pulses.net_steps());
     axis_.motor_force_N = axis_.equations.motor_force_N(axis_.z);
     return {};
   }
@@ -63,7 +63,8 @@ Vector4 local_tolerance(const AxisEquations& eq, double tolerance_um) {
   const double tolerance_m = tolerance_um * 1e-3 * eq.metre_per_unit;
   // an error of speed becomes one of position divided by the slowest frequency [rad per tick]
   double slowest = std::sqrt(eq.p1);
-  if (eq.a > 0) slowest = std::min(slowest, std::sqrt(eq.a / (1 + eq.p / eq.p1)));
+  // (of a motor that bends no frequency is the slowest: its stiffness may vanish)
+  if (eq.motor.linear() && eq.a > 0) slowest = std::min(slowest, std::sqrt(eq.a / (1 + eq.p / eq.p1)));
   // and stays for as long as the weakest damping lets it
   const double decay = std::min(eq.q1, eq.B / (1 + eq.p / eq.p1)) / 2;
   const double position_m = tolerance_m * std::min(1.0, std::max(0.01, 10 * decay));

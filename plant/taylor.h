@@ -7,13 +7,9 @@
 namespace kadr::plant {
 
 /// Moves an axis from pulse to pulse by the Taylor series of its solution. Between two pulses the equations
-/// are autonomous and analytic; the series of the sine motor comes from the recurrences
-///
-///   s = sin(kappa lag), c = cos(kappa lag):   s' = kappa v0 c,   c' = -kappa v0 s
-///
-/// (n+1) s_{n+1} = kappa sum v_j c_{n-j}, and so on. Terms are added until two in a row are below 1e-20 m,
-/// which takes 6 to 10 orders between dense pulses; an interval longer than the fastest rate allows is cut
-/// into equal parts. Error per interval: about 1e-14 um, rounding besides.
+/// are autonomous and analytic; the motor's law brings the series of its force (machine/motor.h). Terms are
+/// added until two in a row are below 1e-20 m, which takes 6 to 10 orders between dense pulses; an interval
+/// longer than the fastest rate allows is cut into equal parts. Error per interval: about 1e-14 um, rounding besides.
 class TaylorAxis {
  public:
   explicit TaylorAxis(const AxisEquations& equations);
@@ -24,8 +20,10 @@ class TaylorAxis {
 
  private:
   Outcome advance(Vector4& z, double ticks, AxisWork* work) const;
-  template <bool kSine>
-  bool advance_part(Vector4& z, double h, AxisWork* work) const;
+  template <class Law>
+  bool advance_part(const Law& law, Vector4& z, double h, AxisWork* work) const;
+  struct Products;
+  void add_work(AxisWork& work, const Products& of) const;
 
   AxisEquations eq_;
   double rate_ = 0;

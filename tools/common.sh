@@ -8,7 +8,7 @@ export LC_ALL=C
 say() { printf '== %s\n' "$*" >&2; }
 fail() { printf '%s: %s\n' "${0##*/}" "$*" >&2; exit 2; }
 
-# every tool prints the comment at its head for --help
+# every tool prints its first comment for --help
 case ${1-} in
   -h | --help)
     sed -nE '2,/^[^#]/s/^# ?//p' "$0"
@@ -18,22 +18,28 @@ esac
 
 times=$project/build/times.tsv
 times_before=$(wc -l 2>/dev/null <"$times" || echo 0)
+# number of steps running around this tool; a tool that a step calls inherits it
+export KADR_STEP_DEPTH=${KADR_STEP_DEPTH:-0}
+own_depth=$KADR_STEP_DEPTH
 
-# timed NAME COMMAND...: runs a step and adds its seconds to build/times.tsv, whatever its outcome
+# timed NAME COMMAND...: runs a step and adds name, seconds and depth to build/times.tsv, whatever its outcome
 timed() {
-  local name=$1 begin=${EPOCHREALTIME/./} status=0
+  local name=$1 begin=${EPOCHREALTIME/./} depth=$KADR_STEP_DEPTH status=0
   shift
+  KADR_STEP_DEPTH=$((depth + 1))
   "$@" || status=$?
+  KADR_STEP_DEPTH=$depth
   mkdir -p "$project/build"
-  printf '%s\t%d\n' "$name" $(((${EPOCHREALTIME/./} - begin + 500000) / 1000000)) >>"$times"
+  printf '%s\t%d\t%d\n' "$name" $(((${EPOCHREALTIME/./} - begin + 500000) / 1000000)) "$depth" >>"$times"
   return $status
 }
 
-# print_times: the steps that this tool and the ones it called took, and their sum
+# print_times: the steps of this tool and, indented above each, the steps within it; the sum counts each second once
 print_times() {
   [[ -f $times ]] || return 0
-  tail -n "+$((times_before + 1))" "$times" | awk -F '\t' -v cores="$(nproc)" '
-    { printf "%6d s  %s\n", $2, $1; sum += $2 } END { printf "%6d s  in all, on %d cores\n", sum, cores }'
+  tail -n "+$((times_before + 1))" "$times" | awk -F '\t' -v cores="$(nproc)" -v own="$own_depth" '
+    { printf "%6d s  %*s%s\n", $2, 2 * ($3 - own), "", $1; if ($3 == own) sum += $2 }
+    END { printf "%6d s  in all, on %d cores\n", sum, cores }'
 }
 
 # build_preset PRESET [-DNAME=VALUE ...] [NINJA ARGUMENTS]: configures where needed and builds build/PRESET; quiet
@@ -41,7 +47,7 @@ print_times() {
 build_preset() {
   local preset=$1 options=() option stale=no
   shift
-  # also as long as a page is left out: what it needs may be there by now
+  # also while a page is left out: its packages may be there by now
   [[ -f build/$preset/build.ninja && ! -f build/$preset/pages/missing ]] || stale=yes
   while [[ ${1-} == -D* ]]; do
     option=${1#-D}
@@ -57,7 +63,7 @@ build_preset() {
   timed "build $preset${*:+: $*}" ninja -C "build/$preset" --quiet "$@" >&2
 }
 
-# configure_preset PRESET [CMAKE ARGUMENTS]: what CMake has to say of missing or left out parts is shown, no more
+# configure_preset PRESET [CMAKE ARGUMENTS]: shows only what CMake reports about missing or omitted parts
 configure_preset() {
   local preset=$1 log=build/$1/configure.log
   shift

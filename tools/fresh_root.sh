@@ -3,7 +3,7 @@
 
 fresh=${KADR_FRESH:-$project/build/fresh}
 
-# need_root: what the functions below ask for, said once
+# need_root: checks the requirements of the functions below
 need_root() {
   [[ $(id -u) -eq 0 ]] || fail "a bare root is made with debootstrap and chroot: run this as root"
   tools/setup fresh
@@ -32,7 +32,7 @@ base_root() {
     [[ -e $line ]] && cp --parents -L "$line" "$base"
   done
   [[ ! -e $HOME/.npmrc ]] || cp "$HOME/.npmrc" "$base/root/.npmrc"
-  # and whom it trusts there: the package ca-certificates would write over its own place
+  # and the certificates it trusts there: the package ca-certificates would overwrite its own file
   if [[ -e /etc/ssl/certs/ca-certificates.crt ]]; then
     cp /etc/ssl/certs/ca-certificates.crt "$base/etc/machine-certificates.crt"
     sed -i 's|^cafile *=.*|cafile=/etc/machine-certificates.crt|' "$base/etc/npmrc" "$base/root/.npmrc" 2>/dev/null || true
@@ -91,10 +91,10 @@ clone_into() {
   git clone --quiet --no-local --depth 1 "file://$project" "$fresh/$name$place"
 }
 
-# keep_times NAME PLACE: adds the times that tools took in that clone to this call's
+# keep_times NAME PLACE: adds the times that tools took in that clone to this call's, as steps within the present one
 keep_times() {
-  [[ -f $fresh/$1$2/build/times.tsv ]] && cat "$fresh/$1$2/build/times.tsv" >>"$times"
-  return 0
+  local inside=$fresh/$1$2/build/times.tsv
+  [[ ! -f $inside ]] || awk -F '\t' -v OFS='\t' -v depth="$KADR_STEP_DEPTH" '{ $3 += depth; print }' "$inside" >>"$times"
 }
 
 remove_root() { rm -rf "${fresh:?}/$1" "$fresh/$1".{work,lower,at,disk,log}; }

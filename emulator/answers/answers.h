@@ -5,4 +5,4 @@
 #include "emulator/answers/summary.h"
 #include "emulator/answers/travel.h"
 
-/// What `kadr check`, `kadr plan` and the end of a run say, as data, as text for people and as JSON.
+/// The answers of `kadr check` and `kadr plan`, and the summary of a run: as data, as text for people and as JSON.

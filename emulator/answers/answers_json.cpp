@@ -12,7 +12,7 @@ double at_seconds(Ticks ticks, const machine::MachineModel& model) {
   return static_cast<double>(ticks.value) / static_cast<double>(model.clock.base_hz);
 }
 
-/// JSON has no infinity: a limit that is not there is null.
+/// JSON has no infinity: a missing limit is null.
 Json limit(double value) {
   if (value == machine::kInfinity || value == -machine::kInfinity) return nullptr;
   return value;

@@ -6,7 +6,7 @@
 #include "emulator/answers/summary.h"
 #include "emulator/text/json.h"
 
-/// What the tables of a check, a plan and a run say, for programs. `_u` is the unit that "unit" beside it
+/// The tables of a check, a plan and a run, for programs. `_u` is the unit that the field "unit" next to it
 /// names (mm or deg).
 namespace kadr::emulator {
 

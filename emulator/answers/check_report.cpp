@@ -19,7 +19,7 @@ std::string limits_text(const machine::AxisModel& axis) {
 }
 
 bool outside(const AxisTravel& travel, const machine::AxisModel& axis) {
-  // as the soft-limit check: a limit reached but for rounding is inside
+  // as in the soft-limit check: a limit reached up to rounding is inside
   return travel.min_u < axis.soft_min_u - kSamePoint_u || travel.max_u > axis.soft_max_u + kSamePoint_u;
 }
 
@@ -54,9 +54,9 @@ CheckResult check_result(const Job& job) {
 std::string render_check(const CheckResult& r, const std::string& program, const std::string& machine_text,
                          const machine::MachineModel& model) {
   std::string out = fmt::format("{} on {}\n", one_line(program, 60), one_line(machine_text, 60));
-  out += fmt::format("  time         {}   ({} cutting, {} rapid, {} standing)   {} blocks\n",
+  out += fmt::format("  time         {}   ({} cutting, {} rapid, {} standing)   {}\n",
                      duration_text(r.time_s), duration_text(r.motion_s - r.rapid_s), duration_text(r.rapid_s),
-                     duration_text(r.dwell_s), grouped(r.blocks));
+                     duration_text(r.dwell_s), counted(r.blocks, "block"));
   out += fmt::format("  path         {} {}   ({} rapid)", fixed(r.path_u, 3), r.path_unit,
                      fixed(r.rapid_path_u, 3));
   if (r.peak_u_s > 0)

@@ -7,7 +7,7 @@
 
 namespace kadr::emulator {
 
-/// What `kadr check` finds out about a program that could be planned.
+/// The result of `kadr check` for a program that could be planned.
 struct CheckResult {
   double time_s = 0;  ///< with acceleration, dwells included
   double motion_s = 0;

@@ -16,12 +16,6 @@ namespace {
 
 constexpr std::size_t kTextWidth = 34;
 
-std::string pause_name(const gcode::Block& block) {
-  return block.kind == gcode::BlockKind::dwell        ? "dwell"
-         : block.kind == gcode::BlockKind::wait_input ? "wait"
-                                                      : "tool change";
-}
-
 std::size_t width_of(double largest, int decimals, std::size_t least) {
   return std::max(least, fixed(largest, decimals).size());
 }
@@ -30,7 +24,7 @@ bool is_blockwise(const Job& job) {
   return job.machine.model.planner.scheduler == machine::SchedulerKind::blockwise;
 }
 
-/// Rule, kl and jump of a block of one or more segments: what is furthest from none, 1 and 0.
+/// Rule, kl and jump of a block of one or more segments: those furthest from none, 1 and 0.
 void add_ticks(const Job& job, std::size_t first, std::size_t end, PlanRow& row) {
   row.blockwise = true;
   auto rule = planner::TickRule::none;
@@ -59,7 +53,7 @@ void add_rapid(const Job& job, const planner::PositionedSegment& rapid, planner:
     if (axis[c].has_plant) row.residual_u.emplace_back(axis[c].letter, rapid.residual_u[c]);
 }
 
-/// "zv +0.025 s for X 45.00 Hz", and what it leaves where that is not nothing.
+/// "zv +0.025 s for X 45.00 Hz", and the remaining vibration unless it is zero.
 std::string rapid_text(const PlanRow& row) {
   constexpr double kNothing_u = 5e-7;
   std::string out = fmt::format("; {} +{} s", row.rapid_law, fixed(row.rapid_loss_s, 3));
@@ -83,11 +77,11 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
     for (; next_event < job.events.size() && job.events[next_event].after_segment <= segment; ++next_event) {
       const gcode::Block& block = job.events[next_event].block;
       PlanRow row;
-      row.time_s = hold_time_s(block, machine);
+      row.time_s = hold_time_s(job.events[next_event], machine);
       if (!(row.time_s > 0)) continue;
       row.line = block.span.line;
       row.text = job.sources[block.span.file].line(row.line);
-      row.motion = pause_name(block);
+      row.motion = gcode::kBlockKinds.word(block.kind());
       row.begin_s = time_s;
       row.blockwise = is_blockwise(job);
       time_s += row.time_s;
@@ -171,11 +165,11 @@ std::string PlanTable::row(const PlanRow& r) const {
 std::string PlanTable::footer(const Job& job, std::size_t rows) const {
   const planner::Smoothing& smoothing = job.path.smoothing;
   std::string out = fmt::format(
-      "{} rows, {}: {} in motion, {} standing\n", grouped(static_cast<std::int64_t>(rows)),
+      "{}, {}: {} in motion, {} standing\n", counted(static_cast<std::int64_t>(rows), "row"),
       duration_text(job.motion_s + job.dwell_s), duration_text(job.motion_s), duration_text(job.dwell_s));
   if (smoothing.corners > 0)
-    out += fmt::format("G64 P: {} corners rounded, at most {} {} from the program\n",
-                       grouped(static_cast<std::int64_t>(smoothing.corners)),
+    out += fmt::format("G64 P: {} rounded, at most {} {} from the program\n",
+                       counted(static_cast<std::int64_t>(smoothing.corners), "corner"),
                        fixed(smoothing.corner_deviation_u, 4), unit_);
   if (smoothing.curves > 0)
     out += fmt::format("G64 P: {} lines became curves through their points, at most {} {} from the program\n",

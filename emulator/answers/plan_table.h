@@ -22,7 +22,7 @@ struct PlanRow {
   double programmed_u_s = 0;  ///< programmed speed along the path; 0 for a rapid or a pause
   double peak_u_s = 0;        ///< highest speed reached
   double end_u_s = 0;         ///< speed at the block's end
-  std::string limited_by;     ///< what held the peak; empty for a pause
+  std::string limited_by;     ///< what limited the peak; empty for a pause
   // of a plan made block by block
   bool blockwise = false;
   std::string rule;         ///< how the block came to whole control ticks: "a" to "d", or ""
@@ -38,16 +38,14 @@ struct PlanRow {
     double hz = 0, zeta = 0;  ///< of the driven system
   };
   std::vector<Vibration> vibrations;  ///< that it excites, largest first
-  std::vector<std::pair<char, double>>
-      residual_u;  ///< amplitude left to swing, of the axes that have a plant
+  /// amplitude of the remaining vibration, of the axes that have a plant
+  std::vector<std::pair<char, double>> residual_u;
 };
 
-/// Calls `sink` for each row in program order. Nothing is kept, so a program of a million lines costs no
-/// memory.
+/// Calls `sink` for each row in program order. Nothing is kept, so a program of a million lines costs no memory.
 void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>& sink);
 
-/// Column titles and rows of the table for people; widths are fixed by the whole plan, so that rows can be
-/// streamed.
+/// Column titles and rows of the table for people; widths are fixed by the whole plan, so that rows can be streamed.
 class PlanTable {
  public:
   explicit PlanTable(const Job& job);
@@ -61,7 +59,7 @@ class PlanTable {
   std::string head(std::string_view name, std::string_view per = {}) const;
 
   bool blockwise_ = false;
-  std::string unit_;  ///< of all rows; "mm+deg": rows of both kinds, each tells its own
+  std::string unit_;  ///< of all rows; "mm+deg": rows of both kinds, each with its own unit
   std::size_t line_width_ = 0, length_width_ = 0, time_width_ = 0, speed_width_ = 0;
 };
 

@@ -40,16 +40,13 @@ double seconds(Ticks ticks, const machine::MachineModel& model) {
   return static_cast<double>(ticks.value) / static_cast<double>(model.clock.base_hz);
 }
 
-std::string counted(std::size_t n, std::string_view word) {
-  return fmt::format("{} {}{}", grouped(static_cast<std::int64_t>(n)), word, n == 1 ? "" : "s");
-}
-
 std::string title(const RunSummary& s, const SummaryContext& c) {
   std::string left = fmt::format("{} on {}", one_line(c.program, 60), one_line(c.machine, 60));
   if (!c.scenario.empty()) left += ", scenario " + one_line(c.scenario, 60);
   std::string right = s.outcome.text();
-  if (c.program_warnings > 0) right += ", " + counted(c.program_warnings, "warning");
-  if (s.alarms > 0) right += ", " + counted(s.alarms, "alarm");
+  if (c.program_warnings > 0)
+    right += ", " + counted(static_cast<std::int64_t>(c.program_warnings), "warning");
+  if (s.alarms > 0) right += ", " + counted(static_cast<std::int64_t>(s.alarms), "alarm");
   const std::size_t used = display_width(left) + display_width(right);
   return left + std::string(used + 2 < kSummaryWidth ? kSummaryWidth - used : 2, ' ') + right + '\n' +
          std::string(kSummaryWidth, '-') + '\n';
@@ -113,7 +110,7 @@ std::string load_table(const RunSummary& s, const SummaryContext& c) {
   return table.render();
 }
 
-/// What the motors did; empty without log.energy.
+/// Work of the motors; empty without log.energy.
 std::string energy_table(const RunSummary& s, const SummaryContext& c) {
   if (!c.plant || !c.model->log.energy) return "";
   TextTable table({{"energy of motors", Align::left}, {"positive J"}, {"absolute J"}, {"recuperated J"}});
@@ -178,7 +175,7 @@ std::string render_limits(const std::vector<LimitShare>& shares) {
   return head("limited by", text + "   (of time)");
 }
 
-/// Against the plan at 100 %, by reason; nothing in a run without operator and spindle.
+/// Time lost against the plan at 100 %, by reason; empty in a run without operator and spindle.
 static std::string render_losses(const RunSummary& s) {
   if (s.lost_by.empty()) return {};
   std::string text;
@@ -191,9 +188,10 @@ std::string render_summary(const RunSummary& s, const SummaryContext& c) {
   const machine::MachineModel& model = *c.model;
   const double time_s = seconds(s.ticks, model);
   std::string out = title(s, c);
-  out += head("time", fmt::format("{}   ({} in motion, {} standing)   {} control ticks, {} blocks",
-                                  duration_text(time_s), duration_text(s.motion_s), duration_text(s.dwell_s),
-                                  grouped(s.control_ticks.value), grouped(s.blocks)));
+  out +=
+      head("time", fmt::format("{}   ({} in motion, {} standing)   {}, {}", duration_text(time_s),
+                               duration_text(s.motion_s), duration_text(s.dwell_s),
+                               counted(s.control_ticks.value, "control tick"), counted(s.blocks, "block")));
   out += head("path",
               fmt::format("{} {}   feed mean {}, peak {} {}", fixed(s.path_u, 3), c.path_unit,
                           fixed(s.mean_feed_u_s, 3), fixed(s.peak_feed_u_s, 3), speed_unit(c.path_unit)));

@@ -8,7 +8,7 @@
 
 namespace kadr::emulator {
 
-/// What stands in a run's summary besides the run itself.
+/// Context of a run for its summary.
 struct SummaryContext {
   std::string program;   ///< as the user gave it
   std::string machine;   ///< name and where it comes from
@@ -16,7 +16,7 @@ struct SummaryContext {
   const machine::MachineModel* model = nullptr;
   std::string path_unit = "mm";      ///< unit of path length
   bool plant = true;                 ///< false: run with --no-plant
-  std::size_t program_warnings = 0;  ///< told before the run
+  std::size_t program_warnings = 0;  ///< reported before the run
   std::vector<EventRecord> alarms;   ///< in time order, perhaps only the first
   std::map<Code, std::size_t> alarm_counts;
   std::string log_path;  ///< empty: no log
@@ -24,8 +24,7 @@ struct SummaryContext {
   double wall_s = -1;  ///< < 0: leave the last line out
 };
 
-/// The table after a run, for people. The wall-clock line is the last one; all others depend on the inputs
-/// alone.
+/// The table after a run, for people. The wall-clock line is the last one; all others depend only on the inputs.
 std::string render_summary(const RunSummary& summary, const SummaryContext& context);
 /// "limited by     program 61 %  junction 19 %"; empty if there is no time to share.
 std::string render_limits(const std::vector<LimitShare>& shares);

@@ -29,7 +29,7 @@ std::vector<AxisTravel> axis_travel(const planner::Path& path) {
       travel[a].max_u = std::max(travel[a].max_u, high_u);
     }
 
-    // chords of a sixteenth turn lose at most 1 - cos(pi/16) of the way at each turning point
+    // chords of a sixteenth turn lose at most 1 - cos(pi/16) of the distance at each turning point
     std::size_t chords = 1;
     if (arc) {
       const double sweep_rad = std::fabs(path.arc_of(i).sweep_rad);

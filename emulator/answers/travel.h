@@ -14,16 +14,16 @@ struct MachineModel;
 
 namespace kadr::emulator {
 
-/// Where a program takes one axis; axis units (mm or deg), machine coordinates.
+/// Travel of one axis in a program; axis units (mm or deg), machine coordinates.
 struct AxisTravel {
   double min_u = 0;
   double max_u = 0;
-  double travel_u = 0;  ///< way back and forth together; on arcs within 1 %
+  double travel_u = 0;  ///< distance back and forth together; on arcs within 1 %
 };
 
 /// Per machine axis. [axes]
 std::vector<AxisTravel> axis_travel(const planner::Path& path);
-/// Step pulses that the travel takes, all axes together; an estimate within about 1 %.
+/// Step pulses of the travel, all axes together; an estimate within about 1 %.
 std::int64_t estimate_pulses(const std::vector<AxisTravel>& travel, const machine::MachineModel& machine);
 
 /// What F measures on a segment (NIST rule): "mm" as soon as a linear axis moves, else "deg".

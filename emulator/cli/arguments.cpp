@@ -22,7 +22,7 @@ class Reader {
     for (const ExitCode& c : kExitCodes)
       codes += fmt::format("{}{} {}", codes.empty() ? "" : c.code == "3" ? ",\n" : ", ", c.code, c.meaning);
     app_.footer(
-        fmt::format("`kadr COMMAND --help` tells more. `-` is standard input. Data go to standard output, "
+        fmt::format("`kadr COMMAND --help` shows details. `-` is standard input. Data go to standard output, "
                     "messages to standard\nerror. Exit codes: {}.",
                     codes));
     app_.set_version_flag("--version", "kadr " KADR_VERSION);
@@ -41,7 +41,7 @@ class Reader {
     if (help) words.erase(words.begin());
     if (const std::string mistake = help ? unknown_command(app_, words) : usage_mistake(app_, words);
         !mistake.empty()) {
-      fmt::print(stderr, "{0}\n{1} --help tells more\n", mistake, mistake.substr(0, mistake.find(':')));
+      fmt::print(stderr, "{0}\nsee {1} --help\n", mistake, mistake.substr(0, mistake.find(':')));
       return kNotStarted;
     }
     try {
@@ -70,7 +70,7 @@ class Reader {
       std::string complaint = e.what();
       if (const std::string names = command_names(*asked); !names.empty())
         complaint = "which command? " + names;
-      fmt::print(stderr, "{}: {}\n{} --help tells more\n", name, complaint, name);
+      fmt::print(stderr, "{}: {}\nsee {} --help\n", name, complaint, name);
       return kNotStarted;
     }
     return arguments_;

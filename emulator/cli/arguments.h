@@ -36,7 +36,7 @@ enum class DiagnosticFormat : std::uint8_t { human, gcc, json, sarif };
 inline constexpr Vocabulary<DiagnosticFormat, 4> kDiagnosticFormats{{
     {DiagnosticFormat::human, "human", "with the source line and a caret"},
     {DiagnosticFormat::gcc, "gcc", "file:line:column: severity: message"},
-    {DiagnosticFormat::json, "json", "one object a line"},
+    {DiagnosticFormat::json, "json", "one object per line"},
     {DiagnosticFormat::sarif, "sarif", "one SARIF 2.1.0 document"},
 }};
 static_assert(kDiagnosticFormats.complete());
@@ -49,7 +49,7 @@ inline constexpr Vocabulary<ProgressMode, 3> kProgressModes{{
 }};
 static_assert(kProgressModes.complete());
 
-/// How a command talks.
+/// How a command reports.
 struct OutputOptions {
   bool json = false;   ///< one JSON document on standard output
   bool quiet = false;  ///< no notes, no progress, no summary
@@ -59,7 +59,7 @@ struct OutputOptions {
   std::optional<std::size_t> max_errors;  ///< diagnostics shown; 0: all. Not given: 20, in SARIF all
 };
 
-/// What `kadr teach` is asked for.
+/// The request to `kadr teach`.
 struct TeachArguments {
   emulator::TeachOptions options;
   int axes = 2;  ///< of a polyline or Bezier
@@ -74,7 +74,7 @@ struct TeachArguments {
   std::uint32_t cases = 20'000;  ///< of a sweep
 };
 
-/// What `kadr export` writes.
+/// The formats of `kadr export`.
 enum class ExportForm : std::uint8_t { none, csv, excel, json, vcd, svg };
 
 /// Commands that show what is in logs.
@@ -92,9 +92,9 @@ struct ExportOptions {
 struct Arguments {
   Run command = nullptr;
   OutputOptions output;
-  std::vector<std::string>
-      files;            ///< programs, logs, machine files, scenarios, codes: what the command works on
-  std::string machine;  ///< -m: file or shipped name; empty: the default machine
+  /// programs, logs, machine files, scenarios, codes: what the command works on
+  std::vector<std::string> files;
+  std::string machine;                ///< -m: file or shipped name; empty: the default machine
   std::vector<std::string> settings;  ///< --set key=value
   machine::DataSheetWords sheet;      ///< machine new --axes and the others
   bool ask = false;                   ///< machine new --ask

@@ -51,7 +51,7 @@ _kadr() {
     case "$command ${COMP_WORDS[i]}" in
 )";
 
-/// What completes a value or an operand, as commands of the script.
+/// Completion of a value or an operand, as commands of the script.
 std::string bash_offers(const Completion& c) {
   std::string out;
   if (!c.words.empty()) out += fmt::format("_kadr_words {}; ", fmt::join(c.words, " "));
@@ -72,7 +72,7 @@ void add_bash_command(const Command& command, std::string& out) {
   if (!values.empty()) out += fmt::format("      case $prev in\n{}      esac\n", values);
   out += fmt::format("      if [[ $cur == -* ]]; then _kadr_words{}; return 0; fi\n", names);
   if (!command.commands.empty()) out += fmt::format("      _kadr_words{}\n", command_words(command));
-  // the first operand that can be completed stands for all
+  // the first operand that can be completed represents all
   for (const CommandOption& o : command.operands)
     if (const std::string text = bash_offers(o.completion); !text.empty()) {
       out += fmt::format("      {}\n", text.substr(0, text.size() - 2));

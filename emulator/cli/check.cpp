@@ -27,7 +27,7 @@ Json head(const char* command, const std::string& program, const emulator::Job& 
   return j;
 }
 
-/// The whole text of one program's check: `kadr: unreadable` goes to standard error, all else is data.
+/// The whole text of one program's check. `kadr: unreadable` goes to standard error, everything else is data.
 int check_one(const Arguments& arguments, const std::string& path, Console& console, Json& documents) {
   const std::string program = program_text(path);
   emulator::Job job;
@@ -100,7 +100,7 @@ int plan_program(const Arguments& arguments, Console& console) {
     console.diagnostics(diagnostics, job.sources, arguments.tools, Console::Where::errors);
     return kNotStarted;
   }
-  // a plan shows what is asked for, also where the machine is too small: `kadr check` refuses that
+  // a plan shows the program as written, even if the machine is too small: `kadr check` refuses that
   const bool planned = emulator::prepare(job, diagnostics, emulator::SoftLimitRule::warning);
   const int code = !planned || refused(diagnostics, arguments.strict) ? kNo : kYes;
 

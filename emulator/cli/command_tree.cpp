@@ -66,7 +66,7 @@ CommandOption describe(const CLI::Option& option, const Options& options) {
   return out;
 }
 
-/// Options and commands of one App; an option group's stand among those of the command it belongs to.
+/// Options and commands of one App; those of an option group are listed with the command it belongs to.
 void gather(const CLI::App& app, const Options& options, Command& out);
 
 Command describe(const CLI::App& app, const std::string& name, const Options& options) {

@@ -3,10 +3,10 @@
 #include <vector>
 
 /// The command line's own definitions as plain data: the manual page and the shells' completions are made
-/// from it, so that they name what `kadr --help` names.
+/// from it, so that they agree with `kadr --help`.
 namespace kadr::cli {
 
-/// What may stand where a value or an operand is typed.
+/// Allowed values of an option or operand.
 struct Completion {
   std::vector<std::string> words;  ///< from a vocabulary; one that ends in `=` waits for its value
   bool files = false;              ///< names of files, and folders on the way
@@ -18,7 +18,7 @@ struct Completion {
 struct CommandOption {
   std::vector<std::string> names;  ///< "-m", "--machine"
   std::string value;               ///< "FILE|NAME"; empty: takes none
-  std::string text;                ///< lines that begin with blanks stand alone
+  std::string text;                ///< lines that begin with blanks stay separate
   bool required = false;
   bool repeatable = false;
   Completion completion;

@@ -2,8 +2,8 @@
 #include "emulator/cli/arguments.h"
 #include "emulator/cli/console.h"
 
-/// One function per command: does the work, prints, and returns the exit code. The world's faults are thrown
-/// as WorldError or std::system_error, our own as BrokenPromise; main() turns them into exit codes.
+/// One function per command: does the work, prints, and returns the exit code. I/O errors are thrown
+/// as WorldError or std::system_error, faults of kadr as BrokenPromise; main() turns them into exit codes.
 namespace kadr::cli {
 
 int run_program(const Arguments& arguments, Console& console);

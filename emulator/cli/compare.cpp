@@ -4,6 +4,7 @@
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
+#include "emulator/cli/log_notes.h"
 #include "emulator/cli/output_file.h"
 #include "emulator/text/text.h"
 
@@ -20,6 +21,7 @@ int compare_logs(const Arguments& arguments, Console& console) {
       console.error(fmt::format("{}: {}", data.error().path, data.error().reason));
       return kNotStarted;
     }
+    note_passed_over(path, data->end, console);
     runs.push_back({path, std::move(*data)});
   }
   if (console.options().json)

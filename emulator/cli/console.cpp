@@ -49,7 +49,7 @@ Console::Console(const OutputOptions& options) : options_(options), sarif_(curre
 }
 
 Console::~Console() {
-  // a command that ends by an exception: what it printed until then still goes out
+  // a command that ends with an exception: what it printed before still goes out
   write_all(STDOUT_FILENO, buffer_);
 }
 
@@ -64,7 +64,7 @@ void Console::flush() {
   buffer_.clear();
   if (written) return;
   if (reason == EPIPE) {
-    // the reader has enough: end as every filter does
+    // the reader has closed the pipe: end as every filter does
     std::signal(SIGPIPE, SIG_DFL);
     std::raise(SIGPIPE);
   }
@@ -118,7 +118,7 @@ void Console::diagnostics(const Diagnostics& list, const SourceSet& sources, con
                           Where where) {
   sarif_where_ = where;
   if (list.list().empty()) return;
-  // errors have the first right to the room there is
+  // errors come first if there is not room for all
   std::size_t most = options_.max_errors.value_or(sarif() ? 0 : kMaxErrors);
   if (most == 0) most = list.list().size();
   std::size_t errors = std::min(most, list.errors());

@@ -10,7 +10,7 @@
 
 namespace kadr::cli {
 
-/// The world's fault: a file, disk or pipe. Exit code 2.
+/// An I/O error: a file, disk or pipe. Exit code 2.
 class WorldError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -32,15 +32,15 @@ class Console {
   /// A message with "kadr: " before it, to standard error; -q leaves notes out, and so does a document there.
   void note(std::string_view text);
   void error(std::string_view text);
-  /// Diagnostics in the form asked for, at most --max-errors of them, and a line that counts them; in SARIF
+  /// Diagnostics in the requested format, at most --max-errors of them, and a line that counts them; in SARIF
   /// they are gathered until finish().
   /// `where`: standard output for `kadr check`, whose data they are, else standard error.
   enum class Where { output, errors };
   void diagnostics(const Diagnostics& list, const SourceSet& sources, const std::string& subject,
                    Where where);
-  /// Everything is out; throws WorldError if not.
+  /// Flushes; throws WorldError if anything could not be written.
   void flush();
-  /// The end of a command that answers with that exit code: what was gathered for one document goes out.
+  /// Ends a command with that exit code: writes what was gathered for one document.
   void finish(int exit_code);
 
  private:

@@ -2,6 +2,7 @@
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
+#include "emulator/cli/log_notes.h"
 #include "emulator/log_tools/diff/diff_report.h"
 
 namespace kadr::cli {
@@ -39,7 +40,7 @@ Json head(const Diff& diff, const char* align) {
   return {{"align", align}, {"a", json_of(diff.a)}, {"b", json_of(diff.b)}, {"inputs", json_of(diff.inputs)}};
 }
 
-/// What a comparison answers: inputs count under --strict alone.
+/// Exit code of a comparison: inputs count only with --strict.
 template <class Diff>
 int answer(const Diff& diff, const Arguments& arguments) {
   return diff.differ() || (arguments.strict && diff.inputs_differ()) ? kNo : kYes;
@@ -71,6 +72,8 @@ int by_tick(const Arguments& arguments, Console& console) {
   if (json && options.all) document.end_list();
   if (json) document.end(emulator::json_of(*diff));
   if (text) console.data(emulator::render_log_diff(*diff));
+  note_passed_over(diff->a.path, diff->a.end, console);
+  note_passed_over(diff->b.path, diff->b.end, console);
   return answer(*diff, arguments);
 }
 
@@ -99,6 +102,8 @@ int by_path(const Arguments& arguments, Console& console) {
   if (json && options.all) document.end_list();
   if (json) document.end(emulator::json_of(*diff));
   if (text) console.data(emulator::render_path_diff(*diff));
+  note_passed_over(diff->a.path, diff->a.end, console);
+  note_passed_over(diff->b.path, diff->b.end, console);
   return answer(*diff, arguments);
 }
 

@@ -4,6 +4,7 @@
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
+#include "emulator/cli/log_notes.h"
 #include "emulator/cli/output_file.h"
 #include "emulator/log_tools/export/export.h"
 #include "emulator/text/text.h"
@@ -15,11 +16,11 @@ namespace {
 using emulator::LogSamples;
 using emulator::LogState;
 
-// what is shown when nothing is asked for
+// shown unless signals are chosen
 constexpr const char* kFew = "feed.commanded*,feed.programmed*,path.error*,axis.*.following*";
 constexpr const char* kTwo = "feed.commanded*,path.error*";
 
-/// The log with its choice made, or the exit code.
+/// The log with its signals chosen, or the exit code.
 tl::expected<LogSamples, int> open_log(const Arguments& arguments, const char* without_choice,
                                        Console& console) {
   auto log = LogSamples::open(arguments.files.front());
@@ -29,11 +30,11 @@ tl::expected<LogSamples, int> open_log(const Arguments& arguments, const char* w
   }
   emulator::SampleChoice choice = arguments.exported.choice;
   if (choice.from_s > choice.to_s) {
-    console.error(fmt::format("--from {} s is behind --to {} s", choice.from_s, choice.to_s));
+    console.error(fmt::format("--from {} s is after --to {} s", choice.from_s, choice.to_s));
     return tl::unexpected(kNotStarted);
   }
   if (choice.signals.empty() && without_choice != nullptr) {
-    // of the usual ones those that the log has: without plant there is no path error
+    // the usual signals that the log has: without plant there is no path error
     for (const emulator::Signal& signal : log->signals()) {
       std::string_view rest = without_choice;
       while (!rest.empty()) {
@@ -51,16 +52,17 @@ tl::expected<LogSamples, int> open_log(const Arguments& arguments, const char* w
   return std::move(*log);
 }
 
-/// Yes if all that was asked for was there: a log that breaks off is told.
+/// Yes if everything requested was there. Reports a log that breaks off, and what of it was passed over.
 int end_of(const LogSamples& log, const std::string& path, Console& console) {
   const emulator::LogEnd* end = log.end();
+  if (end != nullptr) note_passed_over(path, *end, console);
   if (end == nullptr || end->state == LogState::complete || end->state == LogState::interrupted) return kYes;
   console.error(fmt::format("{}: {}; what was written ends at {} s", path, end->detail,
                             emulator::fixed(log.header().seconds(end->valid_until), 6)));
   return kNo;
 }
 
-/// What the values of codes mean, a signal a paragraph.
+/// The meanings of code values, one paragraph per signal.
 std::string code_legend(const LogSamples& log) {
   std::string out;
   for (const emulator::Signal& s : log.signals()) {
@@ -102,7 +104,7 @@ int export_log(const Arguments& arguments, Console& console) {
   const ExportOptions& out = arguments.exported;
   const bool few = out.form == ExportForm::vcd || out.form == ExportForm::svg;
   if (out.form == ExportForm::vcd && out.choice.rate_hz > 0) {
-    console.error("--vcd holds every pulse: it goes with --from and --to, not with --rate-hz");
+    console.error("--vcd contains every pulse: use --from and --to with it, not --rate-hz");
     return kNotStarted;
   }
   auto log = open_log(arguments, few ? kFew : nullptr, console);

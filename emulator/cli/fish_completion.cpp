@@ -20,12 +20,12 @@ function __kadr_at -a wanted
     switch "$command $word"
       case )";
 
-/// Lines that have effect in one command.
+/// Lines that apply to one command.
 std::string fish_line(const Command& command, std::string_view rest) {
   return fmt::format("complete -c kadr -n \"__kadr_at '{}'\"{}\n", shell_path(command), rest);
 }
 
-/// Options of fish's `complete` for what may stand there; with a value, nothing else may.
+/// Options of fish's `complete` for the allowed values; with a value, nothing else is allowed.
 std::string fish_offers(const Completion& c, bool value) {
   std::string out = value ? (c.files && c.extension.empty() ? " -r -F" : " -x") : "";
   if (!value && c.files && c.extension.empty()) out += " -F";
@@ -48,7 +48,7 @@ void add_fish_command(const Command& command, std::string& out) {
     if (!o.value.empty()) names += fish_offers(o.completion, true);
     out += fish_line(command, fmt::format("{} -d {}", names, shell_quoted(o.text, kFishSpecial)));
   }
-  // the first operand that can be completed stands for all
+  // the first operand that can be completed represents all
   for (const CommandOption& o : command.operands)
     if (const std::string text = fish_offers(o.completion, false); !text.empty()) {
       out += fish_line(command, text);

@@ -23,10 +23,10 @@ using emulator::Json;
   throw WorldError(fmt::format("{}: {}", path.string(), reason));
 }
 
-/// Puts a text in the place of a file at once: whoever reads it sees the old text or the new one.
+/// Replaces the text of a file atomically: a reader sees the old text or the new one.
 void replace_file(const std::string& path, const std::string& text) {
   std::error_code error;
-  // a symbolic link stays one
+  // a symbolic link stays a link
   const fs::path file = fs::canonical(path, error);
   if (error) fail(path, error.message());
   fs::path part = file;
@@ -65,7 +65,7 @@ int act(const Formatted& formatted, const std::string& path, const Arguments& ar
     return code;
   }
   if (!formatted.readable) {
-    console.error(fmt::format("{}: left as it is, mend its errors first", path));
+    console.error(fmt::format("{}: left unchanged; fix its errors first", path));
     return code;
   }
   if (formatted.differs) replace_file(path, formatted.text);
@@ -96,7 +96,7 @@ int format_one(const std::string& path, const Arguments& arguments, Console& con
     documents.push_back(std::move(j));
     return code;
   } catch (const WorldError& e) {
-    // the other programs still get their form
+    // the other programs are still formatted
     console.error(e.what());
     return kNotStarted;
   }

@@ -4,12 +4,12 @@
 
 namespace kadr::cli {
 
-/// Runs the work of a program and turns what it throws into a message on standard error and an exit code: the
-/// world's faults (WorldError, std::system_error, no memory) into 2, anything else into 70 with a line that
-/// reproduces it.
+/// Runs the work of a program and turns exceptions into a message on standard error and an exit code:
+/// I/O errors (WorldError, std::system_error, no memory) into 2, anything else into 70
+/// with a line that reproduces it.
 int guarded(int argc, const char* const* argv, const std::function<int()>& work);
 
-/// The command line as one can paste it into a shell.
+/// The command line, quoted so that it can be pasted into a shell.
 std::string shell_line(int argc, const char* const* argv);
 
 }  // namespace kadr::cli

@@ -62,10 +62,11 @@ Json info_json(const LogInfo& info) {
   j["content_hash"] = hash_text(info.content_hash);
   j["content_hash_agrees"] = agreement(info.content_hash_agrees());
   j["file_hash"] = hash_text(info.file_hash);
+  if (!info.end.passed_over.empty()) j["passed_over"] = info.end.passed_over;
   return j;
 }
 
-/// No: the log was cut off or damaged, or its numbers are not those that were written.
+/// No if the log was cut off or damaged, or its numbers differ from those written.
 bool sound(const LogInfo& info) {
   return (info.end.state == LogState::complete || info.end.state == LogState::interrupted) &&
          info.steps_hash_agrees().value_or(true) && info.content_hash_agrees().value_or(true);

@@ -7,7 +7,7 @@
 
 namespace kadr::cli {
 
-/// Reads a machine into a job. An empty name is mill3; a shipped machine's name goes before a file of that
+/// Reads a machine into a job. An empty name is mill3; a shipped machine's name takes precedence over a file of that
 /// name.
 /// @return false if it has errors (in `diagnostics`)
 /// @throws WorldError for a name that is neither; std::system_error for a file that can't be read
@@ -29,7 +29,7 @@ std::string program_text(const std::string& path);
 /// Number of lines of a text.
 std::uint32_t count_lines(std::string_view text);
 
-/// Errors, and warnings where --strict makes them count.
+/// True if there are errors, or warnings under --strict.
 bool refused(const Diagnostics& diagnostics, bool strict);
 
 }  // namespace kadr::cli

@@ -37,19 +37,21 @@ void add_tube(Options& o) {
       ->required()
       ->expected(1)
       ->type_name("");
-  o.repeated(sub, "--method", "NAME",
-             fmt::format("Use only this method: {};\nrepeatable (default: all that the problem states)",
-                         emulator::kLawMethods.list()),
-             [&o](const std::string& text) -> tl::expected<void, std::string> {
-               if (!emulator::kLawMethods.find(text))
-                 return tl::unexpected(fmt::format("knows {}; got '{}'", emulator::kLawMethods.list(), text));
-               o.arguments.methods.push_back(text);
-               return {};
-             });
-  sub->add_option("--csv", o.arguments.csv_path,
-                  "Write a CSV file, a row per node: s in mm, highest speed and what holds it, speed in mm/s "
-                  "and time\n"
-                  "in s of every law")
+  o.repeated(
+      sub, "--method", "NAME",
+      fmt::format("Use only this method: {};\nrepeatable (default: all that the problem states)",
+                  emulator::kLawMethods.list()),
+      [&o](const std::string& text) -> tl::expected<void, std::string> {
+        if (!emulator::kLawMethods.find(text))
+          return tl::unexpected(fmt::format("takes one of {}; got '{}'", emulator::kLawMethods.list(), text));
+        o.arguments.methods.push_back(text);
+        return {};
+      });
+  sub->add_option(
+         "--csv", o.arguments.csv_path,
+         "Write a CSV file, a row per node: s in mm, highest speed and what limits it, speed in mm/s "
+         "and time\n"
+         "in s of every law")
       ->type_name("FILE");
   sub->add_option("--page", o.arguments.page_path, "Write charts and tables as one HTML file")
       ->type_name("FILE");
@@ -72,7 +74,7 @@ void add_tube(Options& o) {
   sub->footer("Example: kadr tube docs/tube/laying.toml --page laying.html");
 }
 
-/// A number that goes where `take` puts it; its range is the library's business.
+/// A number, stored by `take`; the library checks its range.
 void number(CLI::App* sub, const std::string& name, const std::string& unit, const std::string& meaning,
             std::function<void(double)> take) {
   sub->add_option_function<std::string>(
@@ -133,7 +135,7 @@ void add_law(Options& o) {
   sub->footer("Example: kadr law --zeta 0.005 --xi 0.3601 --page laws.html");
 }
 
-/// Bounds are left to the generator, which knows those that hang on other parameters too.
+/// The generator checks the bounds, since some depend on other parameters.
 void wind_parameter(Options& o, CLI::App* sub, const scenarios::WindParameter& p) {
   const std::string flag = scenarios::wind_flag(p.key);
   sub->add_option_function<std::string>(

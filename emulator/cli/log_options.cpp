@@ -9,19 +9,17 @@ namespace {
 
 void add_info(Options& o) {
   CLI::App* sub =
-      o.command(o.app, "info", log_info, "Show what a log holds: run, channels, span in s, hashes");
+      o.command(o.app, "info", log_info, "Show what a log contains: run, channels, span in s, hashes");
   sub->add_option("LOG", o.arguments.files, "Logs written by kadr run")->required()->type_name("");
   o.output(sub);
 }
 
-/// Commands are compared to the last bit by ticks: only between places of the path there is something to
-/// allow.
+/// Commands are compared to the last bit by ticks; only a comparison by path can have a tolerance.
 void check_diff(const Arguments& arguments) {
   const auto feed = static_cast<std::size_t>(emulator::ToleranceKey::feed);
   const emulator::Tolerances& tolerance = arguments.diff.tolerance;
   if (arguments.diff.align == emulator::DiffAlign::tick && (tolerance.linear[feed] || tolerance.rotary[feed]))
-    throw CLI::ValidationError(
-        "--tolerance feed goes with --align path: by tick, commands are compared exactly");
+    throw CLI::ValidationError("--tolerance feed needs --align path: by tick, commands are compared exactly");
 }
 
 void add_diff(Options& o) {

@@ -79,7 +79,7 @@ std::string corner_text(const SheetAxis& axis) {
                      axis.unit());
 }
 
-/// What was understood, an axis a row; `*` marks a default.
+/// The values read, one row per axis; `*` marks a default.
 std::string understood(const DataSheet& sheet) {
   emulator::TextTable table({{"axis"},
                              {"travel"},
@@ -107,18 +107,18 @@ std::string defaults_that_matter(const DataSheet& sheet) {
   };
   const bool linear = any([](const SheetAxis& a) { return a.kind == machine::AxisKind::linear; });
   const std::string u = linear ? "mm" : "deg";
-  std::string out = "defaults that matter (* above), to be changed in the file:\n";
+  std::string out = "defaults that matter (* above); change them in the file:\n";
   const auto tell = [&](const std::string& key, std::string_view meaning) {
     out += fmt::format("  {:<28}  {}\n", key, meaning);
   };
   tell("junction_acceleration_" + u + "_s2",
-       "corner above is this times 1 ms: an axis may change its speed so far at once");
+       "corner above is this times 1 ms: an axis may change its speed by that much at once");
   if (any([](const SheetAxis& a) { return a.acceleration_u_s2.given.empty(); }))
     tell("max_acceleration_" + u + "_s2", "a guess; --acceleration gives the machine's");
   if (any([](const SheetAxis& a) { return a.jerk_u_s3.given.empty(); }))
-    tell("max_jerk_" + u + "_s3", "inf: acceleration jumps; --jerk bounds it");
+    tell("max_jerk_" + u + "_s3", "inf: acceleration jumps; --jerk limits it");
   if (any([](const SheetAxis& a) { return !a.zero_given; }))
-    tell("range_" + u, "travel lies from 0 up, of Z half below 0; --travel LOW..HIGH says otherwise");
+    tell("range_" + u, "travel runs from 0 up, for Z half of it below 0; --travel LOW..HIGH sets it");
   if (sheet.tool_change_s.given.empty())
     tell("tool_change_s", "M6 takes no time; --tool-change gives the seconds");
   return out;
@@ -140,7 +140,7 @@ Json axis_json(const SheetAxis& axis) {
   return j;
 }
 
-/// The reader is the judge of what was written: a data sheet that passed makes a file without errors.
+/// Reads back what was written: a data sheet that passed makes a file without errors.
 void check_text(const std::string& text, const std::string& path) {
   SourceSet sources;
   const auto read = machine::read_machine(SourceText(path, text), sources);
@@ -173,7 +173,7 @@ int write_sheet(const Arguments& arguments, const DataSheetWords& words, const s
 
 struct Question {
   std::string DataSheetWords::*word;
-  std::string_view option;  ///< with which a complaint about the answer begins
+  std::string_view option;  ///< beginning of a complaint about the answer
   std::string_view text;
   std::string_view otherwise;  ///< of an empty answer
   bool must = false;           ///< an empty answer is no answer
@@ -184,11 +184,11 @@ constexpr Question kQuestions[] = {
     {&DataSheetWords::max_speed, "--max-speed", "Rapid rate with its unit, e.g. 5000mm/min", "", true},
     {&DataSheetWords::acceleration, "--acceleration", "Acceleration in mm/s2 or deg/s2 [500]", ""},
     {&DataSheetWords::steps, "--steps-per-mm",
-     "Motor steps per mm or deg, microsteps included [400; of A B C 100]", ""},
+     "Motor steps per mm or deg, microsteps included [400; A B C: 100]", ""},
     {&DataSheetWords::tool_change, "--tool-change", "Time of a tool change in s [0]", "0"},
 };
 
-/// What is wrong with the answer to a question; questions that come later have none yet.
+/// Error in the answer to a question; later questions have no answer yet.
 std::string complaint(DataSheetWords words, const Question& question) {
   if (words.travel.empty()) words.travel = "1";
   if (words.max_speed.empty()) words.max_speed = "1mm/s";
@@ -197,7 +197,7 @@ std::string complaint(DataSheetWords words, const Question& question) {
   return sheet.error();
 }
 
-/// A speed for each axis, in its unit, which no number of steps makes too fast.
+/// A speed for each axis, in its unit, that is not too fast for any number of steps.
 std::string slow(const std::string& axes) {
   std::string speeds;
   for (const char letter : axes) {
@@ -208,7 +208,7 @@ std::string slow(const std::string& axes) {
   return speeds;
 }
 
-/// What is wrong with the options that were given, before anything is asked. Without axes a single value has
+/// Errors in the given options, before any question. Without axes a single value has
 /// to suit a linear or a rotary axis; a list waits for the axes.
 std::string given_wrong(DataSheetWords words) {
   const bool axes_given = !words.axes.empty();
@@ -237,7 +237,7 @@ std::string answer(const Question& question) {
   return line.empty() ? std::string(question.otherwise) : line;
 }
 
-/// Asks for what the options leave open, each question until its answer can be read.
+/// Asks for the values that the options leave open, each question until its answer can be read.
 /// @throws WorldError where nobody can answer
 void ask(DataSheetWords& words) {
   if (::isatty(STDIN_FILENO) == 0 || ::isatty(STDOUT_FILENO) == 0)
@@ -290,7 +290,8 @@ int machine_new(const Arguments& arguments, Console& console) {
   if (arguments.ask) ask(words);
   if (words.empty()) return copy_machine(arguments, name, console);
   if (!arguments.machine.empty()) {
-    console.error("machine new: --from copies a machine; it goes without --axes, --travel and the others");
+    console.error(
+        "machine new: --from copies a machine; it can't be used with --axes, --travel and the others");
     return kNotStarted;
   }
   return write_sheet(arguments, words, name, console);

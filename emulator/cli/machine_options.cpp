@@ -5,7 +5,7 @@
 namespace kadr::cli {
 namespace {
 
-/// What a data sheet says: read by machine::read_data_sheet.
+/// Options of a data sheet, read by machine::read_data_sheet.
 void add_data_sheet(CLI::App* make, Arguments& arguments) {
   machine::DataSheetWords& sheet = arguments.sheet;
   const auto word = [make](const char* name, std::string& value, const char* type, const char* description) {
@@ -14,7 +14,7 @@ void add_data_sheet(CLI::App* make, Arguments& arguments) {
   word("--axes", sheet.axes, "LETTERS", "Axes of the machine, of X Y Z A B C U V W (default XYZ)");
   word("--travel", sheet.travel, "LENGTH,...",
        "Travel of the axes in mm (A B C: deg; inf: turns without end): a length, or LOW..HIGH in machine\n"
-       "coordinates. A length lies from 0 up; of Z half below 0, half above");
+       "coordinates. A length runs from 0 up; for Z half below 0, half above");
   word("--max-speed", sheet.max_speed, "SPEED,...",
        "Rapid rate with its unit: mm/min, mm/s, m/min, in/min; A B C: deg/min, deg/s, rpm");
   word("--acceleration", sheet.acceleration, "ACC,...",
@@ -25,7 +25,7 @@ void add_data_sheet(CLI::App* make, Arguments& arguments) {
        "Motor steps per mm (A B C: per deg), microsteps included (default 400; A B C: 100)");
   word("--home", sheet.home, "POSITION,...",
        "Where an axis stands when a program begins, mm (A B C: deg), within its travel (default 0)");
-  word("--tool-change", sheet.tool_change, "TIME", "Time that M6 costs, s unless it says min (default 0)");
+  word("--tool-change", sheet.tool_change, "TIME", "Time that M6 takes, s unless it says min (default 0)");
   make->add_flag("--ask", arguments.ask,
                  "Ask for axes, travel, speed, acceleration, steps and tool change that are not given; needs "
                  "a\nterminal")
@@ -42,11 +42,11 @@ void add_machine_new(Options& o, CLI::App* group) {
       ->type_name("");
   make->add_option("--from", o.arguments.machine, "Machine to copy: file or shipped name (default mill3)")
       ->type_name("FILE|NAME");
-  make->add_flag("--force", o.arguments.force, "Overwrite the file if it is there");
+  make->add_flag("--force", o.arguments.force, "Overwrite the file if it exists");
   add_data_sheet(make, o.arguments);
   o.output(make);
   make->footer(
-      "One value holds for all axes; a list with commas has one for each, in the order of --axes. Without "
+      "One value applies to all axes; a list with commas has one per axis, in the order of --axes. Without "
       "any\n"
       "data sheet option the file is a copy.\n"
       "Example: kadr machine new router --travel 800,800,80 --max-speed 5000mm/min --acceleration 200 "
@@ -85,7 +85,7 @@ void add_explain(Options& o) {
 
 void add_scenario(Options& o) {
   CLI::App* group =
-      o.app.add_subcommand("scenario", "Run scenarios: a program, a machine and what must come out");
+      o.app.add_subcommand("scenario", "Run scenarios: a program, a machine and the expected results");
   group->require_subcommand(1);
   CLI::App* run = o.command(*group, "run", scenario_run, "Run scenarios and compare; exit 1 if one fails");
   run->add_option("DIR", o.arguments.files, "Scenario files or folders (default: scenarios)")->type_name("");

@@ -17,8 +17,8 @@ struct ManualEntry {
 
 constexpr std::array kEnvironment = {
     ManualEntry{"NO_COLOR", "Messages are not coloured (unless `--color always`)."},
-    ManualEntry{"CLICOLOR_FORCE", "Messages are coloured also where no terminal reads them."},
-    ManualEntry{"CI", "No bar of progress and no colour unless asked for."},
+    ManualEntry{"CLICOLOR_FORCE", "Messages are coloured even where no terminal reads them."},
+    ManualEntry{"CI", "No progress bar and no colour unless requested."},
 };
 constexpr std::array kFiles = {
     ManualEntry{"PROG.lcmlog",
@@ -27,8 +27,9 @@ constexpr std::array kFiles = {
         "PREFIX/share/kadr/machines/*.toml",
         "The machine files that ship with kadr; their names need no file. PREFIX is /usr in the Debian "
         "package."},
-    ManualEntry{"PREFIX/share/kadr/scenarios/*/scenario.toml",
-                "Programs with a machine and what must come out; `kadr scenario run` writes nothing there."},
+    ManualEntry{
+        "PREFIX/share/kadr/scenarios/*/scenario.toml",
+        "Programs with a machine and the expected results; `kadr scenario run` writes nothing there."},
     ManualEntry{"PREFIX/share/kadr/kadr.lcm", "The types of the log's messages, for lcm-gen(1)."},
     ManualEntry{"PREFIX/share/doc/kadr", "README.md, and docs/ with a page on each subject."},
 };
@@ -75,7 +76,7 @@ std::string_view roff_escape(char c) {
   }
 }
 
-/// Text of roff: what stands between backticks becomes bold.
+/// Roff text: text between backticks becomes bold.
 std::string roff_text(std::string_view text) {
   std::string out;
   bool bold = false;
@@ -96,7 +97,7 @@ std::string roff_text(std::string_view text) {
 std::string roff_bold(std::string_view text) { return fmt::format("\\fB{}\\fR", roff_text(text)); }
 std::string roff_italic(std::string_view text) { return fmt::format("\\fI{}\\fR", roff_text(text)); }
 
-/// A paragraph of help: its line ends are only layout, but lines that begin with blanks stand alone.
+/// A paragraph of help: its line ends are only layout, but lines that begin with blanks stay separate.
 std::string paragraph(std::string_view text) {
   std::string out;
   while (!text.empty()) {
@@ -166,7 +167,7 @@ std::string manual_page(const Command& kadr) {
   out += kManualTop;
   out += ".SH OPTIONS\n";
   for (const CommandOption& o : kadr.options) out += option_entry(o);
-  out += ".PP\nEvery command knows " + roff_bold("--help") + ".\n.SH COMMANDS\n";
+  out += ".PP\nEvery command takes " + roff_bold("--help") + ".\n.SH COMMANDS\n";
   add_commands(kadr, out);
   out += ".SH EXIT STATUS\n";
   for (const ExitCode& c : kExitCodes)

@@ -22,7 +22,7 @@ bool read_number(std::string text, T& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// The command line under construction: where its commands write what they read, and the options that several
+/// The command line under construction: where its commands store what they read, and the options that several
 /// of them share.
 class Options {
  public:
@@ -30,7 +30,7 @@ class Options {
 
   CLI::App& app;
   Arguments& arguments;
-  /// Of options whose values are words of a vocabulary; others are completed by the name of their value.
+  /// For options whose values are words of a vocabulary; others are completed by the name of their value.
   std::map<const CLI::Option*, Completion> completions;
 
   CLI::App* command(CLI::App& parent, const std::string& name, Run run, const std::string& description);
@@ -48,7 +48,7 @@ class Options {
     completions[option].words = std::move(list);
   }
 
-  /// An option whose every value is handed to `take`, which may find fault with it.
+  /// An option whose values are passed to `take`, which may reject them.
   void repeated(CLI::App* sub, const std::string& name, const char* type, const std::string& description,
                 const std::function<tl::expected<void, std::string>(const std::string&)>& take);
 
@@ -64,7 +64,7 @@ class Options {
           const auto found = vocabulary.find(text);
           if (!found)
             throw CLI::ValidationError(
-                fmt::format("{} knows {}; got '{}'", name, fmt::join(list, ", "), text));
+                fmt::format("{} takes one of {}; got '{}'", name, fmt::join(list, ", "), text));
           value = *found;
         },
         description);

@@ -12,7 +12,7 @@ class OutputFile {
   explicit OutputFile(std::string path);
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
-  ~OutputFile();  ///< of a file that was not closed nothing stays
+  ~OutputFile();  ///< removes a file that was not closed
 
   void write(std::string_view text);
   void close();

@@ -16,8 +16,8 @@ void add_run(Options& o) {
   sub->parse_complete_callback([&o] {
     if (o.arguments.files.empty() && o.arguments.scenario.empty()) throw CLI::RequiredError("PROG");
     if (!o.arguments.log && !o.arguments.log_path.empty())
-      throw CLI::ValidationError(
-          fmt::format("--no-log writes no log, --log writes '{}': give one of them", o.arguments.log_path));
+      throw CLI::ValidationError(fmt::format(
+          "--no-log writes no log, --log writes '{}': give only one of them", o.arguments.log_path));
   });
   o.machine(sub);
   o.reading(sub);

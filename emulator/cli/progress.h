@@ -8,7 +8,7 @@
 
 namespace kadr::cli {
 
-/// A line on standard error that tells how far something is. On a terminal it is redrawn ten times a second
+/// A progress line on standard error. On a terminal it is redrawn ten times a second
 /// after the first 0.3 s and erased at the end; elsewhere a plain line every 10 s.
 class ProgressLine {
  public:
@@ -17,7 +17,7 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine() { erase(); }
-  /// Shows the line if it is time to; its text is only made then.
+  /// Shows the line if it is due; its text is only made then.
   /// @param bar, plain  std::string(), for a terminal and else
   template <class Bar, class Plain>
   void update(const Bar& bar, const Plain& plain) {

@@ -2,6 +2,7 @@
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
+#include "emulator/cli/log_notes.h"
 #include "emulator/cli/output_file.h"
 #include "emulator/log_tools/report/report_page.h"
 #include "emulator/text/text.h"
@@ -28,6 +29,7 @@ int report_log(const Arguments& arguments, Console& console) {
   }
   const bool whole =
       data->end.state == emulator::LogState::complete || data->end.state == emulator::LogState::interrupted;
+  note_passed_over(path, data->end, console);
   const std::string name = out.output_path.empty() ? page_path(path) : out.output_path;
   std::string failure;
   const auto again = [&](const emulator::PageData& page, const std::vector<emulator::Stretch>& stretches) {

@@ -34,7 +34,7 @@ bool same_file(const std::string& a, const std::string& b) {
   return fs::equivalent(a, b, ignored);
 }
 
-/// A log must never take the place of one of its inputs.
+/// Refuses a log path that would overwrite one of the inputs.
 void refuse_bad_log_path(const std::string& log, const Arguments& arguments, const std::string& program) {
   if (log == "-")
     throw WorldError("a log can't go to standard output: it is written beside and renamed at the end");
@@ -44,7 +44,7 @@ void refuse_bad_log_path(const std::string& log, const Arguments& arguments, con
   if (fs::is_directory(log)) throw WorldError(fmt::format("{}: is a folder; -o names the log itself", log));
 }
 
-/// What is going to be written, told before the run; how much room there is, if that is too little.
+/// Prints the expected size of the log before the run, and the free space if that is too little.
 void tell_expected_size(const emulator::Job& job, const Arguments& arguments, const std::string& log,
                         const emulator::RunHeader& header, Console& console) {
   const machine::MachineModel& model = job.machine.model;
@@ -71,7 +71,7 @@ void tell_expected_size(const emulator::Job& job, const Arguments& arguments, co
 
 /// Program, machine and settings, from the command line or else from the scenario.
 struct RunInputs {
-  Arguments arguments;  ///< with what the scenario gave filled in
+  Arguments arguments;  ///< completed by the scenario
   emulator::Job job;
   Diagnostics diagnostics;
   std::string program;  ///< as given, for people
@@ -136,7 +136,7 @@ Json head(const RunInputs& in, int exit_code) {
   return j;
 }
 
-/// Nothing moves: what was wrong goes out, in the form asked for.
+/// The run does not start: prints the diagnostics in the requested format.
 int refuse(const RunInputs& in, int exit_code, Console& console) {
   if (console.options().json) {
     Json j = head(in, exit_code);
@@ -151,7 +151,7 @@ int refuse(const RunInputs& in, int exit_code, Console& console) {
   return exit_code;
 }
 
-/// Ends a run that the world or the plant's numerics stopped.
+/// Ends a run that an I/O error or the plant's numerics stopped.
 [[noreturn]] void fail(const std::string& what) { throw WorldError(what); }
 [[noreturn]] void fail(const emulator::LogError& e) { fail(fmt::format("{}: {}", e.path, e.reason)); }
 
@@ -204,11 +204,7 @@ int move(RunInputs& in, Console& console) {
   const auto result = emulator::run(job, &alarms, options);
   const double wall_s = progress.wall_s();
   progress.erase();
-  if (!result) {
-    if (result.error().world) fail(result.error().what);
-    console.error(result.error().what);
-    return kAlarm;
-  }
+  if (!result) fail(result.error().what);
 
   const int code = result->exit_code;
   emulator::SummaryContext context;

@@ -16,7 +16,7 @@ std::string file_name(const std::string& path) {
 }
 
 /// The lines without their comments: these name files as the user gave them, and equal inputs give equal logs
-/// wherever they lie.
+/// wherever they are.
 std::string without_comments(std::string_view toml) {
   std::string out;
   while (!toml.empty()) {

@@ -5,8 +5,8 @@
 
 namespace kadr::cli {
 
-/// What a log says first: the run's inputs in full and their hash, so that the log alone can be run again.
-/// @param options     plant and until_s are inputs of a run and stand in the settings; threads are not
+/// The first message of a log: the run's inputs in full and their hash, so that the log alone can be run again.
+/// @param options     plant and until_s are inputs of a run and belong to the settings; threads are not
 /// @param scenario_toml  as read, empty if none
 /// The header points into the job's machine.
 emulator::RunHeader run_header(const emulator::Job& job, const emulator::RunOptions& options,

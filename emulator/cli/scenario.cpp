@@ -24,7 +24,7 @@ std::string installed_scenarios() {
   return !unknown && fs::is_directory(folder, unknown) ? folder.string() : "PREFIX/share/kadr/scenarios";
 }
 
-/// @throws WorldError where there is none, saying what was looked for
+/// @throws WorldError if there is none, with the paths tried
 std::vector<std::string> scenarios_of(const Arguments& arguments) {
   try {
     return emulator::find_scenarios(arguments.files);
@@ -39,7 +39,7 @@ std::vector<std::string> scenarios_of(const Arguments& arguments) {
   }
 }
 
-/// Rewrites the expectations of a scenario with what it did.
+/// Rewrites the expectations of a scenario with the measured values.
 void update(const std::string& path, const emulator::ScenarioResult& result, Console& console) {
   SourceSet sources;
   const auto scenario = emulator::read_scenario(path, sources);

@@ -5,7 +5,7 @@
 
 #include "emulator/cli/command_tree.h"
 
-/// What the scripts for the three shells have in common.
+/// Common parts of the scripts for the three shells.
 namespace kadr::cli {
 
 /// " machine show" of "kadr machine show", "" of "kadr": the words that a script has read so far.

@@ -16,8 +16,7 @@ class SignalGuard {
   int signal() const;
 };
 
-/// Writing to a closed pipe or past a file size limit becomes an error of the write instead of the program's
-/// end.
+/// Writing to a closed pipe or past a file size limit becomes an error of the write instead of the program's end.
 void ignore_write_signals();
 
 }  // namespace kadr::cli

@@ -51,7 +51,8 @@ int teach_table(const Arguments& arguments, Console& console) {
     OutputFile vcd(teach.vcd_path);
     vcd.write(emulator::render_vcd(train, kHigh_ticks));
     vcd.close();
-    console.note(fmt::format("wrote {}: {} pulses in {} us", teach.vcd_path, emulator::grouped(table.pulses),
+    console.note(fmt::format("wrote {}: {} in {} us", teach.vcd_path,
+                             emulator::counted(table.pulses, "pulse"),
                              emulator::fixed(static_cast<double>(train.duration.value) / 10, 1)));
   }
   if (console.options().json) {

@@ -31,17 +31,15 @@ void bounded(CLI::App* sub, const std::string& name, T& value, double least, dou
       ->type_name("N");
 }
 
-/// What may follow where a case is wanted.
+/// Words that may follow in a case.
 void case_words(Options& o, const CLI::App* sub) {
-  std::vector<std::string> names;
-  for (const emulator::TeachKind& k : emulator::teach_kinds()) names.emplace_back(k.name);
-  o.words(sub->get_option("CASE"), std::move(names));
+  o.words(sub->get_option("CASE"), emulator::kCaseKinds.strings());
 }
 
 void subject(Options& o, CLI::App* sub) {
   std::string kinds;
-  for (const emulator::TeachKind& k : emulator::teach_kinds())
-    kinds += fmt::format("\n  {} {}: {}", k.name, k.words, k.meaning);
+  for (const auto& k : emulator::kCaseKinds)
+    kinds += fmt::format("\n  {} {}: {}", k.word, emulator::case_numbers(k.value), k.sentence);
   sub->add_option("CASE", o.arguments.files, "What is interpolated, in whole steps:" + kinds)
       ->required()
       ->expected(1, 4096)
@@ -78,7 +76,7 @@ void methods(Options& o, CLI::App* sub, std::size_t most) {
                                most, most),
              [&o, names, most](const std::string& text) -> tl::expected<void, std::string> {
                if (!emulator::lattice::method_of(text))
-                 return tl::unexpected(fmt::format("knows {}; got '{}'", names, text));
+                 return tl::unexpected(fmt::format("takes one of {}; got '{}'", names, text));
                if (o.arguments.methods.size() == most)
                  return tl::unexpected(fmt::format("is taken {} at most; '{}' is one more",
                                                    most == 1 ? "once" : fmt::format("{} times", most), text));
@@ -125,6 +123,13 @@ void add_methods(Options& o, CLI::App* group) {
   o.output(sub);
 }
 
+const CLI::Option* page_path(Options& o, CLI::App* sub) {
+  return sub
+      ->add_option("-o,--output", o.arguments.teach.page_path,
+                   "Page to write (default teach.html); `-`: standard output")
+      ->type_name("FILE");
+}
+
 void add_page(Options& o, CLI::App* group) {
   CLI::App* sub = o.command(*group, "page", teach_page,
                             "Write the teaching page: the same interpolators, to be clicked through in a\n"
@@ -134,9 +139,7 @@ void add_page(Options& o, CLI::App* group) {
       ->type_name("");
   case_words(o, sub);
   methods(o, sub, kMostCompared);
-  sub->add_option("-o,--output", o.arguments.teach.page_path,
-                  "Page to write (default teach.html); `-`: standard output")
-      ->type_name("FILE");
+  page_path(o, sub);
   o.output(sub);
   sub->footer("Example: kadr teach page arc 7 0 0 7 ccw -o arc.html");
 }
@@ -174,8 +177,12 @@ void add_bezier(Options& o, CLI::App* group) {
 void add_teach_commands(Options& o) {
   CLI::App* group = o.app.add_subcommand("teach", "Show how interpolators and splines work, step by step");
   group->require_subcommand(0, 1);
-  group->callback([&o, group] {
-    if (group->get_subcommands().empty()) o.arguments.command = teach_page;
+  const CLI::Option* page = page_path(o, group);
+  group->callback([&o, group, page] {
+    if (group->get_subcommands().empty())
+      o.arguments.command = teach_page;
+    else if (page->count() > 0)
+      throw CLI::ValidationError("options follow the command");
   });
   group->footer(
       "Alone it writes the teaching page, as `kadr teach page`. `kadr teach table --help` lists the cases; "

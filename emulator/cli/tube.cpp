@@ -59,7 +59,7 @@ std::string tables(const Arguments& arguments, const LawStudy& study, const Time
   return out + '\n' + emulator::render_law_checks(study, problem);
 }
 
-/// Standard output has the same bytes on a terminal; times of the wall go beside it.
+/// Standard output has the same bytes on a terminal; wall times go to standard error.
 void note_times(const Arguments& arguments, const LawStudy& study, Console& console) {
   if (arguments.timing || !::isatty(STDERR_FILENO)) return;
   std::string text = "wall";
@@ -69,7 +69,7 @@ void note_times(const Arguments& arguments, const LawStudy& study, Console& cons
   console.note(text);
 }
 
-/// Shows how far a problem is, if it is time to.
+/// Shows the progress of a problem, if it is due.
 void tell(ProgressLine& progress, const std::string& stage, double done) {
   const auto text = [&] { return stage_bar(stage, done); };
   progress.update(text, text);

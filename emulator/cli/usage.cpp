@@ -74,11 +74,11 @@ class Scan {
         word(text);
     }
     if (mistake_.empty()) count_words();
-    // who asks for help gets it
+    // a request for help wins
     return helped_ ? std::string() : mistake_;
   }
 
-  /// Of words that all have to be commands.
+  /// For words that must all be commands.
   std::string names_only() {
     for (const std::string& text : rest_) {
       word(text);
@@ -103,7 +103,7 @@ class Scan {
     return names;
   }
 
-  /// Behind `--` nothing is an option.
+  /// After `--` nothing is an option.
   void operands() {
     if (command_names(*command_).empty())
       for (++at_; at_ < rest_.size() && mistake_.empty(); ++at_) word(rest_[at_]);
@@ -201,7 +201,7 @@ class Scan {
     return names;
   }
 
-  /// Of a group such as --csv, --json, ... of `kadr export`, one has to be given.
+  /// One option of a group, such as --csv, --json, ... of `kadr export`, is required.
   void count_choices() {
     for (const CLI::App* group :
          command_->get_subcommands([](const CLI::App* s) { return s->get_name().empty(); })) {

@@ -9,7 +9,7 @@
 namespace kadr::cli {
 namespace {
 
-/// true, or why this build is without the page.
+/// true, or why this build lacks the page.
 emulator::Json pages() {
   emulator::Json list = emulator::Json::object();
   for (const emulator::BuiltPage& page : emulator::built_pages())

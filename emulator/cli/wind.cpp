@@ -3,6 +3,7 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/write_file.h"
+#include "emulator/text/text.h"
 
 /// `kadr wind`: winding programs.
 namespace kadr::cli {
@@ -29,7 +30,9 @@ int write_winding(const Arguments& arguments, Console& console) {
     j["text"] = to_file ? emulator::Json(nullptr) : emulator::Json(text);
     console.document(j);
   } else if (to_file) {
-    console.note(fmt::format("wrote {}: {}, {} blocks", path, winding->title, winding->points.size() - 1));
+    console.note(
+        fmt::format("wrote {}: {}, {}", path, winding->title,
+                    emulator::counted(static_cast<std::int64_t>(winding->points.size() - 1), "block")));
   } else {
     console.data(text);
   }

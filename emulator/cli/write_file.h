@@ -5,7 +5,7 @@
 namespace kadr::cli {
 
 /// Writes a whole text to a file.
-/// @param overwrite false: a file that is there already is refused, and --force named as the way out
+/// @param overwrite false: an existing file is refused, and the message names --force
 /// @throws WorldError with path and reason
 void write_file(const std::string& path, std::string_view text, bool overwrite = true);
 

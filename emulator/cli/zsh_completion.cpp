@@ -9,7 +9,7 @@
 namespace kadr::cli {
 namespace {
 
-/// In a specification of _arguments these end a part of it.
+/// These characters end a part of an _arguments specification.
 constexpr std::string_view kZshSpecial = ":[]\\";
 
 /// "_kadr_machine_show"
@@ -19,7 +19,7 @@ std::string function_name(const Command& command) {
   return name;
 }
 
-/// What completes a value or an operand: an action of _arguments, inside single quotes.
+/// Completion of a value or an operand: an action of _arguments, inside single quotes.
 std::string zsh_action(const Completion& c) {
   std::string words;
   for (const std::string& word : c.words) words += ' ' + word;
@@ -92,7 +92,7 @@ std::string zsh_completion(const Command& kadr) {
   std::string out =
       "#compdef kadr\n# Completes kadr's command line in zsh. Written by `kadr completion zsh`.\n\n";
   add_zsh_command(kadr, out);
-  // found by its name in $fpath it is called for a completion; sourced it says what it is for
+  // found by name in $fpath it is called for a completion; sourced it registers itself
   return out + "if [[ $funcstack[1] == _kadr ]]; then\n  _kadr \"$@\"\nelse\n  compdef _kadr kadr\nfi\n";
 }
 

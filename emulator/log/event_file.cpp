@@ -58,7 +58,7 @@ EventFile::Next EventFile::next(LogEventView& view) {
   const std::int32_t channel_bytes = wire.i32();
   const std::int32_t data_bytes = wire.i32();
   if (view.number != number_)
-    return stop(Next::damaged, fmt::format("event {} stands at byte {} where event {} is due", view.number,
+    return stop(Next::damaged, fmt::format("event {} is at byte {}, where event {} is due", view.number,
                                            position_, number_));
   if (channel_bytes < 1 || channel_bytes > static_cast<std::int32_t>(kMaxChannelBytes) || data_bytes < 0)
     return stop(Next::damaged, fmt::format("the event at byte {} has impossible lengths", position_));

@@ -6,7 +6,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <optional>
 
-#include "emulator/log/lcm_messages.h"
+#include "emulator/log/block_builder.h"
 #include "emulator/log/log_types.h"
 #include "emulator/log/run_log.h"
 #include "machine/base/hash.h"
@@ -23,7 +23,7 @@ constexpr std::size_t kFileBuffer = std::size_t{1} << 18;
 
 std::string error_text(int number) { return number == 0 ? "unknown error" : std::strerror(number); }
 
-/// Multicast must not leave this host unasked: a udpm URL without a ttl gets ttl=0.
+/// Multicast must not leave this host unless requested: a udpm URL without a ttl gets ttl=0.
 std::string with_local_ttl(const std::string& url) {
   if (url.compare(0, 5, "udpm:") != 0 || url.find("ttl=") != std::string::npos) return url;
   return url + (url.find('?') == std::string::npos ? "?ttl=0" : "&ttl=0");
@@ -55,14 +55,11 @@ class Sink {
     return {};
   }
 
-  template <class Message>
-  Done write(const std::string& channel, std::int64_t time_us, const Message& message) {
+  template <class R>
+  Done write(const std::string& channel, std::int64_t time_us, const R& record, const LogHeader& header) {
     if (error_) return tl::unexpected(*error_);
-    const int room = message.getEncodedSize();
-    if (bytes_.size() < static_cast<std::size_t>(room)) bytes_.resize(static_cast<std::size_t>(room));
-    const int size = message.encode(bytes_.data(), 0, room);
-    require(size >= 0, "a message fits the size it announced");
-    return write_bytes(channel, time_us, size);
+    encode(record, header, bytes_);
+    return write_bytes(channel, time_us);
   }
 
   /// Hands everything to the kernel; from then on the file is valid up to `tick`.
@@ -77,7 +74,7 @@ class Sink {
   Done close(bool whole) {
     live_.reset();
     if (!file_) return {};
-    // some file systems tell a failed write only at close(), and LogFile does not look: ask at a copy
+    // some file systems report a failed write only at close(), and LogFile does not look: ask a copy
     const int copy = ::dup(::fileno(file_->getFilePtr()));
     if (copy < 0 || ::close(copy) != 0) return fail(part(), errno);
     file_.reset();
@@ -90,12 +87,13 @@ class Sink {
  private:
   std::string part() const { return path_ + ".part"; }
 
-  Done write_bytes(const std::string& channel, std::int64_t time_us, int size) {
+  Done write_bytes(const std::string& channel, std::int64_t time_us) {
+    const auto size = static_cast<std::int32_t>(bytes_.size());
     content_.integer(time_us);
     content_.integer(static_cast<std::int64_t>(channel.size()));
     content_.bytes(channel.data(), channel.size());
     content_.integer(size);
-    content_.bytes(bytes_.data(), static_cast<std::size_t>(size));
+    content_.bytes(bytes_.data(), bytes_.size());
     if (file_) {
       event_.channel = channel;
       event_.timestamp = time_us;
@@ -124,34 +122,38 @@ class Sink {
   std::vector<std::uint8_t> bytes_;
   Hash64 content_;
   Ticks valid_until_;
-  std::optional<LogError> error_;  // the first one stays: nothing is written behind a gap
+  std::optional<LogError> error_;  // the first one stays: nothing is written after a gap
 };
+
+/// Channels that LcmLog writes a message of for each record; those of exact data follow from their tables.
+template <class R, class... Written>
+constexpr bool kIsOneOf = (std::same_as<R, Written> || ...);
+template <class... R>
+constexpr bool all_written(Records<R...>) {
+  return (
+      (detail::TickChannel<R> || kIsOneOf<R, LogHeader, BlockRecord, BlockEndRecord, PulseBlock, FeedSample,
+                                          AxisSample, EventRecord, LogDiagnostic, LogSummary>)&&...);
+}
+static_assert(all_written(Channels{}), "a channel has append_tick(), or a place where LcmLog writes it");
 
 class LcmLog final : public RunLog {
  public:
   explicit LcmLog(const LcmLogOptions& options) : sink_(options) {}
   Done open() { return sink_.open(); }
 
-  Done begin(const RunHeader& header) override {
-    require(header.machine != nullptr, "a run has a machine");
-    machine_ = *header.machine;
+  Done begin(const RunHeader& run) override {
+    require(run.machine != nullptr, "a run has a machine");
+    machine_ = *run.machine;
+    header_ = log_header(run);
     builder_.emplace(machine_);
-    viewer_every_ = viewer_every_ticks(machine_);
-    for (const machine::AxisModel& axis : machine_.axis) axis_channels_.push_back(axis_channel(axis.letter));
-    return write(kRunChannel, Ticks{0}, run_message(header)).and_then([&] { return sink_.flush(Ticks{0}); });
+    return write(header_, Ticks{0}).and_then([&] { return sink_.flush(Ticks{0}); });
   }
 
-  Done block(const BlockRecord& r) override {
-    return write(kBlockChannel, r.tick, block_message(r, machine_.clock));
-  }
-  Done block_end(const BlockEndRecord& r) override {
-    return write(kBlockEndChannel, r.tick, block_end_message(r, machine_.clock));
-  }
-  Done event(const EventRecord& r) override {
-    return write(kEventChannel, r.tick, event_message(r, machine_.clock));
-  }
+  Done block(const BlockRecord& r) override { return write(r, r.tick); }
+  Done block_end(const BlockEndRecord& r) override { return write(r, r.tick); }
+  Done event(const EventRecord& r) override { return write(r, r.tick); }
   Done diagnostic(const Diagnostic& d, Ticks tick) override {
-    return write(kDiagChannel, tick.value < 0 ? Ticks{0} : tick, diag_message(d, tick));
+    return write(log_diagnostic(d, tick), tick.value < 0 ? Ticks{0} : tick);
   }
 
   Done tick(const TickRecord& record, const StepBatch& batch) override {
@@ -159,33 +161,35 @@ class LcmLog final : public RunLog {
     if (builder_->breaks(record))
       if (auto done = finish_block(); !done) return done;
     builder_->add(record, batch);
-    if (viewer_every_ > 0 && (record.tick.value + 1) % viewer_every_ == 0)
+    const std::int32_t every = header_.viewer_every_ticks;
+    if (every > 0 && (record.tick.value + 1) % every == 0)
       if (auto done = write_viewers(record, batch); !done) return done;
     return builder_->full() ? finish_block() : Done{};
   }
 
   Done end(const RunSummary& summary) override {
     if (auto done = finish_block(); !done) return done;
-    const summary_t last = summary_message(summary, machine_.clock, sink_.content_hash());
-    if (auto done = write(kSummaryChannel, summary.ticks, last); !done) return done;
+    if (auto done = write(LogSummary{summary, sink_.content_hash()}, summary.ticks); !done) return done;
     if (auto done = sink_.flush(summary.ticks); !done) return done;
     return sink_.close(summary.outcome != Outcome::interrupted);
   }
 
  private:
-  template <class Message>
-  Done write(std::string_view channel, Ticks tick, const Message& message) {
+  template <class R>
+  Done write(const R& record, Ticks tick) {
     require(builder_.has_value(), "a log begins with its header");
-    channel_ = channel;
-    return sink_.write(channel_, event_time_us(tick, machine_.clock.base_hz), message);
+    channel_ = Channel<R>::info.name;
+    if constexpr (std::same_as<R, AxisSample>)
+      channel_ += header_.axis[static_cast<std::size_t>(record.axis)].name;
+    return sink_.write(channel_, event_time_us(tick, header_.base_hz), record, header_);
   }
 
   Done write_viewers(const TickRecord& record, const StepBatch& batch) {
-    const feed_t feed = builder_->feed_message(record);
-    if (auto done = write(kFeedChannel, Ticks{feed.tick}, feed); !done) return done;
-    for (std::size_t a = 0; a < axis_channels_.size(); ++a) {
-      const axis_t axis = builder_->axis_message(record, batch, a);
-      if (auto done = write(axis_channels_[a], Ticks{axis.tick}, axis); !done) return done;
+    const FeedSample feed = builder_->feed_sample(record);
+    if (auto done = write(feed, feed.tick); !done) return done;
+    for (std::size_t a = 0; a < header_.axis.size(); ++a) {
+      const AxisSample axis = builder_->axis_sample(record, batch, a);
+      if (auto done = write(axis, axis.tick); !done) return done;
     }
     return {};
   }
@@ -193,19 +197,21 @@ class LcmLog final : public RunLog {
   Done finish_block() {
     if (!builder_ || builder_->empty()) return {};
     const Ticks end = builder_->end();
-    if (machine_.log.ticks)
-      if (auto done = write(kTicksChannel, end, builder_->ticks_message()); !done) return done;
-    if (machine_.log.steps)
-      if (auto done = write(kStepsChannel, end, builder_->steps_message()); !done) return done;
+    Done done;
+    if (header_.logs_ticks)
+      for_each_channel(TickChannels{}, [&]<class R>() {
+        if (done) done = write(builder_->block<R>(), end);
+      });
+    if (done && header_.logs_steps) done = write(builder_->pulse_block(), end);
+    if (!done) return done;
     builder_->clear();
     return sink_.flush(end);
   }
 
   Sink sink_;
   machine::MachineModel machine_;
+  LogHeader header_;
   std::optional<BlockBuilder> builder_;
-  std::int32_t viewer_every_ = 0;
-  std::vector<std::string> axis_channels_;
   std::string channel_;
 };
 

@@ -76,6 +76,10 @@ std::string grouped(std::int64_t value) {
   return digits;
 }
 
+std::string counted(std::int64_t n, const char* word) {
+  return grouped(n) + ' ' + word + (n == 1 ? "" : "s");
+}
+
 std::string agreement(std::optional<bool> agrees) {
   return !agrees ? "" : *agrees ? "  agrees with the summary" : "  DIFFERS from the summary";
 }
@@ -133,17 +137,18 @@ std::string render_log_info(const LogInfo& info) {
   const auto line = [&](const char* name, const std::string& text) {
     out += fmt::format("  {:<12}{}\n", name, text);
   };
-  line("program", fmt::format("{}, {} bytes, on {} (kadr {}, log format {})", h.program_name,
-                              grouped(h.program_bytes), h.machine_name, h.kadr_version, h.log_format));
+  line("program",
+       fmt::format("{}, {}, on {} (kadr {}, log format {})", h.program_name, counted(h.program_bytes, "byte"),
+                   h.machine_name, h.kadr_version, h.log_format));
   line("clock", fmt::format("{} Hz, control tick {} base ticks ({:.6g} ms)", grouped(h.base_hz),
                             grouped(h.control_tick_ticks), 1000 * h.seconds(Ticks{h.control_tick_ticks})));
-  line("span", fmt::format("ticks {} to {}, {:.6f} s, {} control ticks", grouped(info.first_tick),
-                           grouped(info.last_tick), info.span_s, grouped(info.control_ticks)));
+  line("span", fmt::format("ticks {} to {}, {:.6f} s, {}", grouped(info.first_tick), grouped(info.last_tick),
+                           info.span_s, counted(info.control_ticks, "control tick")));
   if (info.summary)
     line("outcome",
          fmt::format("{}, exit {}", info.summary->run.outcome.text(), info.summary->run.exit_code));
-  line("records", fmt::format("{} blocks, {} events, {} alarms, {} diagnostics", grouped(info.blocks),
-                              grouped(info.events), grouped(info.alarms), grouped(info.diagnostics)));
+  line("records", fmt::format("{}, {}, {}, {}", counted(info.blocks, "block"), counted(info.events, "event"),
+                              counted(info.alarms, "alarm"), counted(info.diagnostics, "diagnostic")));
   for (std::size_t a = 0; a < h.axis.size() && h.logs_steps; ++a)
     line(a == 0 ? "pulses" : "", fmt::format("{} {:>14}  of {:.9g} {}", h.axis[a].name,
                                              grouped(info.pulses[a]), h.axis[a].step_u, h.axis[a].unit));
@@ -151,6 +156,7 @@ std::string render_log_info(const LogInfo& info) {
   if (info.steps_hash) line("steps hash", hash_text(*info.steps_hash) + agreement(info.steps_hash_agrees()));
   line("content", hash_text(info.content_hash) + agreement(info.content_hash_agrees()));
   line("file", fmt::format("{}  {} bytes", hash_text(info.file_hash), grouped(info.end.file_bytes)));
+  for (const std::string& note : info.end.passed_over) line("newer", note);
   out += fmt::format("  {:<20}{:>12}{:>16}{:>9}\n", "channel", "messages", "bytes", "share");
   for (const ChannelInfo& c : info.channels)
     out += fmt::format("  {:<20}{:>12}{:>16}{:>7.1f} %\n", c.name, grouped(c.messages), grouped(c.bytes),

@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "emulator/log/event_file.h"
 #include "emulator/log/log_decode.h"
 #include "machine/base/hash.h"
 #include "machine/base/require.h"
 
 namespace kadr::emulator {
+namespace {
+constexpr std::string_view kRunChannel = Channel<LogHeader>::info.name;
+}
 
 struct LogReader::Impl {
   explicit Impl(EventFile file) : events(std::move(file)) {}
@@ -31,8 +36,7 @@ struct LogReader::Impl {
     end.valid_until = valid_until();
   }
 
-  /// Exact data come after the events and viewer messages of their ticks: they say how far everything is
-  /// complete.
+  /// Exact data come after the events and viewer messages of their ticks: they say how far everything is complete.
   Ticks valid_until() const {
     if (summary) return seen_until;
     if (header.logs_ticks && header.logs_steps) return std::min(ticks_until, steps_until);
@@ -54,6 +58,20 @@ struct LogReader::Impl {
       seen_until = s->run.ticks;
       summary = s->run.outcome == Outcome::interrupted ? LogState::interrupted : LogState::complete;
     }
+  }
+
+  /// Says once what is not known of a channel.
+  void pass_over(std::string note) {
+    if (end.passed_over.size() < kMostNotes &&
+        std::find(end.passed_over.begin(), end.passed_over.end(), note) == end.passed_over.end())
+      end.passed_over.push_back(std::move(note));
+  }
+  void note_newer(std::string_view channel) {
+    pass_over(fmt::format("{} has fields that this version does not know: they are passed over",
+                          printable(channel)));
+  }
+  void note_unknown(std::string_view channel) {
+    pass_over(fmt::format("channel {} is not known: it is passed over", printable(channel)));
   }
 
   void hash_event() {
@@ -99,7 +117,9 @@ struct LogReader::Impl {
                        header.seconds(valid_until())));
       return false;
     }
-    message = std::move(*decoded);
+    if (decoded->newer) note_newer(view.channel);
+    message = std::move(decoded->record);
+    if (std::holds_alternative<UnknownMessage>(message)) note_unknown(view.channel);
     valid_bytes = events.position();
     note_progress(message);
     if (!summary) hash_event();
@@ -139,7 +159,8 @@ tl::expected<LogReader, LogReadError> LogReader::open(const std::string& path) {
               "an LCM log, but not of kadr: its first channel is " + printable(impl->view.channel)));
   auto header = decode_header(impl->view.data);
   if (!header) return tl::unexpected(fault(header.error().fault, path, header.error().reason));
-  impl->header = std::move(*header);
+  impl->header = std::move(header->record);
+  if (header->newer) impl->note_newer(kRunChannel);
   return LogReader(std::move(impl));
 }
 

@@ -6,6 +6,7 @@
 
 #include <tl/expected.hpp>
 
+#include "emulator/log/tick_columns.h"
 #include "machine/step_batch.h"
 
 /// The byte code of KADR_STEPS: step pulses of one axis over a block of control ticks, one byte a pulse while
@@ -18,9 +19,6 @@
 ///   r_j    index of a pulse whose direction differs from the pulse before; before the first pulse it is +,
 ///   r_-1 = 0
 namespace kadr::emulator {
-
-/// Longest block of control ticks in one message, so that times within a block fit 23 bits.
-inline constexpr int kMaxBlockTicks = 64;
 
 /// Codes the pulses of one axis, tick by tick. Storage is reused from block to block.
 class PulseEncoder {

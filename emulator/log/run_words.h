@@ -6,7 +6,7 @@
 /// Words of the log's events and of its summary.
 namespace kadr::emulator {
 
-/// What an event is about. Those up to `stop` are of the program.
+/// Subject of an event. Those up to `stop` are of the program.
 enum class EventKind : std::uint8_t {
   dwell,
   spindle,
@@ -43,7 +43,7 @@ inline constexpr Vocabulary<EventKind, 22> kEventKinds{{
     {EventKind::probe, "probe", "a probing move has ended"},
     {EventKind::message, "message", "a message to the operator"},
     {EventKind::stop, "stop", "the program stops or ends"},
-    {EventKind::alarm, "alarm", "a limit is exceeded, or the run can't go on"},
+    {EventKind::alarm, "alarm", "a limit is exceeded, or the run can't continue"},
     {EventKind::alarm_end, "alarm end", "the limit is kept again; value: the worst"},
     {EventKind::residual, "residual", "vibration of an axis after a stop"},
     {EventKind::input, "input", "the scenario sets an input"},
@@ -57,7 +57,7 @@ inline constexpr Vocabulary<EventKind, 22> kEventKinds{{
 }};
 static_assert(kEventKinds.complete());
 
-/// Whether the program itself makes such an event, at a place of its path, under any override.
+/// Whether the program itself makes such an event, at a position of its path, under any override.
 constexpr bool is_of_program(EventKind kind) { return kind <= EventKind::stop; }
 
 /// How a run ended.
@@ -75,7 +75,7 @@ inline constexpr Vocabulary<Outcome, 7> kOutcomes{{
     {Outcome::alarm, "alarm", "an alarm ended the run (on_alarm = \"stop\")"},
     {Outcome::interrupted, "interrupted", "a signal ended the run"},
     {Outcome::plant_error, "plant error", "the plant's equations could not be solved"},
-    {Outcome::stopped_by_until, "stopped by --until", "the asked-for time was reached"},
+    {Outcome::stopped_by_until, "stopped by --until", "the requested time was reached"},
     {Outcome::emergency_stop, "emergency stop", "at rest after an emergency stop"},
     {Outcome::held, "held", "held, and no step of the operator ends the hold"},
 }};

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace kadr::emulator {
@@ -19,16 +20,9 @@ class WireReader {
   std::int8_t i8() { return static_cast<std::int8_t>(unsigned_of<1>()); }
   std::int32_t i32() { return static_cast<std::int32_t>(unsigned_of<4>()); }
   std::int64_t i64() { return static_cast<std::int64_t>(unsigned_of<8>()); }
-  std::uint64_t u64() { return unsigned_of<8>(); }
   double f64() { return std::bit_cast<double>(unsigned_of<8>()); }
   bool boolean() { return i8() != 0; }
 
-  /// A length or count in [low, high], else fail().
-  std::int32_t count(std::int32_t low, std::int32_t high) {
-    const std::int32_t n = i32();
-    if (n < low || n > high) fail();
-    return ok_ ? n : 0;
-  }
   /// Length with its zero byte, text, zero byte.
   std::string string() {
     const std::int32_t n = i32();
@@ -41,36 +35,12 @@ class WireReader {
     at_ += static_cast<std::size_t>(n);
     return {text, static_cast<std::size_t>(n) - 1};
   }
-  std::span<const std::uint8_t> bytes(std::int32_t n) {
-    if (n < 0 || !fits(static_cast<std::size_t>(n), 1)) {
-      fail();
-      return {};
-    }
-    const auto part = bytes_.subspan(at_, static_cast<std::size_t>(n));
-    at_ += static_cast<std::size_t>(n);
-    return part;
-  }
-
-  std::vector<double> f64s(std::int32_t n) {
-    return array<double, 8>(n, [this] { return f64(); });
-  }
-  std::vector<std::int64_t> i64s(std::int32_t n) {
-    return array<std::int64_t, 8>(n, [this] { return i64(); });
-  }
-  std::vector<std::int32_t> i32s(std::int32_t n) {
-    return array<std::int32_t, 4>(n, [this] { return i32(); });
-  }
-  std::vector<std::int8_t> i8s(std::int32_t n) {
-    return array<std::int8_t, 1>(n, [this] { return i8(); });
-  }
-  std::vector<std::string> strings(std::int32_t n) {
-    constexpr std::size_t kShortest = 5;  // an empty string's length and zero byte
-    return array<std::string, kShortest>(n, [this] { return string(); });
+  /// Whether `n` values of at least `width` bytes each can follow.
+  bool fits(std::uint64_t n, std::size_t width) const {
+    return ok_ && (width == 0 || n <= (bytes_.size() - at_) / width);
   }
 
  private:
-  bool fits(std::size_t n, std::size_t width) const { return ok_ && n <= (bytes_.size() - at_) / width; }
-
   template <unsigned width>
   std::uint64_t unsigned_of() {
     if (!fits(width, 1)) {
@@ -83,21 +53,48 @@ class WireReader {
     return value;
   }
 
-  template <class T, std::size_t width, class Read>
-  std::vector<T> array(std::int32_t n, Read&& read) {
-    std::vector<T> values;
-    if (n < 0 || !fits(static_cast<std::size_t>(n), width)) {
-      fail();
-      return values;
-    }
-    values.reserve(static_cast<std::size_t>(n));
-    for (std::int32_t i = 0; i < n; ++i) values.push_back(read());
-    return values;
-  }
-
   std::span<const std::uint8_t> bytes_;
   std::size_t at_ = 0;
   bool ok_ = true;
+};
+
+/// Appends big-endian fields to bytes whose storage is reused.
+class WireWriter {
+ public:
+  explicit WireWriter(std::vector<std::uint8_t>& bytes) : bytes_(bytes) { bytes_.clear(); }
+
+  void i8(std::int8_t v) { unsigned_of<1>(static_cast<std::uint8_t>(v)); }
+  void i32(std::int32_t v) { unsigned_of<4>(static_cast<std::uint32_t>(v)); }
+  void i64(std::int64_t v) { unsigned_of<8>(static_cast<std::uint64_t>(v)); }
+  void f64(double v) { unsigned_of<8>(std::bit_cast<std::uint64_t>(v)); }
+  /// LCM's texts end at the first zero byte: those of a damaged text become U+FFFD.
+  void text(std::string_view v) {
+    constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
+    const std::size_t at = bytes_.size();
+    i32(0);
+    for (const char c : v) {
+      if (c == '\0')
+        bytes_.insert(bytes_.end(), kReplacement.begin(), kReplacement.end());
+      else
+        bytes_.push_back(static_cast<std::uint8_t>(c));
+    }
+    bytes_.push_back(0);
+    put<4>(at, bytes_.size() - at - 4);
+  }
+
+ private:
+  template <unsigned width>
+  void unsigned_of(std::uint64_t v) {
+    bytes_.resize(bytes_.size() + width);
+    put<width>(bytes_.size() - width, v);
+  }
+  template <unsigned width>
+  void put(std::size_t at, std::uint64_t v) {
+    for (unsigned i = 0; i < width; ++i)
+      bytes_[at + i] = static_cast<std::uint8_t>(v >> (8 * (width - 1 - i)));
+  }
+
+  std::vector<std::uint8_t>& bytes_;
 };
 
 }  // namespace kadr::emulator

@@ -32,7 +32,7 @@ std::vector<std::string> find_scenarios(const std::vector<std::string>& paths) {
           if (fs::is_regular_file(entry.path() / kFileName))
             inside.push_back((entry.path() / kFileName).string());
       if (inside.empty()) throw_missing(path);
-      // a directory lists its entries in an order of its own
+      // the order of directory entries is unspecified
       std::sort(inside.begin(), inside.end());
       found.insert(found.end(), inside.begin(), inside.end());
     }

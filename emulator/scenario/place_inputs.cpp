@@ -9,14 +9,14 @@
 namespace kadr::emulator {
 namespace {
 
-// times are decimals: 0.3 s is 300 ticks of 1 ms but for a rounding
+// times are decimals: 0.3 s is 300 ticks of 1 ms up to rounding
 constexpr double kSameTick = 1e-6;
 
 }  // namespace
 
 void place_inputs(const Scenario& scenario, std::uint32_t file, Job& job, Diagnostics& diagnostics) {
   const double tau_s = job.machine.model.clock.tau_s();
-  job.most_percent = scenario.most_percent;
+  job.most_override = scenario.most_override;
   for (const ScenarioTechnology& point : scenario.technology) {
     Span span = point.span;
     span.file = file;

@@ -15,7 +15,7 @@ std::size_t failures(const std::vector<ScenarioResult>& results) {
       std::count_if(results.begin(), results.end(), [](const ScenarioResult& r) { return !r.passed(); }));
 }
 
-/// What differs, line by line; empty if nothing does.
+/// The differences, line by line; empty if there are none.
 std::string differences(const ScenarioResult& result) {
   std::string out;
   if (!result.failure.empty()) out += fmt::format("{}\n", result.failure);

@@ -26,7 +26,7 @@ std::string counts_text(const std::vector<std::pair<Code, std::int64_t>>& counts
   return out.empty() ? "none" : out;
 }
 
-/// Vibration is told in thousandths of the axis unit: um or mdeg.
+/// Vibration is given in thousandths of the axis unit: um or mdeg.
 const char* small_unit(char letter) { return is_rotary_letter(letter) ? "mdeg" : "um"; }
 
 void compare_count(std::vector<ScenarioCheck>& checks, std::string what, std::int64_t expected,
@@ -65,7 +65,7 @@ void compare_axis(std::vector<ScenarioCheck>& checks, const AxisExpectation& exp
 
 void compare_run(ScenarioResult& result, const Expectations& expect, const machine::MachineModel& machine) {
   const RunSummary& summary = *result.summary;
-  // an alarm is told below, with its code
+  // an alarm is reported below, with its code
   if (summary.outcome != Outcome::complete && summary.outcome != Outcome::alarm)
     result.checks.push_back({"outcome", "complete", summary.outcome.text(), false});
   if (expect.time_s)
@@ -126,7 +126,7 @@ void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions
     result.failure = "the machine file or the tool table has errors";
     return;
   }
-  // as `kadr run` does: a soft limit that is left is shown where it happens
+  // as `kadr run` does: the run shows where a soft limit is exceeded
   const bool ready = prepare(job, diagnostics, SoftLimitRule::warning) && !diagnostics.has_errors();
   render_into(result, diagnostics, job.sources);
   result.checks.push_back({"diagnostics", codes_text(scenario.expect.diagnostics), codes_text(result.codes),

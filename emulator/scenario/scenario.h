@@ -10,7 +10,7 @@
 
 #include "emulator/emulator.h"
 
-/// Scenarios: a program, a machine and what must come out. The same cases serve tests, benchmarks, demos and
+/// Scenarios: a program, a machine and the expected results. The same cases serve tests, benchmarks, demos and
 /// documents.
 ///
 /// A scenario is a folder with a scenario.toml; scenarios/README.md has its keys.
@@ -51,7 +51,7 @@ struct BoundaryExpectation {
   Span span;  ///< of the table
 };
 
-/// What must come out. Errors and alarms that are not named here always fail the scenario.
+/// Expected results. Errors and alarms that are not listed here always fail the scenario.
 struct Expectations {
   std::optional<double> time_s;  ///< machine time of the whole run
   double within_s = 0;           ///< allowed difference of time_s
@@ -76,10 +76,9 @@ struct ScenarioStep {
   Span span;         ///< of the time or place
 };
 
-/// A technology point: where an output changes, where the first motion of a line begins, or at a length of
-/// the path.
+/// A technology point: where an output changes, where the first motion of a line begins, or at a length of the path.
 struct ScenarioTechnology {
-  machine::TechnologyRule rule;  ///< of a line or length only its limit
+  machine::TechnologyRule rule;  ///< of a line or length, only its limit
   std::optional<std::uint32_t> line;
   std::optional<double> path_u;
   Span span;
@@ -100,13 +99,13 @@ struct Scenario {
   std::string tools_path;  ///< of the tool table, empty: none
   gcode::Dialect dialect = gcode::Dialect::linuxcnc;
   std::vector<std::string> settings;   ///< "key=value"
-  std::optional<double> most_percent;  ///< Job::most_percent
+  std::optional<double> most_override;  ///< Job::most_override
   std::vector<ScenarioStep> steps;
   std::vector<ScenarioTechnology> technology;
   Expectations expect;
 };
 
-/// Reads a scenario file. All its mistakes are told at once; unknown keys are errors.
+/// Reads a scenario file. All its mistakes are reported at once; unknown keys are errors.
 /// @param sources  the text is added here, so that diagnostics can be rendered
 /// @param path     of scenario.toml, or of its folder
 /// @return the scenario, or the diagnostics
@@ -120,7 +119,7 @@ tl::expected<Scenario, Diagnostics> read_scenario(const std::string& path, Sourc
 bool open_job(const Scenario& scenario, Job& job, Diagnostics& diagnostics);
 
 /// Puts the steps of a scenario on the control ticks of the job's machine; a time between two ticks is an
-/// error. Steps that stand on the path keep their place until prepare() knows the path.
+/// error. Steps at a position on the path keep it until prepare() knows the path.
 /// @param file  of the scenario's text in job.sources
 void place_inputs(const Scenario& scenario, std::uint32_t file, Job& job, Diagnostics& diagnostics);
 
@@ -146,7 +145,7 @@ struct ScenarioResult {
   bool passed() const;
 };
 
-/// Runs one scenario and compares. Never throws for a fault of the scenario: that is `failure`.
+/// Runs one scenario and compares. Never throws for a fault of the scenario: that becomes `failure`.
 ScenarioResult run_scenario(const Scenario& scenario, const RunOptions& options = {});
 /// The same from a path; a file that can't be read is a failed result.
 ScenarioResult run_scenario(const std::string& path, const RunOptions& options = {});
@@ -156,7 +155,7 @@ ScenarioResult run_scenario(const std::string& path, const RunOptions& options =
 /// @throws std::system_error for a path that does not exist or holds no scenario
 std::vector<std::string> find_scenarios(const std::vector<std::string>& paths);
 
-/// One line: "passed  01_first_cut   4.211 s  12 checks", and below a failed one what differs, line by line.
+/// One line: "passed  01_first_cut   4.211 s  12 checks", and below a failed one its differences, line by line.
 std::string render_result(const ScenarioResult& result);
 /// Last line: "8 passed, 1 failed".
 std::string render_totals(const std::vector<ScenarioResult>& results);
@@ -165,9 +164,8 @@ std::string render_junit(const std::vector<ScenarioResult>& results);
 /// JSON of all results: [{"name":..., "passed":..., "machine_s":..., "checks":[...]}].
 std::string render_json(const std::vector<ScenarioResult>& results);
 
-/// scenario.toml with every stated expectation replaced by what was measured (comments and order stay); where
-/// [expect] is missing, one is added with time, hash and pulses. Bounds are left alone: they are a person's
-/// judgement.
+/// scenario.toml with every stated expectation replaced by the measured value (comments and order stay); where
+/// [expect] is missing, one is added with time, hash and pulses. Bounds stay: they are a person's judgement.
 std::string updated_text(const Scenario& scenario, const ScenarioResult& result);
 
 }  // namespace kadr::emulator

@@ -42,7 +42,7 @@ std::optional<ValueRange> SignalRecorder::range(std::string_view signal, double 
   if (it == names.end()) return {};
   const std::vector<double>& column = columns_[static_cast<std::size_t>(it - names.begin())];
   const double tau_s = machine_.clock.tau_s();
-  // times are decimals: a tick that ends at from_s but for a rounding is outside
+  // times are decimals: a tick that ends at from_s up to rounding is outside
   const auto first = static_cast<std::size_t>(std::max(0.0, std::floor(from_s / tau_s + 1e-6)));
   const double last = std::floor(to_s / tau_s + 1e-6);
   std::optional<ValueRange> range;

@@ -9,11 +9,11 @@
 
 namespace kadr::emulator {
 
-/// Keeps what scenarios measure over time: feed, acceleration, jerk, percents, axis speeds per control tick,
+/// Keeps the signals that scenarios measure: feed, acceleration, jerk, overrides, axis speeds per control tick,
 /// and the boundaries between blocks.
 class SignalRecorder final : public ForwardingLog {
  public:
-  /// @param next  where the records go besides; both outlive this
+  /// @param next  also receives the records; both outlive this
   SignalRecorder(const machine::MachineModel& machine, RunLog* next);
 
   /// Least and most of a signal over the control ticks that end in (from_s, to_s]; nothing if there are none.

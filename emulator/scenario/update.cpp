@@ -14,7 +14,7 @@ namespace {
 using machine::Entry;
 using machine::Node;
 
-/// A piece of the file and what stands there instead.
+/// A piece of the file and its replacement.
 struct Replacement {
   Span span;
   std::string text;
@@ -79,7 +79,7 @@ std::vector<Replacement> replacements(const Node& expect, const ScenarioResult& 
   return out;
 }
 
-/// An [expect] with everything that is exact.
+/// An [expect] with all exact values.
 std::string whole_expect(const ScenarioResult& result, const machine::MachineModel& machine) {
   std::string out = "\n[expect]\n";
   if (!result.codes.empty()) out += "diagnostics = " + diagnostics_text(result.codes) + "\n";
@@ -101,7 +101,7 @@ std::vector<std::size_t> line_starts(const std::string& text) {
   return starts;
 }
 
-/// End of the value at `at`: a span ends with its first line, a list or table may go on. No string of a list
+/// End of the value at `at`: a span ends with its first line, a list or table may continue. No string of a list
 /// or table that is replaced holds a bracket.
 std::size_t value_end(const std::string& text, std::size_t at, std::size_t length) {
   const char close = text[at] == '[' ? ']' : text[at] == '{' ? '}' : '\0';
@@ -121,7 +121,7 @@ std::string updated_text(const Scenario& scenario, const ScenarioResult& result)
   const Entry* expect = tree.root.find("expect");
   if (!expect) return scenario.text + whole_expect(result, job.machine.model);
 
-  // from the back, so that places in front stay what they are
+  // from the back, so that earlier positions stay valid
   std::vector<Replacement> list = replacements(expect->value, result, job.machine.model);
   std::sort(list.begin(), list.end(), [](const Replacement& a, const Replacement& b) {
     return std::pair(a.span.line, a.span.column) > std::pair(b.span.line, b.span.column);

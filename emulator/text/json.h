@@ -5,8 +5,7 @@
 #include "machine/base/diagnostic.h"
 
 /// What the tables say, for programs: English keys in a fixed order, each real number with its unit in the
-/// key. `_u` is the unit that "unit" beside it names (mm or deg). No wall clock, so equal runs give equal
-/// bytes.
+/// key. `_u` is the unit that "unit" beside it names (mm or deg). No wall clock, so equal runs give equal bytes.
 namespace kadr::emulator {
 
 using Json = nlohmann::ordered_json;

@@ -129,7 +129,7 @@ class Drawing {
                        top_ + kPlotHeight / 2, xml_text(chart_.y_label));
   }
 
-  /// Points that matter: those within x and a neighbour on either side, at most four a pixel column.
+  /// Points that matter: those within x and a neighbour on either side, at most four per pixel column.
   std::vector<ChartPoint> thinned(const std::vector<ChartPoint>& points) const {
     const auto before = [](const ChartPoint& p, double x) { return p.x < x; };
     auto first = std::lower_bound(points.begin(), points.end(), x_.low, before);
@@ -164,7 +164,7 @@ class Drawing {
     return out;
   }
 
-  /// A path for each run of points between those that are not numbers.
+  /// One path for each run of points that are numbers.
   std::string broken_path(const std::vector<ChartPoint>& points) const {
     const auto no_value = [](const ChartPoint& p) { return std::isnan(p.y); };
     std::string out;

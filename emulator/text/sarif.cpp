@@ -22,9 +22,8 @@ constexpr int kInternal = 70;
 
 Json text_json(const std::string& text) { return {{"text", text}}; }
 
-const char* level(Severity severity) {
-  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
-}
+/// SARIF's levels are spelled as ours are.
+std::string_view level(Severity severity) { return kSeverities.word(severity); }
 
 /// "arc_end_off_circle" as "ArcEndOffCircle", the usual form of a rule's name.
 std::string rule_name(std::string_view name) {
@@ -53,7 +52,7 @@ Json rule(Code code) {
   return j;
 }
 
-/// Headline and measured value, then notes and help on lines of their own.
+/// Headline and measured value, then notes and help on their own lines.
 std::string message(const Diagnostic& d) {
   std::string text = d.message.empty() ? std::string(code_entry(d.code).title) : d.message;
   if (!d.label.empty()) text += ": " + d.label;
@@ -112,7 +111,7 @@ std::string SarifLog::fingerprint(const Diagnostic& d, const SourceSet& sources)
   Hash64 hash;
   hash.integer(static_cast<std::int64_t>(d.code));
   hash.bytes(line.data(), line.size());
-  // the same text twice in a file is told apart by its order
+  // identical texts in a file are numbered in order
   const std::string text = hash_text(hash.digest());
   return fmt::format("{}:{}", text, ++seen_[source.name() + '\n' + text]);
 }
@@ -154,7 +153,7 @@ Json SarifLog::document(int exit_code) const {
   Json rules = Json::array();
   for (const Code code : codes_) rules.push_back(rule(code));
 
-  // viewers show the first few thousand results: errors have the first right to them
+  // viewers truncate long lists: emit errors first
   std::vector<const Result*> sorted;
   for (const Result& result : results_) sorted.push_back(&result);
   std::stable_sort(sorted.begin(), sorted.end(),

@@ -10,7 +10,7 @@
 namespace kadr::emulator {
 namespace {
 
-/// Puts a space between each three digits in front of a decimal point.
+/// Puts a space between groups of three digits before the decimal point.
 std::string with_groups(std::string digits) {
   std::size_t begin = 0;
   while (begin < digits.size() && (digits[begin] < '0' || digits[begin] > '9')) ++begin;
@@ -24,6 +24,11 @@ std::string with_groups(std::string digits) {
 
 std::string grouped(std::int64_t value) { return with_groups(fmt::format("{}", value)); }
 
+std::string counted(std::int64_t n, std::string_view one, std::string_view plural) {
+  std::string text = grouped(n) + ' ';
+  if (n == 1) return text.append(one);
+  return plural.empty() ? text.append(one) + 's' : text.append(plural);
+}
 std::string grouped_signed(std::int64_t value) { return value > 0 ? "+" + grouped(value) : grouped(value); }
 
 std::string fixed(double value, int decimals) {
@@ -112,7 +117,7 @@ std::string TextTable::render(std::string_view indent, std::string_view gap) con
   for (const Column& c : columns_) width.push_back(display_width(c.title));
   for (const auto& row : rows_)
     for (std::size_t i = 0; i < row.size() && i < width.size(); ++i)
-      // the last cell of a short row may run on over the columns it lacks
+      // the last cell of a short row may run on across the columns that the row lacks
       if (row.size() == columns_.size() || i + 1 < row.size())
         width[i] = std::max(width[i], display_width(row[i]));
 

@@ -5,12 +5,13 @@
 #include <string_view>
 #include <vector>
 
-/// How numbers and tables are written for people: dot as decimal sign, a space between thousands, whatever
-/// the locale.
+/// Numbers and tables for people: dot as decimal sign, a space between thousands, whatever the locale.
 namespace kadr::emulator {
 
 /// "38 412", "-1 190"
 std::string grouped(std::int64_t value);
+/// "1 block", "38 412 blocks"; `plural` where adding an s is wrong: "2 axes".
+std::string counted(std::int64_t n, std::string_view one, std::string_view plural = {});
 /// "+38 412"; zero has no sign
 std::string grouped_signed(std::int64_t value);
 /// Fixed decimals with grouped thousands: "1 942.113"; never "-0.000". Not finite: "inf", "-inf", "nan".
@@ -24,13 +25,13 @@ std::string duration_text(double time_s);
 
 /// Number of terminal cells of a text.
 std::size_t display_width(std::string_view text);
-/// The text on one line, fit for a terminal: tabs become spaces, control characters and bytes that are not
-/// UTF-8 U+FFFD, outer blanks go; wider than `most` (>= 3) cells it is cut and ends in "...".
+/// The text on one line, safe for a terminal: tabs become spaces, control characters and bytes that are not
+/// UTF-8 become U+FFFD, outer blanks are dropped; beyond `most` (>= 3) cells it is cut and ends in "...".
 std::string one_line(std::string_view text, std::size_t most);
 std::string pad_left(std::string_view text, std::size_t width);   ///< text at the right end
 std::string pad_right(std::string_view text, std::size_t width);  ///< text at the left end
 
-/// Text for XML and HTML: markup escaped; what XML 1.0 can't hold (control characters, bytes that are not
+/// Text for XML and HTML: markup escaped; whatever XML 1.0 can't hold (control characters, bytes that are not
 /// UTF-8) is replaced.
 std::string xml_text(std::string_view text);
 

@@ -22,7 +22,7 @@ double sweep_tolerance_rad(bool inches) {
   return inches ? kSweepTolerance_rad : kMillimetresPerInch * kSweepTolerance_rad;
 }
 
-/// A point turned there and back differs in its last digits: what does not move must stay exactly.
+/// A point turned forth and back differs in its last digits: coordinates that do not move must stay exact.
 AxisValues near(const AxisValues& from, AxisValues to) {
   for (std::size_t a = 0; a < to.size(); ++a) {
     if (std::fabs(to[a] - from[a]) <= kSamePoint_u) to[a] = from[a];
@@ -31,7 +31,7 @@ AxisValues near(const AxisValues& from, AxisValues to) {
 }
 
 /// The controlled point of a lathe tool seen from the centre of its nose, program coordinates: LinuxCNC's
-/// orientations 1 to 8 stand round the nose, 0 and 9 in its centre.
+/// orientations 1 to 8 are around the nose, 0 and 9 in its centre.
 AxisValues nose_origin(int orientation, double radius_mm) {
   AxisValues origin{};
   if (is_one_of(orientation, {1, 2, 6})) origin[0] = -radius_mm;
@@ -46,18 +46,18 @@ AxisValues nose_origin(int orientation, double radius_mm) {
 void Interpreter::compensation() {
   const int code = words_.g(GGroup::compensation);
   if (code == kNoCode) return;
-  if (code == 400) return compensation_off();
+  if (code == code::g40) return compensation_off();
   if (state_.compensating()) return;
   compensation_span_ = g_span(GGroup::compensation);
   CompensationTool tool;
-  tool.left = is_one_of(code, {410, 411});
+  tool.left = is_one_of(code, {code::g41, code::g41_1});
   const bool found = !silent_ && find_compensation_tool(tool);
-  state_.compensation_code = tool.left ? 410 : 420;
+  state_.compensation_code = tool.left ? code::g41 : code::g42;
   if (found && tool.radius_mm == 0) return;
   compensation_tilted_ = state_.rotation_deg != 0 && state_.plane != Plane::xy;
   if (compensation_tilted_) compensation_.set_last_end(state_.to_program(compensation_.last_end()));
   compensation_.begin(tool, compensation_tilted_ ? state_.to_program(state_.position) : state_.position);
-  // without a radius, or from an unknown point, nothing can be said of the contour
+  // without a radius, or from an unknown point, nothing is known of the contour
   const bool doubtful = state_.uncertain.axes != 0 || (words_.doubtful & letter_bit('D')) != 0;
   if (!found || doubtful) compensation_.lose();
 }
@@ -67,7 +67,7 @@ void Interpreter::compensation_off() {
     if (compensation_.entered()) state_.straight_move_due = true;
     end_compensation(g_span(GGroup::compensation));
   }
-  state_.compensation_code = 400;
+  state_.compensation_code = code::g40;
 }
 
 bool Interpreter::find_compensation_tool(CompensationTool& tool) {
@@ -75,7 +75,7 @@ bool Interpreter::find_compensation_tool(CompensationTool& tool) {
   const Span span = g_span(GGroup::compensation);
   double diameter_mm = 0;
   int orientation = 0;
-  if (is_one_of(code, {411, 421})) {
+  if (is_one_of(code, {code::g41_1, code::g42_1})) {
     diameter_mm = words_.value('D') * state_.length_factor();
     if (words_.has('L')) near_integer(words_.value('L'), orientation);
   } else {
@@ -135,7 +135,8 @@ void Interpreter::compensate(const Block& block) {
   CompensationFault fault;
   if (compensation_tilted_ && is_move(block)) {
     Block programmed = block;
-    programmed.end = near(compensation_.programmed(), state_.to_program(block.end));
+    AxisValues& end = move_of(programmed)->end;
+    end = near(compensation_.programmed(), state_.to_program(end));
     fault = compensation_.take(programmed, feeds);
   } else {
     fault = compensation_.take(block, feeds);
@@ -145,20 +146,20 @@ void Interpreter::compensate(const Block& block) {
 }
 
 void Interpreter::hand_out_compensated(Block& block) {
-  if (compensation_tilted_ && is_move(block)) {
-    block.plane_rotation_deg = 0;
-    if (block.kind == BlockKind::arc) {
-      const PlaneAxes axes = plane_axes(block.plane);
+  Move* move = compensation_tilted_ ? move_of(block) : nullptr;
+  if (move != nullptr) {
+    if (Arc* arc = std::get_if<Arc>(&block.action)) {
+      const PlaneAxes axes = plane_axes(arc->plane);
       const auto first = static_cast<std::size_t>(axes.first), second = static_cast<std::size_t>(axes.second);
-      AxisValues center = block.end;
-      center[first] = block.center_first_mm;
-      center[second] = block.center_second_mm;
+      AxisValues center = arc->end;
+      center[first] = arc->center_first_mm;
+      center[second] = arc->center_second_mm;
       center = state_.to_machine(center);
-      block.center_first_mm = center[first];
-      block.center_second_mm = center[second];
-      block.plane_rotation_deg = state_.rotation_deg;
+      arc->center_first_mm = center[first];
+      arc->center_second_mm = center[second];
+      arc->plane_rotation_deg = state_.rotation_deg;
     }
-    block.end = state_.to_machine(block.end);
+    move->end = state_.to_machine(move->end);
   }
   hand_out(block);
 }
@@ -179,14 +180,14 @@ void Interpreter::report_compensation_fault(const CompensationFault& fault, Span
     case Kind::entry_short:
       d = problem(Code::compensation_entry_short, span,
                   fault.measured > 0 ? fmt::format("entry move of {} mm", figure(fault.measured))
-                                     : "this move does not move in the plane",
-                  fault.measured > 0 ? "begin further away from the contour"
-                                     : "write it before G41, and a longer move in the plane behind");
+                                     : "nothing moves in the plane",
+                  fault.measured > 0 ? "start further away from the contour"
+                                     : "write it before G41, and a longer move in the plane after it");
       d.notes.push_back(
           fmt::format("it must be longer than the tool's radius, {} mm", figure(fault.allowed)));
       break;
     case Kind::entry_arc:
-      d = problem(Code::compensation_entry_arc, span, "no arc leads from here to beside the contour",
+      d = problem(Code::compensation_entry_arc, span, "no arc leads from here to the offset contour",
                   "enter with a straight move, or with an arc of another radius");
       break;
     case Kind::arc_small:
@@ -217,7 +218,7 @@ void Interpreter::report_compensation_fault(const CompensationFault& fault, Span
     d.notes.push_back(fmt::format("the move before the corner is on line {}", fault.earlier.line));
   }
   if (d.code == Code::compensation_gouge) d.help = "choose a smaller tool, or leave out the short move";
-  d.notes.push_back(fmt::format("cutter compensation is on since line {}", compensation_span_.line));
+  d.notes.push_back(fmt::format("cutter compensation has been on since line {}", compensation_span_.line));
   ++compensation_faults_;
   report_.error(std::move(d));
 }

@@ -27,8 +27,10 @@ struct DwellWord {
 /// Of several words on a line the first of these holds.
 std::span<const DwellWord> dwell_words(Dialect dialect);
 
-/// What a G code means in RS-274/NGC, both as ten times their numbers: G70 and G71 of fanuc are G20 and G21.
-int meant_g_code(Dialect dialect, int tenths);
+/// What a code of the dialect means in RS-274/NGC: G70 and G71 of fanuc are G20 and G21.
+/// @param letter  G or M
+/// @param number  of G ten times the number
+int meant_code(Dialect dialect, char letter, int number);
 
 /// What P of M98 calls.
 struct SubprogramCall {

@@ -30,7 +30,7 @@ void Flow::call_statement(const Line& line) {
     if (!value(line, flow.label_first, flow.label_root, label)) return;
     if (!near_integer(label, number) || number < 0) {
       return error(problem(Code::o_label_missing, place, fmt::format("the label is {}", figure(label)),
-                           "a label is a whole number from 0"));
+                           "a label is a whole number, 0 or above"));
     }
     name = state_.names.number(std::to_string(number));
   }
@@ -83,7 +83,7 @@ Flow::Target Flow::find(std::int32_t name, bool by_code, Span place) {
   error(problem(Code::sub_file, place,
                 fmt::format("{} does not hold {}{}", sources_[units_.back()->program.file()].name(),
                             label_text(name), by_code ? " for M98" : " sub"),
-                "a called file holds the subroutine of its own name"));
+                "a called file must contain the subroutine of its own name"));
   return {};
 }
 
@@ -103,7 +103,7 @@ bool Flow::load(std::int32_t name, Span place) {
     std::string looked;
     for (const std::string& folder : file.looked) looked += (looked.empty() ? "" : ", ") + folder;
     d.notes.push_back(looked.empty() ? "a program from standard input has no folder; --subs names one"
-                                     : fmt::format("{}.ngc was looked for in {}", text, looked));
+                                     : fmt::format("kadr looked for {}.ngc in {}", text, looked));
     error(std::move(d));
     return false;
   }
@@ -119,10 +119,9 @@ bool Flow::load(std::int32_t name, Span place) {
 bool Flow::enter(Target target, bool by_code, Span place, const std::vector<double>& arguments) {
   const std::uint32_t most = options_.bounds.call_depth;
   if (most != 0 && calls_.size() >= most) {
-    Diagnostic d =
-        problem(Code::calls_too_deep, place, fmt::format("call {} within each other", calls_.size() + 1),
-                "a subroutine that calls itself needs a condition that ends it");
-    d.notes.push_back(fmt::format("allowed are {} (--limit call_depth=N)", most));
+    Diagnostic d = problem(Code::calls_too_deep, place, fmt::format("{} calls deep", calls_.size() + 1),
+                           "a subroutine that calls itself needs a condition that ends it");
+    d.notes.push_back(fmt::format("allowed: {} (--limit call_depth=N)", most));
     error(std::move(d));
     stopped_ = true;
     return false;
@@ -168,8 +167,8 @@ void Flow::return_code(const CallRequest& request) {
     return leave_call();
   }
   if (!request.alone && options_.dialect != Dialect::fanuc) {
-    error(
-        problem(Code::o_word_place, place, "other words stand beside M99", "write M99 on a line of its own"));
+    error(problem(Code::o_word_place, place, "M99 shares its line with other words",
+                  "write M99 on a line of its own"));
   }
   if (call.repeats_left > 0 && report_.errors() == 0) {
     --call.repeats_left;

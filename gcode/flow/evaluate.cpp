@@ -36,7 +36,7 @@ bool Evaluator::evaluate(const Line& line, std::int32_t first, std::int32_t root
     if (!node_value(line, line.nodes[at], state, values_[at])) return false;
     if (!std::isfinite(values_[at])) {
       return fail(Code::value_too_large, line.span(line.nodes[at].own),
-                  "the result here is beyond every number");
+                  "the result here is not a finite number");
     }
   }
   value = values_[static_cast<std::size_t>(root)];
@@ -94,7 +94,7 @@ bool Evaluator::read(const Line& line, const ExpressionNode& node, const State& 
   int number = 0;
   if (!near_integer(index, number) || number < parameter::kFirst || number > parameter::kLast) {
     return fail(Code::parameter_range, line.span(node.own),
-                fmt::format("parameter {}, allowed are whole numbers from {} to {}", index, parameter::kFirst,
+                fmt::format("parameter {}, allowed: whole numbers from {} to {}", index, parameter::kFirst,
                             parameter::kLast));
   }
   if (number >= parameter::kPosition && number <= parameter::kPositionLast && state.compensating()) {
@@ -112,7 +112,7 @@ void Evaluator::tell_never_set(const Line& line, const ExpressionNode& node, con
   if (report_ == nullptr || state.uncertain.parameters || !told_.insert(number).second) return;
   report_->warning(problem(Code::parameter_never_set, line.span(node.own),
                            fmt::format("#{} is 0, because nothing has set it", number),
-                           "set it at the head of the program, or correct the number"));
+                           "set it at the beginning of the program, or correct the number"));
 }
 
 bool Evaluator::read_named(const Line& line, const ExpressionNode& node, const State& state, double& value) {
@@ -128,10 +128,11 @@ bool Evaluator::read_named(const Line& line, const ExpressionNode& node, const S
   if (is_declared(node.left)) {
     value = 0;
     if (report_ != nullptr) {
-      report_->warning(problem(Code::parameter_never_set, line.span(node.own),
-                               fmt::format("#<{}> is 0 here, because its first value holds behind this line",
-                                           state.names[node.left]),
-                               "set it on a line before"));
+      report_->warning(
+          problem(Code::parameter_never_set, line.span(node.own),
+                  fmt::format("#<{}> is 0 here, because its first value takes effect after this line",
+                              state.names[node.left]),
+                  "set it on an earlier line"));
     }
     return true;
   }

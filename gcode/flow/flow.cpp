@@ -58,7 +58,7 @@ void Flow::tell_words_behind_end() {
     if (line[first] == '%') return;
     const auto column = static_cast<std::uint32_t>(first) + 1;
     Diagnostic d = problem(Code::words_behind_end, {file_, at.line, column, 1}, "never reached");
-    d.notes.push_back(fmt::format("the program ends in line {}", end_.line));
+    d.notes.push_back(fmt::format("the program ends on line {}", end_.line));
     return report_.warning(std::move(d));
   }
 }
@@ -79,7 +79,7 @@ bool Flow::size_allowed(std::uint32_t file) {
   const std::uint64_t most = options_.bounds.file_bytes;
   if (most == 0 || bytes <= most) return true;
   Diagnostic d = problem(Code::file_too_large, {file, 1, 1, 1}, fmt::format("{} bytes", bytes));
-  d.notes.push_back(fmt::format("allowed are {} (--limit file_bytes=N)", most));
+  d.notes.push_back(fmt::format("allowed: {} (--limit file_bytes=N)", most));
   error(std::move(d));
   return false;
 }
@@ -151,8 +151,8 @@ void Flow::pass_definition(int index) {
   if (unit_->defined[static_cast<std::size_t>(index)]) {
     unit_->program.go_to(at(s.end).after);
     return error(problem(Code::o_misplaced, s.span,
-                         fmt::format("{} is known here already", label_text(s.name)),
-                         "write a subroutine above the lines that call it, or behind the program's end"));
+                         fmt::format("{} is already known here", label_text(s.name)),
+                         "write a subroutine above the lines that call it, or after the program's end"));
   }
   unit_->defined[static_cast<std::size_t>(index)] = true;
   unit_->program.go_to(at(s.end).at);

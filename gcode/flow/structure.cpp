@@ -85,12 +85,12 @@ FlowWord beginning_of(FlowWord word) {
   return FlowWord::if_true;
 }
 
-/// The controller passes over what stands beside an O word, messages too.
+/// The controller skips everything else on the line of an O word, including messages.
 void warn_comments(const Line& line, Report& report) {
   for (const Item& item : line.items) {
     if (item.kind != ItemKind::comment || active_comment(line.slice(item.bytes)).command.empty()) continue;
     report.warning(problem(Code::comment_not_run, line.span(item.bytes),
-                           "a comment beside an O word is not run", "write it on a line of its own"));
+                           "a comment on the line of an O word is not run", "write it on a line of its own"));
   }
 }
 
@@ -121,7 +121,7 @@ struct Structure::Reader {
   }
   std::string told(int index) const {
     const Statement& s = structure[index];
-    return fmt::format("{} {} of line {}", name_of(s.name), word_text(s.word), s.span.line);
+    return fmt::format("{} {} on line {}", name_of(s.name), word_text(s.word), s.span.line);
   }
 
   void add(const Line& line, Program::Position at, Program::Position after) {
@@ -155,7 +155,7 @@ struct Structure::Reader {
     if (!Evaluator().evaluate(line, flow.label_first, flow.label_root, State(), nullptr, value) ||
         !near_integer(value, number) || number < 0) {
       error(Code::o_label_missing, s.span, fmt::format("the label is {}", figure(value)), {},
-            "a label is a whole number from 0");
+            "a label is a whole number, 0 or above");
       return false;
     }
     s.name = names.number(std::to_string(number));
@@ -207,12 +207,12 @@ struct Structure::Reader {
       const auto [it, is_new] = structure.subs_.try_emplace(s.name, index);
       if (!is_new) {
         error(Code::o_label_twice, s.span, "a second sub of this name",
-              fmt::format("the first one stands in line {}", structure[it->second].span.line));
+              fmt::format("the first one is on line {}", structure[it->second].span.line));
       }
       labels_of_main.swap(labels_in_scope);
       labels_in_scope.clear();
     } else if (!labels_in_scope.insert(s.name).second) {
-      error(Code::o_label_twice, s.span, fmt::format("{} begins something else already", name_of(s.name)), {},
+      error(Code::o_label_twice, s.span, fmt::format("{} already begins something else", name_of(s.name)), {},
             "give it a label of its own, and the words that belong to it as well");
     }
     open.push_back(index);
@@ -228,7 +228,7 @@ struct Structure::Reader {
     if (s.word == FlowWord::end_while && !open.empty() && structure[open.back()].word == FlowWord::do_once) {
       // the foot of a do loop is a while
       error(Code::o_not_opened, s.span, "no while of this label is open here",
-            fmt::format("open is {}, which ends with while [condition]", told(open.back())));
+            fmt::format("open here: {}, which ends with while [condition]", told(open.back())));
       return close(index);
     }
     not_opened(index);
@@ -238,8 +238,8 @@ struct Structure::Reader {
     const Statement& s = structure[index];
     error(Code::o_not_opened, s.span,
           fmt::format("no {} {} is open here", name_of(s.name), word_text(beginning_of(s.word))),
-          open.empty() ? "nothing is open here" : fmt::format("open is {}", told(open.back())));
-    // an end that fits something further out ends what is inside it as well, or one slip would be told often
+          open.empty() ? "nothing is open here" : fmt::format("open here: {}", told(open.back())));
+    // an end that fits something further out also ends what is inside it, or one slip would be reported often
     for (std::size_t i = open.size(); i-- > 0;) {
       if (structure[open[i]].name != s.name || structure[open[i]].word != beginning_of(s.word)) continue;
       while (open.size() > i) drop();
@@ -272,7 +272,7 @@ struct Structure::Reader {
     if (!fits) return not_opened(index);
     const int last = last_branch.back();
     if (structure[last].word == FlowWord::otherwise) {
-      error(Code::o_misplaced, s.span, fmt::format("{} behind else", word_text(s.word)),
+      error(Code::o_misplaced, s.span, fmt::format("{} after else", word_text(s.word)),
             fmt::format("{} is the last branch", told(last)));
     }
     s.begin = open.back();
@@ -295,7 +295,7 @@ struct Structure::Reader {
       return error(Code::o_misplaced, s.span, "no sub is open here");
     }
     error(Code::o_misplaced, s.span, fmt::format("no while or do loop {} is open here", name_of(s.name)),
-          open.empty() ? "nothing is open here" : fmt::format("open is {}", told(open.back())));
+          open.empty() ? "nothing is open here" : fmt::format("open here: {}", told(open.back())));
   }
 
   void end_of_file() {
@@ -315,7 +315,7 @@ bool begins_subroutine(const Line& line) {
 bool ends_program(const Line& line) {
   return std::any_of(line.items.begin(), line.items.end(), [](const Item& item) {
     return item.kind == ItemKind::word && item.letter == 'M' && item.value < 0 &&
-           (item.number == 2 || item.number == 30);
+           (item.number == code::m2 || item.number == code::m30);
   });
 }
 
@@ -333,7 +333,7 @@ bool Structure::read(Program& program, bool block_delete, Names& names, Report& 
     if (line == nullptr) break;
     if (line->items.empty()) continue;
     if (block_delete && line->items.front().kind == ItemKind::block_delete) continue;
-    // what can't be read behind M2 is a remark, until a subroutine begins
+    // unreadable text after M2 is a remark, until a subroutine begins
     if (behind_end && (line->failed || !begins_subroutine(*line))) continue;
     behind_end = reader.open.empty() && ends_program(*line);
     if (line->has_flow && line->failed) unread = true;
@@ -351,7 +351,7 @@ bool Structure::read(Program& program, bool block_delete, Names& names, Report& 
   }
   reader.end_of_file();
   program.rewind();
-  // an O word that could not be read leaves others without their partner: it alone is told
+  // an unreadable O word leaves others without a partner: only it is reported
   if (unread) return false;
   for (Diagnostic& problem : reader.problems) report.error(std::move(problem));
   return reader.problems.empty();

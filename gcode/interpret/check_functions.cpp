@@ -8,7 +8,7 @@ namespace kadr::gcode {
 namespace {
 
 constexpr double kLargestChannel = 9999;
-constexpr double kLastWaitMode = 4;
+constexpr double kLastWaitMode = kWaitModes.size() - 1;
 constexpr double kLastOrientWay = 2;  // P of M19: 0 the nearer way, 1 clockwise, 2 counter-clockwise
 
 }  // namespace
@@ -17,7 +17,7 @@ void Interpreter::check_functions() {
   if (words_.m(MGroup::inputs) != kNoCode) check_inputs();
   // one spindle: $0, and $-1, which means all
   if (words_.has('$') && (words_.has('S') || words_.m(MGroup::spindle) != kNoCode)) check_whole('$', -1, 0);
-  if (words_.m(MGroup::spindle) == 19) check_orientation();
+  if (words_.m(MGroup::spindle) == code::m19) check_orientation();
   const int spindle_code = words_.m(MGroup::spindle);
   const int state_code = words_.m(MGroup::modal_state);
   if (spindle_code == kNoCode || state_code == kNoCode) return;
@@ -28,7 +28,7 @@ void Interpreter::check_functions() {
 void Interpreter::check_orientation() {
   if (words_.has('R') && !(words_.value('R') >= 0 && words_.value('R') <= kFullTurn_deg)) {
     error(problem(Code::word_out_of_range, words_.span(*line_, 'R'),
-                  fmt::format("M19 R{}: allowed are 0 to 360 degrees", figure(words_.value('R')))));
+                  fmt::format("M19 R{}: allowed: 0 to 360 degrees", figure(words_.value('R')))));
   }
   check_whole('P', 0, kLastOrientWay);
   if (words_.has('Q') && !(words_.value('Q') > 0)) {
@@ -40,10 +40,9 @@ void Interpreter::check_orientation() {
 void Interpreter::check_inputs() {
   const int code = words_.m(MGroup::inputs);
   const Span span = words_.span(*line_, MGroup::inputs);
-  if (code == 66) return check_wait();
-  const bool analog = code >= 67;
+  if (code == code::m66) return check_wait();
   const std::string name = fmt::format("M{}", code);
-  if (analog) {
+  if (output_code(code)->analog) {
     require_words({{'E', "the number of the output"}, {'Q', "its value"}}, span, name);
     check_whole('E', 0, kLargestChannel);
   } else {
@@ -69,7 +68,7 @@ void Interpreter::check_wait() {
                   "an analog input can only be read at once: L0"));
   } else if (waits && !(words_.has('Q') && words_.value('Q') > 0)) {
     error(problem(Code::input_unclear, words_.span(*line_, 'L'),
-                  "a wait needs Q above 0: the seconds after which it is given up"));
+                  "a wait needs Q above 0: the seconds after which it gives up"));
   }
 }
 

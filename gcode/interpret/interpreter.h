@@ -24,13 +24,16 @@ struct CallRequest {
   Span place;
 };
 
-/// A word that a code can't do without, and what it says.
+/// A required word of a code, and its meaning.
 struct NeededWord {
   char letter;
   std::string_view meaning;
 };
 
 using Sink = std::function<void(const Block&)>;
+
+/// How fast a straight move goes.
+enum class Rate : std::uint8_t { rapid, feed };
 
 /// The points between G5.2 and G5.3: program coordinates, mm.
 struct Nurbs {
@@ -43,7 +46,7 @@ struct Nurbs {
   bool doubtful = false;
 };
 
-/// Lines -> Blocks. Keeps what earlier lines have set, checks a whole line before anything of it takes
+/// Lines -> Blocks. Keeps the settings of earlier lines, checks a whole line before any of it takes
 /// effect, then executes its words in the order of RS-274/NGC, whatever order they are written in.
 class Interpreter {
  public:
@@ -54,18 +57,18 @@ class Interpreter {
   void finish(Span end, bool by_percent = false);
   /// The end by M2, M30, or M99 in the main program: modes are reset first.
   void end_program(Span place);
-  /// What the line just run asks of the flow; asked once.
+  /// The call requested by the line just run; returned once.
   std::optional<CallRequest> take_call() { return std::exchange(call_, std::nullopt); }
-  /// The end of a call: its modes are given back if M73 asked for it, and its level goes.
+  /// The end of a call: restores its modes if M73 asked for it, and removes its level.
   void leave_level(Span place);
-  /// A line that only steers has been read: the program has begun.
+  /// A flow line has been read: the program has begun.
   void start() { started_ = true; }
   State& state() { return state_; }
   /// True after M2, M30, the closing % or the bound on blocks.
   bool ended() const { return ended_; }
 
  private:
-  // check.cpp: may these words stand together?
+  // check.cpp: do these words fit together?
   bool check();
   void check_axes();
   void check_unused();
@@ -79,12 +82,13 @@ class Interpreter {
   bool check_whole(char letter, double least, double most);
   void check_shared_p();
 
-  // settings.cpp: what holds from here on
+  // settings.cpp: modes
   void comment();
   void technology(std::string_view text, Span span);
   void feed_mode();
   void feed_rate();
   void plane();
+  Plane plane_of_line() const;
   void units();
   void work_system();
   void path_control();
@@ -101,7 +105,9 @@ class Interpreter {
   void dwell();
   void stop();
   void call();
-  void override_block(BlockKind kind, bool enabled);
+  void enable_feed_override(bool enabled);
+  void enable_speed_override(bool enabled);
+  Span override_span() const;
 
   // tools.cpp: T, M6 M61, G43 G43.1 G43.2 G49, G10 L1 L10 L11
   void select_tool();
@@ -139,20 +145,23 @@ class Interpreter {
   AxisValues target() const;
   AxisValues near_position(const AxisValues& wanted) const;
   void straight(Motion motion);
-  void go(BlockKind kind, const AxisValues& program);
-  void go_to(BlockKind kind, const AxisValues& end);
+  void go(Rate rate, const AxisValues& program);
+  void go_to(Rate rate, const AxisValues& end);
+  Move make_move(const AxisValues& end) const;
+  Move straight_to(const AxisValues& end);
+  void emit_straight(Rate rate, const Move& move);
   void arc(Motion motion);
   /// Where an arc is a circle of its plane: machine coordinates, and program coordinates of X Z and Y Z under
   /// a rotation, which tilts those planes.
   AxisValues arc_frame(const AxisValues& machine) const;
   AxisValues arc_frame_to_machine(const AxisValues& point) const;
-  bool find_arc(const AxisValues& start, const AxisValues& end, bool clockwise, Arc& result);
+  bool find_arc(const AxisValues& start, const AxisValues& end, bool clockwise, ArcGeometry& result);
   bool arc_center_words(PlanePoint& center);
   ArcLimits limits_of_arc() const;
-  bool refuse_arc(const Arc& arc, PlanePoint end);
-  void warn_arc(const Arc& arc);
+  bool refuse_arc(const ArcGeometry& arc, PlanePoint end);
+  void warn_arc(const ArcGeometry& arc);
   bool feed_ready();
-  void set_feed(Block& block);
+  void set_feed(Move& move);
   void move_to(const AxisValues& end);
 
   // splines.cpp: G5 G5.1 G5.2 G5.3
@@ -160,9 +169,9 @@ class Interpreter {
   bool spline_allowed(Motion motion);
   bool spline_place_allowed(std::string_view name);
   double spline_offset(char letter) const;
-  void add_control(Block& block, AxisValues program, double x_mm, double y_mm, double weight) const;
+  void add_control(Spline& spline, AxisValues program, double x_mm, double y_mm, double weight) const;
   void warn_direction_kept();
-  void emit_spline(Block& block);
+  void emit_spline(Spline spline, Span span);
   void add_nurbs_point();
   void add_nurbs_control(const AxisValues& program, double weight);
   bool nurbs_words_allowed(bool first);
@@ -178,7 +187,7 @@ class Interpreter {
   double mean_spindle_rpm(const AxisValues& from, const AxisValues& to) const;
   bool feed_per_turn_ready();
   void warn_standing_spindle();
-  void follow_spindle(Block& block);
+  void follow_spindle(Move& move);
 
   // threads.cpp: G33 G33.1
   void check_thread(int code);
@@ -210,7 +219,7 @@ class Interpreter {
   void bore_and_stop(const Hole& hole);
   void tap_to_level(const Hole& hole, double level);
   AxisValues place_at(const Hole& hole, double level) const;
-  void go_to_level(const Hole& hole, BlockKind kind, double level);
+  void go_to_level(const Hole& hole, Rate rate, double level);
   void dwell_at_bottom();
   void retract_mode();
 
@@ -218,10 +227,10 @@ class Interpreter {
   void probe();
   bool probe_allowed();
   double probe_feed_under_inverse_time();
-  bool find_contact(Block& block, double& travelled);
-  bool refuse_probe_start(const Block& block, double beyond_mm);
+  bool find_contact(Probe& probe, double& travelled);
+  bool refuse_probe_start(const Probe& probe, double beyond_mm);
   std::string stock_text() const;
-  void keep_probe_result(const Block& block);
+  void keep_probe_result(const Probe& probe);
 
   // compensation_codes.cpp: G40 G41 G42 G41.1 G42.1
   void compensation();
@@ -234,7 +243,7 @@ class Interpreter {
   void end_compensation(Span place);
   void report_compensation_fault(const CompensationFault& fault, Span span);
 
-  // compensation_checks.cpp: what may not stand while compensation is on
+  // compensation_checks.cpp: codes not allowed while compensation is on
   void check_compensation();
   void check_compensation_words();
   void check_while_compensating(bool until_now, bool from_now);
@@ -268,10 +277,8 @@ class Interpreter {
   void execute();
   void apply_modes();
   void recover(bool syntax);
-  void emit(Block& block);
+  void emit(Span span, Action action);
   void hand_out(Block& block);
-  Block make_block(BlockKind kind, Span span) const;
-  void simple_block(BlockKind kind, Span span);
   Span line_span() const;
   Span action_span() const;
   Span g_span(GGroup group) const { return words_.span(*line_, group); }
@@ -283,18 +290,18 @@ class Interpreter {
   State state_;
   Advice advice_;
   Words words_;
-  Block motion_block_;
   std::optional<CallRequest> call_;
   std::optional<Span> place_;  ///< of blocks while modes are restored
   Compensation compensation_;
   bool compensation_tilted_ = false;     ///< it runs in program coordinates: G18 in a rotated work system
   Span compensation_span_;               ///< the G41 or G42 in force
-  std::size_t compensation_faults_ = 0;  ///< told on this line
+  std::size_t compensation_faults_ = 0;  ///< reported on this line
   const Line* line_ = nullptr;
   Nurbs nurbs_;
   double spline_i_mm_ = 0;  ///< from the start to the first control point of a G5 without I and J
   double spline_j_mm_ = 0;
   std::optional<AxisValues> spline_end_;  ///< of the last G5
+  AxisValues last_move_end_{};            ///< of the last line, arc or tap
   std::optional<AxisValues> tapped_at_;   ///< where the last tap ended for the program: not where the tool is
   std::optional<AxisValues> probe_left_;  ///< where the last G38.4 or G38.5 lost contact
   bool probe_stock_told_ = false;
@@ -304,7 +311,7 @@ class Interpreter {
   bool ended_ = false;
   bool threading_ = false;         ///< feed moves follow the spindle's angle, by thread_pitch_u_rev_
   double thread_pitch_u_rev_ = 0;  ///< as written
-  bool standing_told_ = false;     ///< the warning of a feed that follows a standing spindle
+  bool standing_told_ = false;     ///< the warning of a feed that follows a stopped spindle
   bool silent_ = false;            ///< recovering from an error: modes are taken over, nothing is handed out
 };
 

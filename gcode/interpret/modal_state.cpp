@@ -5,7 +5,7 @@
 #include "gcode/interpret/interpreter.h"
 #include "gcode/read/parser.h"
 
-/// M70 to M73: modes are kept, and given back by running the words that differ.
+/// M70 to M73: modes are saved, and restored by running the words that differ.
 namespace kadr::gcode {
 namespace {
 
@@ -41,7 +41,7 @@ std::string differing_words(const ModalState& now, const ModalState& saved) {
   differ(now.spindle_rpm != saved.spindle_rpm && !speed_told, fmt::format("S{:.0f} ", saved.spindle_rpm));
   differ(now.plane != saved.plane, plane_word(saved.plane));
   differ(now.diameter_mode != saved.diameter_mode, saved.diameter_mode ? "G7 " : "G8 ");
-  differ(now.compensation_code != saved.compensation_code && saved.compensation_code == 400, "G40 ");
+  differ(now.compensation_code != saved.compensation_code && saved.compensation_code == code::g40, "G40 ");
   differ(now.work_system != saved.work_system, work_system_word(saved.work_system));
   differ(now.path_mode != saved.path_mode || now.path_tolerance != saved.path_tolerance, path_word(saved));
   differ(now.incremental != saved.incremental, saved.incremental ? "G91 " : "G90 ");
@@ -54,7 +54,7 @@ std::string differing_words(const ModalState& now, const ModalState& saved) {
   return words;
 }
 
-/// The codes by which LinuxCNC keeps coolant and overrides; 0: none, which is never given back.
+/// The codes by which LinuxCNC saves coolant and overrides; 0: none, which is never restored.
 int mist_code(const ModalState& modes) { return modes.mist ? 7 : modes.flood ? 0 : 9; }
 int flood_code(const ModalState& modes) { return modes.flood ? 8 : 0; }
 int override_code(const ModalState& modes) { return modes.feed_override ? 48 : 51; }
@@ -62,8 +62,8 @@ int spindle_code(Turning turning) {
   return turning == Turning::clockwise ? 3 : turning == Turning::counterclockwise ? 4 : 5;
 }
 
-/// The M codes that lead to `saved`, as far as the kept codes tell it: coolant that was off stays on beside
-/// the other one, and of the overrides only an enabled feed override comes back.
+/// M codes that restore `saved`. As in LinuxCNC, a coolant that was off is not switched off if the other
+/// was on, and of the overrides only an enabled feed override is restored.
 std::vector<int> differing_m_codes(const ModalState& now, const ModalState& saved) {
   std::vector<int> codes;
   const auto differ = [&](int code_now, int code_saved) {
@@ -111,20 +111,20 @@ void Interpreter::modal_state() {
   if (code == kNoCode) return;
   CallLevel& level = state_.levels.back();
   switch (code) {
-    case 71:
+    case code::m71:
       level.modal.reset();
       level.restores_modal = false;
       return;
-    case 72: {
+    case code::m72: {
       const Span place = words_.span(*line_, MGroup::modal_state);
       if (level.modal) return restore(*level.modal, place);
-      error(problem(Code::modal_state_missing, place, "nothing was kept at this level of calls",
-                    "M70 keeps the modes for an M72 of the same subroutine; M71 forgets them"));
+      error(problem(Code::modal_state_missing, place, "nothing was saved at this level of calls",
+                    "M70 saves the modes for an M72 in the same subroutine; M71 discards them"));
       return;
     }
     default:
       level.modal = modes();
-      level.restores_modal = code == 73;
+      level.restores_modal = code == code::m73;
       return;
   }
 }
@@ -167,7 +167,7 @@ void Interpreter::leave_level(Span place) {
 
 void Interpreter::diameter_mode() {
   const int code = words_.g(GGroup::diameter);
-  if (code != kNoCode) state_.diameter_mode = code == 70;
+  if (code != kNoCode) state_.diameter_mode = code == code::g7;
 }
 
 }  // namespace kadr::gcode

@@ -10,7 +10,7 @@
 namespace kadr::gcode {
 namespace {
 
-constexpr double kOrigin_u = 1e-12;  // nearer than this the angle is rounding
+constexpr double kOrigin_u = 1e-12;  // closer than this the angle is rounding noise
 
 }  // namespace
 
@@ -20,18 +20,18 @@ bool Interpreter::polar_words() {
   const Span span = words_.span(*line_, sign);
   if (words_.has('X') || words_.has('Y')) {
     return error(problem(Code::polar_and_axis, span,
-                         words_.has('X') ? "X stands on this line too" : "Y stands on this line too",
-                         "give the end by @ and ^, or by X and Y"));
+                         words_.has('X') ? "X is on this line too" : "Y is on this line too",
+                         "give the end with @ and ^, or with X and Y"));
   }
-  if (axis_words_taken() || words_.g(GGroup::nonmodal) == 530) {
+  if (axis_words_taken() || words_.g(GGroup::nonmodal) == code::g53) {
     return error(problem(Code::polar_place, span, "no motion in program coordinates reads this word",
                          "give X and Y instead"));
   }
-  // as the controller, which looks at the plane before the line changes it
+  // as in the controller, which checks the plane before the line changes it
   if (state_.plane != Plane::xy) {
     return error(problem(Code::polar_place, span,
                          fmt::format("the line begins in {}", state_.plane == Plane::zx ? "G18" : "G19"),
-                         "write G17 on a line before, or give the end by its axes"));
+                         "write G17 on an earlier line, or give the end with axis words"));
   }
   words_.stand_in('X', sign);
   words_.stand_in('Y', sign);
@@ -47,7 +47,7 @@ bool Interpreter::resolve_polar() {
   if (at_origin && (state_.incremental || !words_.has('^'))) {
     return error(
         problem(Code::polar_origin, words_.span(*line_, sign), "the move begins at X0 Y0",
-                state_.incremental ? "leave the origin by an absolute move" : "give the angle ^ as well"));
+                state_.incremental ? "leave the origin with an absolute move" : "give the angle ^ as well"));
   }
   double angle_rad = at_origin ? 0 : exact_atan2(y, x);
   const double turn_rad = words_.has('^') ? words_.value('^') * kRadiansPerDegree : 0;
@@ -67,7 +67,7 @@ bool Interpreter::resolve_polar() {
 
 void Interpreter::take_diameters() {
   const int code = words_.g(GGroup::diameter);
-  const bool diameters = code == kNoCode ? state_.diameter_mode : code == 70;
+  const bool diameters = code == kNoCode ? state_.diameter_mode : code == code::g7;
   if (diameters && words_.has('X')) words_.set('X', words_.value('X') / 2);
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double kLargestCount = 1e6;
 constexpr double kMostPasses = 10'000;
 constexpr double kRightAngle_deg = 90;
-/// LinuxCNC marks a Q that was not written with this value, so it takes Q-1 for none.
+/// LinuxCNC marks a missing Q with this value, so it treats Q-1 as none.
 constexpr double kNoAngle_deg = -1;
 constexpr std::size_t kFirstOther = 3;
 constexpr int kEntryTaper = 1, kExitTaper = 2;
@@ -38,9 +38,9 @@ struct Interpreter::ThreadShape {
   double height = 0;     ///< K
   double pitch_u_rev = 0;
   double degression = 1;
-  double slope = 0;  ///< way along Z per depth: tan Q, against the direction of the thread
+  double slope = 0;  ///< travel along Z per depth: tan Q, against the direction of the thread
   int spring_passes = 0;
-  double taper = 0;              ///< E, signed as the way from end to start; 0: none
+  double taper = 0;              ///< E, signed from end to start; 0: none
   double taper_pitch_u_rev = 0;  ///< along the taper, so that Z keeps the pitch
   bool entry_taper = false, exit_taper = false;
 
@@ -73,7 +73,7 @@ void Interpreter::check_thread_cycle() {
   const bool below = k <= j;
   if (i == 0) {
     error(problem(Code::thread_depth, words_.span(*line_, 'I'), "I is 0",
-                  "I is negative for an outside thread and positive for an inside one"));
+                  "I is negative for an external thread and positive for an internal one"));
   }
   if (j <= 0) {
     error(problem(Code::thread_depth, words_.span(*line_, 'J'),
@@ -87,7 +87,7 @@ void Interpreter::check_thread_cycle() {
 void Interpreter::thread_cycle() {
   ThreadShape shape;
   const AxisValues end = target();
-  if (!spindle_turns(760) || !thread_shape(shape, end)) return move_to(end);
+  if (!spindle_turns(code::g76) || !thread_shape(shape, end)) return move_to(end);
   warn_thread(shape);
   double depth = shape.crest + shape.first_cut;
   for (int pass = 2; depth < shape.full_depth() && !ended_; ++pass) {
@@ -95,7 +95,7 @@ void Interpreter::thread_cycle() {
     depth = shape.crest + shape.first_cut * exact_pow(pass, 1.0 / shape.degression);
   }
   for (int i = 0; i <= shape.spring_passes && !ended_; ++i) thread_pass(shape, shape.full_depth());
-  go_to(BlockKind::traverse, end);
+  go_to(Rate::rapid, end);
 }
 
 bool Interpreter::thread_shape(ThreadShape& shape, const AxisValues& end) {
@@ -160,16 +160,15 @@ void Interpreter::warn_thread(const ThreadShape& shape) {
   }
   if (state_.plane == Plane::zx) return;
   report_.warning(problem(Code::thread_unusual, action_span(),
-                          "G76 cuts in X and Z whatever the plane; the plane in force is another",
-                          "write G18 before it"));
+                          "G76 cuts in X and Z although another plane is in force", "write G18 before it"));
 }
 
 void Interpreter::thread_pass(const ThreadShape& shape, double depth) {
-  const auto go_xz = [&](BlockKind kind, double x, double z) {
+  const auto go_xz = [&](Rate rate, double x, double z) {
     AxisValues program = shape.start;
     program[kX] = x * state_.length_factor();
     program[kZ] = z * state_.length_factor();
-    go(kind, program);
+    go(rate, program);
   };
   const double back = shape.x_at(depth - shape.full_depth());
   const double cut = shape.x_at(depth);
@@ -178,27 +177,27 @@ void Interpreter::thread_pass(const ThreadShape& shape, double depth) {
   const double end = shape.end_z + shape.shift(shape.full_depth()) - shape.shift(depth);
   const bool feed_override = state_.feed_override;
   const bool tapered = shape.taper != 0;
-  go_xz(BlockKind::traverse, back, begin);
+  go_xz(Rate::rapid, back, begin);
   if (tapered && shape.entry_taper) {
-    override_block(BlockKind::feed_override, false);
+    enable_feed_override(false);
     start_thread(shape.taper_pitch_u_rev);
-    go_xz(BlockKind::feed, outside, begin);
-    go_xz(BlockKind::feed, cut, begin - shape.taper);
+    go_xz(Rate::feed, outside, begin);
+    go_xz(Rate::feed, cut, begin - shape.taper);
   } else {
-    go_xz(BlockKind::traverse, cut, begin);
-    override_block(BlockKind::feed_override, false);
+    go_xz(Rate::rapid, cut, begin);
+    enable_feed_override(false);
   }
   start_thread(shape.pitch_u_rev);
   if (tapered && shape.exit_taper) {
-    go_xz(BlockKind::feed, cut, end + shape.taper);
+    go_xz(Rate::feed, cut, end + shape.taper);
     start_thread(shape.taper_pitch_u_rev);
-    go_xz(BlockKind::feed, outside, end);
+    go_xz(Rate::feed, outside, end);
   } else {
-    go_xz(BlockKind::feed, cut, end);
+    go_xz(Rate::feed, cut, end);
   }
   stop_thread();
-  go_xz(BlockKind::traverse, back, end);
-  if (feed_override) override_block(BlockKind::feed_override, true);
+  go_xz(Rate::rapid, back, end);
+  if (feed_override) enable_feed_override(true);
 }
 
 }  // namespace kadr::gcode

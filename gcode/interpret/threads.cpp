@@ -12,7 +12,7 @@ void Interpreter::check_thread(int code) {
   }
   if (!words_.has('K')) {
     error(problem(Code::word_missing, span,
-                  fmt::format("{} needs K on each line: the way per turn of the spindle", name)));
+                  fmt::format("{} needs K on each line: the travel per turn of the spindle", name)));
   }
   if (words_.has('F')) {
     error(problem(Code::thread_with_feed, words_.span(*line_, 'F'),
@@ -22,15 +22,14 @@ void Interpreter::check_thread(int code) {
   check_whole('$', 0, 0);
   if (words_.has('E')) {
     report_.warning(problem(Code::thread_unusual, words_.span(*line_, 'E'),
-                            fmt::format("{} takes E, but nothing comes of it", name),
-                            "E is the taper of G76"));
+                            fmt::format("{} accepts E, but ignores it", name), "E is the taper of G76"));
   }
 }
 
 bool Interpreter::spindle_turns(int code) {
   if (state_.turning == Turning::stopped) {
     return error(problem(Code::thread_spindle_stopped, action_span(),
-                         fmt::format("{} and the spindle is not turning", g_name(code)),
+                         fmt::format("{} with the spindle stopped", g_name(code)),
                          "write M3 or M4 and S before it"));
   }
   warn_standing_spindle();
@@ -40,14 +39,12 @@ bool Interpreter::spindle_turns(int code) {
 void Interpreter::start_thread(double pitch_u_rev) {
   threading_ = true;
   thread_pitch_u_rev_ = pitch_u_rev;
-  Block block = make_block(BlockKind::sync_start, action_span());
-  block.value = pitch_u_rev * state_.length_factor();
-  emit(block);
+  emit(action_span(), SyncStart{pitch_u_rev * state_.length_factor()});
 }
 
 void Interpreter::stop_thread() {
   threading_ = false;
-  simple_block(BlockKind::sync_stop, action_span());
+  emit(action_span(), SyncStop{});
 }
 
 void Interpreter::warn_pitch(char letter) {
@@ -59,25 +56,27 @@ void Interpreter::warn_pitch(char letter) {
 
 void Interpreter::thread() {
   const AxisValues end = target();
-  if (!spindle_turns(330)) return move_to(end);
+  if (!spindle_turns(code::g33)) return move_to(end);
   warn_pitch('K');
   start_thread(words_.value('K'));
-  go_to(BlockKind::feed, end);
+  go_to(Rate::feed, end);
   stop_thread();
 }
 
 void Interpreter::rigid_tap() {
   const AxisValues wanted = target();
   const AxisValues from = state_.position;
-  if (!spindle_turns(331)) return;
+  if (!spindle_turns(code::g33_1)) return;
   warn_pitch('K');
-  // X Y Z alone go down and come back; the other axes take their new place with the next move
+  // only X Y Z go down and come back; the other axes take their new position with the next move
   AxisValues bottom = from;
   for (std::size_t axis = 0; axis < 3; ++axis) bottom[axis] = wanted[axis];
   start_thread(words_.value('K'));
-  motion_block_.value = words_.has('I') && words_.value('I') > 0 ? words_.value('I') : 1;
-  go_to(BlockKind::rigid_tap, bottom);
-  motion_block_.value = 0;
+  RigidTap tap{straight_to(bottom)};
+  if (words_.has('I') && words_.value('I') > 0) tap.retract_ratio = words_.value('I');
+  set_feed(tap);
+  move_to(bottom);
+  emit(action_span(), tap);
   stop_thread();
   AxisValues after = wanted;
   for (std::size_t axis = 0; axis < 3; ++axis) after[axis] = from[axis];

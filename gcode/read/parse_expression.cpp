@@ -137,9 +137,9 @@ std::int32_t ExpressionParser::name(std::uint32_t sign) {
       const std::string_view head = written.substr(0, std::min<std::size_t>(written.size(), 5));
       if (c == '[' && (same_letters(head, "_INI[") || same_letters(head, "_HAL["))) {
         return fail(Code::name_bad, {sign, end}, "kadr has no INI file and no HAL",
-                    "set a named parameter at the head of the program and use it here");
+                    "set a named parameter at the beginning of the program and use it here");
       }
-      return fail(Code::name_bad, {sign, end}, fmt::format("{} can't stand in a name", c),
+      return fail(Code::name_bad, {sign, end}, fmt::format("{} is not allowed in a name", c),
                   "names are made of letters, digits, _ - and .");
     }
   }

@@ -16,7 +16,7 @@ struct Keyword {
   Arguments arguments;
 };
 
-// where one begins like another, the longer one stands first
+// where one begins like another, the longer one is first
 constexpr std::array<Keyword, 15> kKeywords = {{
     {"SUB", FlowWord::sub, Arguments::none},
     {"ENDSUB", FlowWord::end_sub, Arguments::perhaps_one},
@@ -57,7 +57,7 @@ bool Parser::parse_o_word() {
       if (numbered) {
         line_->has_flow = true;
         return fail(Code::line_number_place, item.bytes, "N is not the first word",
-                    "a line number stands at the head of its line");
+                    "a line number comes first on its line");
       }
       numbered = true;
       continue;
@@ -66,7 +66,7 @@ bool Parser::parse_o_word() {
                                   item.kind == ItemKind::byte_order_mark;
     if (may_stand_before) continue;
     return fail(Code::o_word_place, {begin, begin + 1}, "O is not the first word",
-                "an O word stands alone on its line; if a zero was meant, write 0");
+                "an O word has a line to itself; if a zero was meant, write 0");
   }
   line_->has_flow = true;
   FlowStatement& flow = line_->flow;
@@ -91,7 +91,7 @@ bool Parser::parse_o_word() {
       const std::uint32_t at = cursor_.at();
       std::uint32_t end = at;
       while (end < line_->text.size() && is_letter(line_->text[end])) ++end;
-      return fail(Code::o_keyword_unknown, {at, end > at ? end : at + 1}, "no keyword of an O word",
+      return fail(Code::o_keyword_unknown, {at, end > at ? end : at + 1}, "not a keyword of an O word",
                   fmt::format("keywords: {}", kKeywordList));
     }
     if (!parse_arguments(flow)) return false;
@@ -133,7 +133,7 @@ bool Parser::parse_label(FlowStatement& flow) {
   flow.label.end = cursor_.at();
   if (number != std::floor(number) || number > kLargestLabel) {
     return fail(Code::o_label_missing, flow.label, "a label is a whole number",
-                fmt::format("allowed are 0 to {:.0f}, or a name: O<name>", kLargestLabel));
+                fmt::format("allowed: 0 to {:.0f}, or a name: O<name>", kLargestLabel));
   }
   flow.name = names_.number(fmt::format("{:.0f}", number));
   return true;

@@ -208,12 +208,12 @@ bool Parser::parse_percent() {
   Cursor ahead = cursor_;
   for (char next = ahead.peek(); next == '('; next = ahead.peek()) {
     const std::size_t end = line_->text.find(')', ahead.at());
-    if (end == std::string_view::npos) return true;  // told where the comment is read
+    if (end == std::string_view::npos) return true;  // reported where the comment is read
     ahead.go_to(static_cast<std::uint32_t>(end) + 1);
   }
   if (ahead.at_end() || ahead.peek() == ';') return true;
   return fail(Code::text_after_percent, {ahead.at(), static_cast<std::uint32_t>(line_->text.size())},
-              "% stands alone on its line");
+              "% has a line to itself");
 }
 
 void Parser::check_encoding(Bytes bytes) {
@@ -253,12 +253,12 @@ bool Parser::bad_character() {
       return fail(Code::bad_character, bytes, fmt::format("this is a Cyrillic letter ({})", number),
                   fmt::format("type a Latin {}", twin));
     }
-    return fail(Code::bad_character, bytes, fmt::format("{} can't stand here", number));
+    return fail(Code::bad_character, bytes, fmt::format("{} is not allowed here", number));
   }
   if (byte < 0x20 || byte == 0x7F) {
     return fail(Code::bad_character, {at, at + 1}, fmt::format("control character 0x{:02X}", byte));
   }
-  return fail(Code::bad_character, {at, at + 1}, fmt::format("{} can't stand here", line_->text[at]));
+  return fail(Code::bad_character, {at, at + 1}, fmt::format("{} is not allowed here", line_->text[at]));
 }
 
 bool Parser::fail(Code code, Bytes bytes, std::string label, std::string help) {
@@ -283,7 +283,7 @@ Diagnostic number_problem(const Line& line, NumberResult result, Bytes bytes, ch
     case NumberResult::no_digits:
       break;
   }
-  return problem(Code::bad_number, line.span(bytes), "no digit stands here");
+  return problem(Code::bad_number, line.span(bytes), "there is no digit here");
 }
 
 }  // namespace kadr::gcode

@@ -18,7 +18,7 @@ void Report::error(Diagnostic d) {
 void Report::warning(Diagnostic d) {
   if (place_) d.span = *place_;
   if (warnings_ > kMaxWarnings) {
-    // only counted: remembering their places would take memory without bound
+    // only counted: remembering their positions would take unbounded memory
     ++warnings_;
     return;
   }
@@ -49,7 +49,7 @@ void Report::close(Span end) {
   if (full()) {
     Diagnostic d =
         problem(Code::too_many_errors, end, fmt::format("reading stopped here after {} errors", kMaxErrors),
-                "mend the first ones; later ones often follow from them");
+                "fix the first ones; later ones often follow from them");
     d.severity = Severity::note;
     diagnostics_.add(std::move(d));
   }

@@ -38,7 +38,7 @@ class TableReader {
  public:
   TableReader(std::uint32_t file, Report& report) : file_(file), report_(report) {}
 
-  /// @param at  first byte that counts: behind a byte order mark
+  /// @param at  first byte that counts: after a byte order mark
   void read_line(std::string_view text, std::size_t at, std::uint32_t line) {
     line_ = line;
     present_.clear();
@@ -100,14 +100,14 @@ class TableReader {
   bool bad_number(std::string_view word, Span place) {
     std::string help;
     if (word.size() == 1) {
-      help = "the number stands next to its letter, without a blank: Z12.5";
+      help = "write the number right after its letter, without a blank: Z12.5";
     } else if (word.find(',') != std::string_view::npos) {
       std::string right(word);
       std::replace(right.begin(), right.end(), ',', '.');
       help = fmt::format("the decimal mark is a point: {}", right);
     } else if (std::any_of(word.begin() + 1, word.end(),
                            [](char c) { return kLetters.find(upper(c)) != std::string_view::npos; })) {
-      help = "a blank or tab stands between two words: T1 P1";
+      help = "write a blank or tab between two words: T1 P1";
     }
     return fail(Code::tool_table_number, place,
                 word.size() == 1 ? fmt::format("no number follows {}", upper(word[0]))
@@ -125,9 +125,8 @@ class TableReader {
     const double most = letter == 'Q' ? kLargestOrientation : kLargestTool;
     const double whole = std::floor(value + 0.5);
     if (!(std::fabs(value - whole) <= kWholeTolerance) || whole < 0 || whole > most)
-      return fail(
-          Code::tool_table_range, place,
-          fmt::format("{} is {:.6g}, allowed are whole numbers from 0 to {:.0f}", letter, value, most));
+      return fail(Code::tool_table_range, place,
+                  fmt::format("{} is {:.6g}, allowed: whole numbers from 0 to {:.0f}", letter, value, most));
     (letter == 'T' ? tool.number : letter == 'P' ? tool.pocket : tool.orientation) = static_cast<int>(whole);
     return true;
   }
@@ -137,7 +136,7 @@ class TableReader {
     const Span last = present_.back().span;
     const Span all{file_, line_, first.column, last.column + last.length - first.column};
     if (find('T') == nullptr)
-      return fail(Code::tool_table_missing, all, "no T stands on this line",
+      return fail(Code::tool_table_missing, all, "there is no T on this line",
                   "begin the line with T and the number of the tool");
     if (find('P') == nullptr)
       return fail(Code::tool_table_missing, all, fmt::format("tool {} has no P", tool.number),
@@ -155,7 +154,7 @@ class TableReader {
     if (const auto [before, fresh] = line_of_pocket_.try_emplace(tool.pocket, line_); !fresh) {
       report_.warning(
           problem(Code::tool_table_pocket_twice, find('P')->span,
-                  fmt::format("pocket {} holds the tool of line {} already", tool.pocket, before->second)));
+                  fmt::format("pocket {} already holds the tool on line {}", tool.pocket, before->second)));
     }
     table_.tools.push_back(tool);
   }

@@ -10,7 +10,7 @@ inline constexpr std::string_view kAxisLetters = "XYZABCUVW";
 /// Values by program axis: mm for X Y Z U V W, degrees for A B C.
 using AxisValues = std::array<double, kProgramAxes>;
 
-/// Two positions nearer than this are one, mm or deg: what the rounding of decimals, offsets and sums leaves
+/// Two positions closer than this are the same, mm or deg: the residue of rounding decimals, offsets and sums
 /// (a coordinate of 1e5 mm carries 1.5e-11), and a hundredth of the finest step (1e-7).
 inline constexpr double kSamePoint_u = 1e-9;
 

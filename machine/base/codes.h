@@ -31,8 +31,7 @@ enum class Code : std::uint16_t {
   comment_not_run = 1018,
   line_number_place = 1019,
 
-  // K1020 to K1049 control flow: subroutines, loops, conditions, named parameters, files, bounds
-  // (codes/flow.inc)
+  // K1020 to K1049 control flow: subroutines, loops, conditions, named parameters, files, bounds (codes/flow.inc)
   o_word_place = 1020,
   text_after_o_word = 1021,
   o_keyword_unknown = 1022,
@@ -233,7 +232,7 @@ enum class Code : std::uint16_t {
   held_to_the_end = 5108,
   plant_numerics = 5201,
 
-  // K9xxx our own faults (codes/internal.inc)
+  // K9xxx kadr's own faults (codes/internal.inc)
   broken_promise = 9001,
 };
 

@@ -17,8 +17,7 @@ void Diagnostics::add(Diagnostic d) {
 
 namespace {
 
-/// Widest excerpt of a source line that is printed, in terminal columns; longer lines are cut around the
-/// caret.
+/// Widest excerpt printed of a source line, in terminal columns; longer lines are cut around the caret.
 constexpr std::size_t kExcerpt = 160;
 
 /// Longest label, note or help, in code points: it may quote a word of any length.
@@ -29,17 +28,13 @@ constexpr std::size_t kTab_columns = 8;
 /// Calls shown from either end of a long chain.
 constexpr std::size_t kCallsShown = 4;
 
-std::string_view severity_name(Severity severity) {
-  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
-}
-
-/// Columns that a code point takes at most; a mark that takes none counts too, or a line of them had no end.
+/// Most columns of a code point; a mark that takes none counts too, or a line of them would never end.
 std::size_t columns_of(char32_t c) {
   if (c == U'\t') return kTab_columns;
   return static_cast<std::size_t>(std::max(display_width(c), 1));
 }
 
-/// Number of bytes at a text's beginning that fit in so many columns.
+/// Number of bytes at the beginning of a text that fit in that many columns.
 std::size_t prefix_bytes(std::string_view text, std::size_t columns) {
   std::size_t at = 0;
   while (at < text.size()) {
@@ -80,13 +75,22 @@ struct Style {
 
 Style style_of(Severity severity, bool colour) {
   if (!colour) return {};
-  const std::string_view word = severity == Severity::error     ? "\x1b[1;31m"
-                                : severity == Severity::warning ? "\x1b[1;33m"
-                                                                : "\x1b[1;36m";
+  std::string_view word;
+  switch (severity) {
+    case Severity::note:
+      word = "\x1b[1;36m";
+      break;
+    case Severity::warning:
+      word = "\x1b[1;33m";
+      break;
+    case Severity::error:
+      word = "\x1b[1;31m";
+      break;
+  }
   return {word, "\x1b[1;34m", "\x1b[1m", "\x1b[0m"};
 }
 
-/// A source line split at the span: what stands before, at and after the carets.
+/// A source line split at the span: before, at and after the carets.
 struct Excerpt {
   std::string_view before, marked, after;
   bool cut_before = false, cut_after = false;
@@ -97,7 +101,7 @@ Excerpt excerpt(std::string_view line, const Span& span) {
   const std::size_t length = std::min<std::size_t>(span.length, line.size() - begin);
   Excerpt e{line.substr(0, begin), line.substr(begin, length), line.substr(begin + length)};
 
-  // generated programs have lines of any length: keep what a screen can show round the caret
+  // generated programs have lines of any length: keep what a screen can show around the caret
   for (std::size_t columns = columns_of(e.before); columns > kExcerpt / 2;) {
     const CodePoint c = decode_utf8(e.before, 0);
     columns -= columns_of(c.value);
@@ -145,7 +149,7 @@ std::string place_text(const Span& span, const SourceSet& sources) {
   return fmt::format("{}:{}:{}", clean(sources[span.file].name()), span.line, place_of(span, sources).column);
 }
 
-/// What a call looks like: the marked part of its line.
+/// A call as text: the marked part of its line.
 std::string call_text(const Span& span, const SourceSet& sources) {
   const Excerpt e = excerpt(sources[span.file].line(span.line), span);
   return clean(e.marked) + (e.cut_after && e.after.empty() ? "..." : "");
@@ -184,7 +188,7 @@ Place place_of(const Span& span, const SourceSet& sources) {
 
 std::string render_human(const Diagnostic& d, const SourceSet& sources, bool colour) {
   const Style style = style_of(d.severity, colour);
-  std::string out = fmt::format("{}{}[{}]{}{}: {}{}\n", style.severity, severity_name(d.severity),
+  std::string out = fmt::format("{}{}[{}]{}{}: {}{}\n", style.severity, kSeverities.word(d.severity),
                                 code_name(d.code), style.off, style.bold, message_of(d), style.off);
   std::size_t gutter = 1;
   if (has_place(d.span, sources)) {
@@ -207,7 +211,7 @@ std::string render_human(const Diagnostic& d, const SourceSet& sources, bool col
 std::string render_gcc(const Diagnostic& d, const SourceSet& sources) {
   std::string out =
       fmt::format("{}: {}: {}{}{} [{}]", has_place(d.span, sources) ? place_text(d.span, sources) : "kadr",
-                  severity_name(d.severity), message_of(d), d.label.empty() ? "" : ": ", clean(d.label),
+                  kSeverities.word(d.severity), message_of(d), d.label.empty() ? "" : ": ", clean(d.label),
                   code_name(d.code));
   for (const Span& call : d.calls) {
     if (!has_place(call, sources)) continue;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "machine/base/codes.h"
+#include "machine/base/severity.h"
 
 namespace kadr {
 
@@ -19,8 +20,7 @@ struct Span {
   constexpr bool operator==(const Span&) const = default;
 };
 
-/// A text as read: a control program, machine or scenario file. The bytes stay as they are (no line-end
-/// conversion).
+/// A text as read: a control program, machine or scenario file. The bytes stay as they are (no line-end conversion).
 class SourceText {
  public:
   /// A text already in memory.
@@ -35,11 +35,10 @@ class SourceText {
 
   const std::string& name() const { return name_; }  ///< as the user gave it
   std::string_view text() const { return text_; }
-  /// Line by 1-based number, without its line end; empty beyond the end. The line index is built at the first
-  /// call.
+  /// Line by 1-based number, without its line end; empty beyond the end. The line index is built at the first call.
   std::string_view line(std::uint32_t number) const;
   /// Gives the memory of bytes [begin, end) of a mapped file back to the system; the text stays as it is, and
-  /// reading there reads the file again. Who goes through a text once calls it every kWindow_bytes.
+  /// reading there reads the file again. Call it every kWindow_bytes when going through a text once.
   void let_go(std::size_t begin, std::size_t end) const;
   static constexpr std::size_t kWindow_bytes = std::size_t{1} << 20;
 
@@ -62,9 +61,7 @@ class SourceSet {
   std::vector<std::unique_ptr<SourceText>> texts_;
 };
 
-enum class Severity : std::uint8_t { note, warning, error };
-
-/// One message to the user. `label` stands at the caret and carries the measured value.
+/// One message to the user. `label` is printed at the caret and carries the measured value.
 struct Diagnostic {
   Code code;
   Severity severity = Severity::error;
@@ -77,7 +74,7 @@ struct Diagnostic {
   std::size_t calls_left_out = 0;  ///< further calls, between the two halves of `calls`
 };
 
-/// Diagnostics in the order found. Reading goes on after an error; nothing moves while has_errors().
+/// Diagnostics in the order found. Reading continues after an error; nothing moves while has_errors().
 class Diagnostics {
  public:
   void add(Diagnostic d);

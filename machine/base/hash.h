@@ -6,8 +6,7 @@
 
 namespace kadr {
 
-/// Streaming 64-bit hash (XXH3) over bytes; integers are fed little-endian, so it is the same on every
-/// machine.
+/// Streaming 64-bit hash (XXH3) over bytes; integers are fed little-endian, so it is the same on every machine.
 class Hash64 {
  public:
   Hash64();

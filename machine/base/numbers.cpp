@@ -96,8 +96,7 @@ Split split_exponent(double x) {
   return {std::bit_cast<double>(bits), exponent + n};
 }
 
-/// e^(a.high + a.low) for |a.high| <= 745: a = k ln 2 + r, Taylor's series of e^r for |r| <= 0.347 (to r^13:
-/// 5e-18).
+/// e^(a.high + a.low) for |a.high| <= 745: a = k ln 2 + r, Taylor's series of e^r for |r| <= 0.347 (to r^13: 5e-18).
 double exp_of(Double2 a) {
   const double k = (a.high * kOneOverLn2 + kRound) - kRound;
   const double high = a.high - k * kLn2High;
@@ -199,8 +198,7 @@ double exact_atan2(double y, double x) {
   }
   if (large == 0.0) large = 1.0;
 
-  // atan t = atan(k/8) + atan u, u = (t - k/8)/(1 + t k/8), |u| <= 1/16; Taylor's series to u^13: 1e-18
-  // relative
+  // atan t = atan(k/8) + atan u, u = (t - k/8)/(1 + t k/8), |u| <= 1/16; Taylor's series to u^13: 1e-18 relative
   static constexpr Double2 kAtan[9] = {{0, 0},
                                        {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
                                        {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},

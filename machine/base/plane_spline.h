@@ -23,8 +23,7 @@ struct SplineValue {
 ///
 ///   C(u) = sum w_i N_i(u) P_i / sum w_i N_i(u)
 ///
-/// A span is the curve between two knots; there it is smooth, at an inner knot it has order - 2 continuous
-/// derivatives.
+/// A span is the curve between two knots; there it is smooth, at an inner knot it has order - 2 continuous derivatives.
 class PlaneSpline {
  public:
   /// @pre order >= 2, at least `order` points, weights > 0

@@ -10,7 +10,7 @@
 
 namespace kadr {
 
-/// One word of a vocabulary: the enumerator, how files and the command line spell it, and what it means.
+/// One word of a vocabulary: the enumerator, its spelling in files and on the command line, and its meaning.
 template <class Enum>
 struct Word {
   Enum value{};
@@ -38,7 +38,7 @@ constexpr bool all_declared(std::index_sequence<kIndex...>) {
 
 }  // namespace vocabulary
 
-/// The words of an enumeration whose enumerators count from 0. They stand once: readers, writers, the command
+/// The words of an enumeration whose enumerators count from 0. The only list: readers, writers, the command
 /// line, documents and tests take them from here.
 ///
 ///   enum class Hue : std::uint8_t { red, green };

@@ -22,7 +22,7 @@ char read_letter(TableReader& r, ReadContext& context) {
   const auto name = r.text(kAxisName.name);
   if (!name.valid) return 0;
   if (name.value.size() == 1 && axis_index(name.value[0]) >= 0) return name.value[0];
-  Diagnostic d = file_diagnostic(Code::machine_axis_letter, name.span, "no word of a program is called so");
+  Diagnostic d = file_diagnostic(Code::machine_axis_letter, name.span, "no word of a program has this name");
   d.notes.push_back("allowed: X Y Z A B C U V W");
   if (name.value.size() == 1 && axis_index(static_cast<char>(name.value[0] - 32)) >= 0)
     d.help = fmt::format("write \"{}\"", static_cast<char>(name.value[0] - 32));
@@ -41,7 +41,7 @@ AxisKind read_kind(TableReader& r, char letter, ReadContext& context) {
   Diagnostic d = file_diagnostic(Code::machine_axis_kind, kind.span,
                                  fmt::format("axis {} is {}", letter, rotary_letter ? "rotary" : "linear"));
   d.notes.push_back("allowed: X Y Z linear, A B C rotary, U V W either");
-  d.help = rotary_letter ? "call a linear axis X Y Z U V or W" : "call a rotary axis A B C U V or W";
+  d.help = rotary_letter ? "name a linear axis X Y Z U V or W" : "name a rotary axis A B C U V or W";
   context.diagnostics.add(std::move(d));
   return rotary_letter ? AxisKind::rotary : AxisKind::linear;
 }
@@ -63,13 +63,13 @@ void check_step_rate(const AxisModel& axis, const Reading<double>& step, const R
   if (rate_hz <= allowed_hz) return;
   Diagnostic d = file_diagnostic(
       Code::machine_step_rate, feed.span,
-      fmt::format("is {:.12g} steps/s at {:.12g} {} a step", rate_hz, axis.step_u, keys.unit));
+      fmt::format("is {:.12g} steps/s at {:.12g} {} per step", rate_hz, axis.step_u, keys.unit));
   d.notes.push_back(fmt::format("allowed: up to {:.12g} steps/s, half of clock.rate_hz", allowed_hz));
   d.help = fmt::format("at most {} = {:.12g}", keys.of("max", "_s"), allowed_hz * axis.step_u);
   context.diagnostics.add(std::move(d));
 }
 
-/// The soft limits, and whether home and second reference position lie within.
+/// Reads the soft limits, and checks that home and second reference position are within them.
 void read_range(TableReader& r, AxisModel& axis, double& home2_u, const AxisKeys& keys,
                 ReadContext& context) {
   // a rotary axis may turn without end; a linear one says so with [-inf, inf]
@@ -122,11 +122,9 @@ std::optional<TwoMassModel> read_plant(const Node& table, const std::string& pat
     return ((each.need == Need::link && r.has(spelled(each.name, axis.kind))) || ...);
   };
   const bool link = m.motor != MotorModel::rigid || std::apply(any_given, kPlantKeys);
-  const bool spring = m.motor == MotorModel::spring, stepper = m.motor == MotorModel::stepper;
   const auto read = [&](const auto& key) {
-    const bool needed = (key.need == Need::link && link) || (key.need == Need::spring && spring) ||
-                        (key.need == Need::stepper && stepper) ||
-                        (key.need == Need::motor && (spring || stepper));
+    const bool needed =
+        (key.need == Need::link && link) || (key.need == Need::motor && motor_needs(m.motor, key.member));
     read_key(r, m, key, axis.kind, needed);
   };
   std::apply([&](const auto&... each) { (read(each), ...); }, kPlantKeys);
@@ -151,11 +149,9 @@ AxisModel read_axis(const Node& table, std::size_t index, const ClockModel& cloc
   read_range(r, axis, home2_u, keys, context);
   axis.step_u = step.value;
   const auto feed = read_key(r, axis, kMaxFeed, axis.kind);
-  read_key(r, axis, kMaxAccel, axis.kind);
-  read_key(r, axis, kMaxJerk, axis.kind);
+  read_keys(r, axis, kAxisLimitKeys, axis.kind);
   axis.junction_accel_u_s2 = axis.max_accel_u_s2;
-  read_key(r, axis, kJunctionAccel, axis.kind);
-  read_key(r, axis, kJunctionJerk, axis.kind);
+  read_keys(r, axis, kJunctionKeys, axis.kind);
   check_step_rate(axis, step, feed, clock, keys, context);
 
   if (const Node* plant = r.table("plant")) {

@@ -42,7 +42,7 @@ std::vector<Text> split(Text text) {
   }
 }
 
-/// One number of a data sheet: what it measures on a linear and on a rotary axis, and how it is asked for.
+/// One number of a data sheet: its quantity on a linear and on a rotary axis, and its option.
 struct Item {
   Text option;
   Text what;                ///< "a speed with its unit"
@@ -124,8 +124,7 @@ std::string suffix_of(Text unit) {
   return out;
 }
 
-/// 31.5 in are 800.1 mm, not 800.0999999999999: a product that 12 digits tell but for rounding is those
-/// digits.
+/// 31.5 in are 800.1 mm, not 800.0999999999999: a product that 12 digits tell but for rounding is those digits.
 double without_noise(double product) {
   const double told = *parse_number(fmt::format("{:.12g}", product));
   return std::fabs(told - product) <= 4 * std::numeric_limits<double>::epsilon() * std::fabs(product)
@@ -144,7 +143,7 @@ Result<double> number_of(const Item& item, const SheetAxis* axis, Text text) {
   const Quantity wanted = rotary ? item.rotary : item.linear;
   if (unit.empty()) {
     if (item.bare) return value;
-    return tl::unexpected(refusal(item, axis, text, "say the unit"));
+    return tl::unexpected(refusal(item, axis, text, "add the unit"));
   }
   const Unit* known = find_unit(suffix_of(unit));
   if (!known) return tl::unexpected(refusal(item, axis, text, fmt::format("unit '{}' is not known", unit)));
@@ -187,7 +186,7 @@ Result<std::vector<SheetAxis>> axes_of(Text text) {
       return tl::unexpected(
           fmt::format("--axes takes letters of X Y Z A B C U V W, each once, e.g. XYZ; "
                       "got '{}'{}",
-                      text, twice ? fmt::format(": {} stands twice", letter) : ""));
+                      text, twice ? fmt::format(": {} is given twice", letter) : ""));
     SheetAxis axis;
     axis.letter = letter;
     axis.kind = is_rotary_letter(letter) ? AxisKind::rotary : AxisKind::linear;
@@ -206,14 +205,14 @@ Result<std::vector<Text>> words_of(const Item& item, Text list, const std::vecto
   if (words.size() == axes.size()) return words;
   std::string order;
   for (const SheetAxis& axis : axes) order += (order.empty() ? "" : ",") + std::string(1, axis.letter);
-  // "83,3mm/s": the first word has no unit, though it needs one, or there is a word too many
+  // "83,3mm/s": the first word lacks its unit, or there is one word too many
   const bool comma = parse_number(words.front()) && (!item.bare || words.size() > axes.size());
   return tl::unexpected(fmt::format("{} takes one value for all axes, or {} in the order {}; got {}: '{}'{}",
                                     item.option, axes.size(), order, words.size(), list,
                                     comma ? "; the decimal mark is a point" : ""));
 }
 
-/// Where the travel lies if only its length is given: from 0 up; Z has its zero in the middle, so that a
+/// Position of the travel if only its length is given: from 0 up; Z has its zero in the middle, so that a
 /// program whose zero is the top of the part can retract above it.
 void place_travel(SheetAxis& axis, double length_u) {
   axis.zero_given = false;
@@ -324,7 +323,7 @@ std::string command_of(const DataSheetWords& words) {
   const auto add = [&](Text option, const std::string& word) {
     if (word.empty()) return;
     const bool plain = word.find(' ') == std::string::npos;
-    // a value that begins with a minus would look like an option
+    // a value that begins with a minus sign would look like an option
     out += fmt::format(" {}{}{}{}{}", option, word.front() == '-' ? "=" : " ", plain ? "" : "'", word,
                        plain ? "" : "'");
   };
@@ -439,7 +438,7 @@ std::string render_data_sheet(const DataSheet& sheet, std::string_view name) {
       "explains all");
   out.text("# keys. A key that kadr does not know is an error.");
   out.key("format", "1", "edition of this file's format");
-  out.key("name", fmt::format("\"{}\"", name), "as reports call the machine");
+  out.key("name", fmt::format("\"{}\"", name), "the machine's name in reports");
   out.text("");
   out.text("[clock]");
   out.key("rate_hz", fmt::format("{:.0f}", kSheetClock_hz), "default: step pulses are stamped in its ticks");
@@ -447,7 +446,7 @@ std::string render_data_sheet(const DataSheet& sheet, std::string_view name) {
           "default: the feed is computed once per control period");
   out.text("");
   out.text("[planner]");
-  out.value("tool_change_s", sheet.tool_change_s, "s, time that M6 costs", true);
+  out.value("tool_change_s", sheet.tool_change_s, "s, time that M6 takes", true);
   for (const SheetAxis& axis : sheet.axis) write_axis(out, axis);
   return out.take();
 }

@@ -8,7 +8,7 @@
 
 #include "machine/machine.h"
 
-/// A machine file from what a data sheet says: travel, speed, acceleration, steps.
+/// A machine file from the figures of a data sheet: travel, speed, acceleration, steps.
 namespace kadr::machine {
 
 inline constexpr std::size_t kMostMachineName = 100;  ///< bytes of a machine's name
@@ -52,7 +52,7 @@ struct DataSheet {
   std::string command;  ///< the options that make the same sheet again
 };
 
-/// What a junction acceleration is if nobody says: an axis then passes a square corner as fast as grbl does
+/// Default junction acceleration: an axis passes a square corner as fast as grbl does
 /// with its junction deviation of 0.01 mm ($11 = 0.010), which bounds the speed at an angle t of the path by
 ///   v^2 = a d s / (1 - s),   s = cos(t/2) = cos 45,   a = sqrt(2) * acceleration (two axes brake and start)
 /// and kadr allows a jump of junction acceleration * control period. Two significant digits.
@@ -61,7 +61,7 @@ struct DataSheet {
 double default_junction_u_s2(double acceleration_u_s2);
 inline constexpr double kSheetPeriod_s = 1e-3;  ///< control period of the written file
 
-/// @return the sheet, or a sentence that names the option, what was given and what is allowed
+/// @return the sheet, or a sentence that names the option, the value given and the values allowed
 tl::expected<DataSheet, std::string> read_data_sheet(const DataSheetWords& words);
 
 /// A commented machine file: each value with its unit and whether it was given or is a default.

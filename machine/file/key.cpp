@@ -1,8 +1,10 @@
 #include "machine/file/key.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "machine/base/parse_number.h"
+#include "machine/motor.h"
 
 namespace kadr::machine {
 
@@ -43,14 +45,21 @@ std::string need_text(Need need) {
       return "required";
     case Need::link:
       return "required with a link";
-    case Need::spring:
-      return "required by \"spring\"";
     case Need::motor:
-      return "required by \"spring\" and \"stepper\"";
-    case Need::stepper:
-      return "required by \"stepper\"";
+      return "required by the motor";
   }
   return "";
+}
+
+std::string need_text(const Key<TwoMassModel, double>& key) {
+  if (key.need != Need::motor) return need_text(key.need);
+  std::vector<std::string> motors;
+  for (const auto& motor : kMotorModels)
+    if (motor_needs(motor.value, key.member)) motors.push_back(fmt::format("\"{}\"", motor.word));
+  const std::string last = motors.back();
+  motors.pop_back();
+  if (motors.empty()) return fmt::format("required by {}", last);
+  return fmt::format("required by {} and {}", fmt::join(motors, ", "), last);
 }
 
 std::string default_text(double value, bool whole) {

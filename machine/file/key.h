@@ -10,18 +10,17 @@
 #include "machine/choices.h"
 #include "machine/file/table_reader.h"
 #include "machine/machine_file.h"
+#include "machine/two_masses.h"
 
 /// A key of a settings file, declared once: it reads, prints, bounds and documents itself.
 namespace kadr::machine {
 
 /// When a key must be given.
 enum class Need : std::uint8_t {
-  never,    ///< its default is what the member holds before reading
-  always,   ///< in every table of its kind
-  link,     ///< unless the motor is `rigid` and none of these is given: then there is no flexible link
-  spring,   ///< by the motor `spring`; other motors ignore it
-  motor,    ///< by the motors `spring` and `stepper`
-  stepper,  ///< by the motor `stepper`
+  never,   ///< its default is what the member holds before reading
+  always,  ///< in every table of its kind
+  link,    ///< unless the motor is `rigid` and none of these is given: then there is no flexible link
+  motor,   ///< by the motors whose laws need it (machine/motor.h); others ignore it
 };
 
 /// @tparam Model  the struct that the table is read into
@@ -126,13 +125,14 @@ auto read_key(TableReader& r, Model& model, const OneKey& key, AxisKind kind = A
 
 /// Reads all keys of a table into a model that holds their defaults.
 template <class Model, class... Keys>
-void read_keys(TableReader& r, Model& model, const std::tuple<Keys...>& keys) {
-  std::apply([&](const auto&... each) { (read_key(r, model, each), ...); }, keys);
+void read_keys(TableReader& r, Model& model, const std::tuple<Keys...>& keys,
+               AxisKind kind = AxisKind::linear) {
+  std::apply([&](const auto&... each) { (read_key(r, model, each, kind), ...); }, keys);
 }
 
-// ---- what documents say of a key
+// ---- a key as the documents show it
 
-/// A key that no member of a model stands for; its reading is written by hand.
+/// A key without a member in the model; its reader is written by hand.
 struct PlainKey {
   std::string_view name, allowed, otherwise, sentence;
 };
@@ -140,6 +140,12 @@ struct PlainKey {
 /// "max_mm_s, max_deg_s"; the name alone if it has no unit of an axis.
 std::string documented_name(std::string_view name);
 std::string need_text(Need need);
+/// The same, with the names of the motors that need it.
+std::string need_text(const Key<TwoMassModel, double>& key);
+template <class AnyKey>
+std::string need_text(const AnyKey& key) {
+  return need_text(key.need);
+}
 std::string default_text(double value, bool whole);
 
 template <class Model, class Value>
@@ -155,7 +161,7 @@ KeyDocument document(const Key<Model, Value>& key) {
     d.otherwise = default_text(static_cast<double>(value), key.bounds.whole);
   }
   if (!key.otherwise.empty()) d.otherwise = key.otherwise;
-  if (key.need != Need::never) d.otherwise = need_text(key.need);
+  if (key.need != Need::never) d.otherwise = need_text(key);
   return d;
 }
 template <class Model, class Enum, std::size_t kCount>
@@ -163,7 +169,7 @@ KeyDocument document(const WordKey<Model, Enum, kCount>& key) {
   KeyDocument d{std::string(key.name), {}, {}, std::string(key.sentence)};
   d.otherwise = '"' + std::string(key.words->word(Model{}.*key.member)) + '"';
   if (!key.otherwise.empty()) d.otherwise = key.otherwise;
-  if (key.need != Need::never) d.otherwise = need_text(key.need);
+  if (key.need != Need::never) d.otherwise = need_text(key);
   for (const auto& word : *key.words)
     d.words.emplace_back('"' + std::string(word.word) + '"', std::string(word.sentence));
   return d;

@@ -1,6 +1,7 @@
 #pragma once
 #include "machine/file/key.h"
 #include "machine/machine.h"
+#include "machine/motor.h"
 #include "machine/words.h"
 
 /// The keys of a machine file, each declared once: from here they are read, printed and documented
@@ -8,8 +9,7 @@
 namespace kadr::machine {
 
 // Bounds of the settings, in the unit of the key. The outer ends are far beyond any machine: they guard
-// products and squares of the values against overflow, and make step counts exact (1e8 / 1e-7 = 1e15 steps <
-// 2^53).
+// products and squares of the values against overflow, and make step counts exact (1e8 / 1e-7 = 1e15 steps < 2^53).
 inline constexpr Bounds kFeedBounds{1e-6, 1e9};
 inline constexpr Bounds kAccelBounds{1e-6, 1e12};
 inline constexpr Bounds kJerkBounds{1e-6, 1e15, true};
@@ -57,7 +57,7 @@ inline constexpr auto kPathKeys =
     keys_of(key("arc_end_tolerance_mm", &PathLimits::arc_end_tolerance_mm, Bounds{0, 1e6},
                 "radius at the start and at the end of an arc may differ by this"),
             key("arc_end_tolerance_relative", &PathLimits::arc_end_tolerance_relative, Bounds{0, 1},
-                "and by this part of the radius"));
+                "and by this fraction of the radius"));
 
 inline constexpr auto kFeedKeys =
     keys_of(key("max_mm_s", &PathLimits::max_feed_mm_s, kPathFeedBounds, "highest feed"),
@@ -73,7 +73,7 @@ inline constexpr auto kPlannerKeys = keys_of(
         "a motion from rest to rest lasts a whole number of control periods"),
     key("axis_limits", &PlannerSettings::axis_limits, kAxisLimitRules, "whether plans keep the axes' limits"),
     key("tick_feed", &PlannerSettings::tick_feed, kTickFeeds, "feed inside a control period"),
-    key("tool_change_s", &PlannerSettings::tool_change_s, Bounds{0, 1e6}, "time that M6 costs"),
+    key("tool_change_s", &PlannerSettings::tool_change_s, Bounds{0, 1e6}, "time that M6 takes"),
     key("scheduler", &PlannerSettings::scheduler, kSchedulers, "how far a ramp may reach"),
     key("block_ticks", &PlannerSettings::block_ticks, kBlockTicks,
         "blockwise: how a block gets its whole control periods"),
@@ -167,8 +167,9 @@ inline constexpr auto kJunctionAccel =
 inline constexpr auto kJunctionJerk =
     key("junction_jerk_{u}_s3", &AxisModel::junction_jerk_u_s3, kJerkBounds,
         "at a corner the axis may change its acceleration by this in one control period");
-/// Those behind `home2_{u}`, in the order of the file.
-inline constexpr auto kAxisLimitKeys = keys_of(kMaxFeed, kMaxAccel, kMaxJerk, kJunctionAccel, kJunctionJerk);
+/// Those behind `max_{u}_s`, in the order of the file. The defaults of the second table depend on the first.
+inline constexpr auto kAxisLimitKeys = keys_of(kMaxAccel, kMaxJerk);
+inline constexpr auto kJunctionKeys = keys_of(kJunctionAccel, kJunctionJerk);
 
 inline constexpr auto kMotor =
     key("model", &TwoMassModel::motor, kMotorModels,
@@ -189,14 +190,14 @@ inline constexpr auto kPlantKeys = keys_of(
         "viscous friction of the guide"),
     key("motor_stiffness_{stiffness}", &TwoMassModel::motor_stiffness_N_per_m, kStiffnessBounds,
         "spring of the motor")
-        .required(Need::spring),
+        .required(Need::motor),
     key("motor_damping_{damping}", &TwoMassModel::motor_damping_Ns_per_m, kDampingBounds,
         "damping of the motor")
         .required(Need::motor),
     key("holding_force_{force}", &TwoMassModel::holding_force_N, kForceBounds, "largest force of the motor")
-        .required(Need::stepper),
+        .required(Need::motor),
     key("tooth_pitch_{u}", &TwoMassModel::tooth_pitch_u, kPitchBounds,
         "motion per electrical period: four full steps")
-        .required(Need::stepper));
+        .required(Need::motor));
 
 }  // namespace kadr::machine

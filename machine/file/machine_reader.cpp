@@ -63,8 +63,7 @@ ClockModel read_clock(const Node* table, const Span& place, ReadContext& context
   }
   clock.base_hz = static_cast<std::int64_t>(rate.value);
 
-  // 0.1 us at 10 MHz is one tick, though 0.1 is not exact: a relative error of a few roundings is a whole
-  // number
+  // 0.1 us at 10 MHz is one tick, though 0.1 is not exact: a relative error of a few roundings is a whole number
   const double ticks = period.value * (rate.value / kMegahertz);
   const double whole = std::floor(ticks + 0.5);
   if (whole < 1 || std::fabs(ticks - whole) > 1e-9 * ticks) {
@@ -153,9 +152,10 @@ PlantSettings read_plant_settings(const Node* table, const Span& place, const st
   r.finish();
   if (s.integrator != IntegratorKind::oracle) return s;
   for (const AxisModel& axis : axes) {
-    if (!axis.has_plant || axis.plant.motor != MotorModel::stepper) continue;
-    context.diagnostics.add(file_diagnostic(Code::machine_oracle_motor, integrator.span,
-                                            fmt::format("but axis {} has a stepper motor", axis.letter)));
+    if (!axis.has_plant || Motor(axis).linear()) continue;
+    context.diagnostics.add(file_diagnostic(
+        Code::machine_oracle_motor, integrator.span,
+        fmt::format("but axis {} has a {} motor", axis.letter, kMotorModels.word(axis.plant.motor))));
   }
   return s;
 }
@@ -204,7 +204,7 @@ void read_axes(TableReader& root, MachineModel& model) {
     if (axis.letter == 0) continue;
     if (model.find_axis(axis.letter) >= 0) {
       Diagnostic d = file_diagnostic(Code::machine_duplicate_axis, tables[i].find("name")->value.span,
-                                     fmt::format("axis {} stands above already", axis.letter));
+                                     fmt::format("axis {} is already given above", axis.letter));
       d.help = "give each axis its own letter of X Y Z A B C U V W";
       context.diagnostics.add(std::move(d));
       continue;

@@ -64,10 +64,10 @@ void write_key(TomlWriter& w, const Model& model, const Key<Model, Value>& key,
                AxisKind kind = AxisKind::linear) {
   const Value value = model.*key.member;
   const std::string name = spelled(key.name, kind);
-  // the numbers that one motor alone has are left out where they are not given
+  // a motor's number that is not given holds 0: left out where 0 is not allowed
   if constexpr (std::is_same_v<Value, bool>)
     w.line(name, value ? "true" : "false");
-  else if (value > 0 || (key.need != Need::spring && key.need != Need::stepper))
+  else if (key.need != Need::motor || value >= key.bounds.low)
     w.line(name, default_text(static_cast<double>(value), key.bounds.whole));
 }
 template <class Model, class Enum, std::size_t kCount>
@@ -90,7 +90,9 @@ void write_axis(TomlWriter& w, const AxisModel& axis, double home2_u) {
          fmt::format("[{}, {}]", number_text(axis.soft_min_u), number_text(axis.soft_max_u)));
   write_key(w, axis, kHome, axis.kind);
   write_key(w, SecondHome{home2_u}, kHome2, axis.kind);
+  write_key(w, axis, kMaxFeed, axis.kind);
   write_keys(w, axis, kAxisLimitKeys, axis.kind);
+  write_keys(w, axis, kJunctionKeys, axis.kind);
   if (!axis.has_plant) return;
   w.table("  [axis.plant]", fmt::format("axis.{}.plant", axis.letter));
   write_key(w, axis.plant, kMotor);

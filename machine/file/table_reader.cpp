@@ -177,7 +177,7 @@ const std::vector<Node>& TableReader::tables(std::string_view key) {
   if (entry->value.kind == Node::Kind::array &&
       std::all_of(entry->value.items.begin(), entry->value.items.end(), is_table))
     return entry->value.items;
-  wrong_type(*entry, fmt::format("a list of tables, each begun by [[{}]]", path_of(key)));
+  wrong_type(*entry, fmt::format("a list of tables, each beginning with [[{}]]", path_of(key)));
   return none;
 }
 
@@ -198,7 +198,7 @@ std::vector<Reading<std::string>> TableReader::texts(std::string_view key) {
 std::string_view TableReader::one_of(std::string_view first, std::string_view second) {
   const Entry* a = table_ ? table_->find(first) : nullptr;
   const Entry* b = table_ ? table_->find(second) : nullptr;
-  // the other one stays known, so that finish() doesn't take it for a mistake
+  // the other one stays known, so that finish() doesn't report it
   const std::string_view chosen = a && b ? (b->key_span.file > a->key_span.file ? second : first)
                                   : b    ? second
                                          : first;
@@ -206,10 +206,10 @@ std::string_view TableReader::one_of(std::string_view first, std::string_view se
   alternatives_.emplace_back(first, second);
   if (a && b && a->key_span.file == b->key_span.file) {
     Diagnostic d =
-        file_diagnostic(Code::file_keys_exclude, b->key_span, fmt::format("{} stands above", first));
+        file_diagnostic(Code::file_keys_exclude, b->key_span, fmt::format("{} is given above", first));
     if (a->key_span.line > b->key_span.line) {
       d.span = a->key_span;
-      d.label = fmt::format("{} stands above", second);
+      d.label = fmt::format("{} is given above", second);
     }
     d.message = fmt::format("{}: give {} or {}, not both", path_, first, second);
     d.help = "keep one of the two";
@@ -282,7 +282,7 @@ bool TableReader::tell_other_unit(const Entry& entry) {
         d.notes.push_back(
             "the two units measure different things; linear axes are in mm, rotary axes in deg");
     }
-    // both spellings at once are a mistake of their own: the right one is read
+    // both spellings at once is a separate mistake: the right one is read
     not_missing(key);
     context_.diagnostics.add(std::move(d));
     return true;

@@ -14,7 +14,7 @@
 
 namespace kadr::machine {
 
-/// The numbers that a key accepts. Every setting is bounded, so that no later product overflows or vanishes.
+/// The numbers that a key accepts. Every setting is bounded, so that no later product overflows or underflows.
 struct Bounds {
   double low = 0;
   double high = 0;
@@ -25,7 +25,7 @@ struct Bounds {
 /// "1 to 100 %, or inf", in the unit of the key.
 std::string bounds_text(const Bounds& bounds, std::string_view key);
 
-/// What was read from a key. `value` can be used even if it is not valid (then it is some allowed number), so
+/// The value read from a key. `value` can be used even if it is not valid (then it is some allowed number), so
 /// that the rest of the file is still checked.
 template <class T>
 struct Reading {
@@ -34,7 +34,7 @@ struct Reading {
   Span span;           ///< the value; of a default the table's header
 };
 
-/// What all tables of one file share.
+/// State shared by all tables of a file.
 struct ReadContext {
   Diagnostics& diagnostics;
   const SourceSet& sources;
@@ -42,9 +42,8 @@ struct ReadContext {
   std::vector<KeyOrigin> origins;
 };
 
-/// Reads one table key by key and tells every mistake: unknown keys with the nearest name, keys with another
-/// unit with the converted line, missing keys, wrong types, values out of range. Ask for all keys, then call
-/// finish().
+/// Reads one table key by key and reports every mistake: unknown keys with the nearest name, keys with another
+/// unit with the converted line, missing keys, wrong types, values out of range. Ask for all keys, then call finish().
 class TableReader {
  public:
   /// @param table  nullptr: the table is missing; every key is then missing or has its default
@@ -78,12 +77,11 @@ class TableReader {
   const std::vector<Node>& tables(std::string_view key);
   /// A list of texts inside this table; empty if it is missing.
   std::vector<Reading<std::string>> texts(std::string_view key);
-  /// Which of two keys for one thing is given (a setting of the command line beats the file): the first if
-  /// none is.
+  /// Which of two keys for one thing is given (a setting of the command line beats the file): the first if none is.
   std::string_view one_of(std::string_view first, std::string_view second);
 
   bool has(std::string_view key) const { return table_ && table_->find(key); }
-  /// Tells unknown and missing keys.
+  /// Reports unknown and missing keys.
   void finish();
 
   /// Place of a key's value; of one that is not given the table's header.

@@ -83,7 +83,7 @@ std::string plain_words(std::string_view description) {
   return text;
 }
 
-/// Advice for what people really write: decimal commas, units after numbers, texts without quotes.
+/// Advice for common mistakes: decimal commas, units after numbers, texts without quotes.
 std::string syntax_help(std::string_view line) {
   const auto equal = line.find('=');
   if (equal == std::string_view::npos)
@@ -106,11 +106,11 @@ std::string syntax_help(std::string_view line) {
     return "a value is a number alone; the unit is part of the key";
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   if (!value.empty() && std::all_of(value.begin(), value.end(), is_letter))
-    return "a text stands in quotes: \"" + std::string(value) + "\"";
+    return "a text needs quotes: \"" + std::string(value) + "\"";
   return "";
 }
 
-/// The first syntax error of the text as a diagnostic; the line as it stands in the file.
+/// The first syntax error of the text as a diagnostic, with the line as written in the file.
 Diagnostic syntax_error(const toml::parse_error& error, const SourceSet& sources, std::uint32_t file) {
   const std::string_view line = sources[file].line(error.source().begin.line);
   Diagnostic d = file_diagnostic(Code::file_syntax, Converter(sources[file], file).span(error.source()),
@@ -121,11 +121,11 @@ Diagnostic syntax_error(const toml::parse_error& error, const SourceSet& sources
     d.code = Code::file_duplicate_key;
     d.span.column = static_cast<std::uint32_t>(first + 1);
     d.span.length = static_cast<std::uint32_t>(end - first);
-    d.label = "stands above already";
+    d.label = "is already given above";
     d.help = "keep one of the two";
   } else if (!is_utf8(line)) {
     d.label = "these bytes are not UTF-8";
-    d.help = "save the file in the encoding UTF-8 (it may be in CP1251)";
+    d.help = "save the file as UTF-8 (it may be in CP1251)";
   } else {
     d.help = syntax_help(line);
   }
@@ -133,8 +133,7 @@ Diagnostic syntax_error(const toml::parse_error& error, const SourceSet& sources
   return d;
 }
 
-/// Overwrites a 1-based line with blanks, keeping every other place. False if it is not a plain "key = value"
-/// line.
+/// Overwrites a 1-based line with blanks, keeping every other place. False if it is not a plain "key = value" line.
 bool blank_line(std::string& text, std::uint32_t number) {
   std::size_t begin = 0;
   for (std::uint32_t i = 1; i < number; ++i) {

@@ -6,7 +6,7 @@
 #include "machine/base/diagnostic.h"
 
 /// A settings file as a plain tree: what was written, each key and value with its place. Machine and scenario
-/// files are read from it by TableReader, so that both tell their mistakes in the same words.
+/// files are read from it by TableReader, so that both report mistakes in the same words.
 namespace kadr::machine {
 
 struct Entry;
@@ -32,29 +32,28 @@ struct Entry {
   Node value;
 };
 
-/// What a value is, for messages: "a number", "a text", "a table" ...
+/// The kind of a value, for messages: "a number", "a text", "a table" ...
 std::string_view kind_text(Node::Kind kind);
 
 /// An error with its code's title as message; the caller fills in the rest.
 Diagnostic file_diagnostic(Code code, const Span& span, std::string label);
 
-/// A file read as far as it can be.
+/// A file, read as far as possible.
 struct ParsedTree {
   Node root;
   bool complete = true;  ///< false: lines with a syntax error were left out, so a missing key proves nothing
 };
 
-/// Reads sources[file] as TOML. A line with a syntax error is told, left out, and reading goes on, so that
-/// the mistakes of the rest are found in the same run (at most 20 such lines, none after a broken table
-/// header).
+/// Reads sources[file] as TOML. A line with a syntax error is reported and skipped, and reading continues, so that
+/// the mistakes of the rest are found in the same run (at most 20 such lines, none after a broken table header).
 ParsedTree parse_toml(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics);
 
-/// One value as TOML writes it; what is neither a number nor TOML is a text. All its places are `span`.
+/// One value as TOML writes it; what is neither a number nor TOML is a text. All its spans are `span`.
 Node parse_value(const std::string& value, const Span& span);
 
 /// Puts "key=value" settings of the command line into the tree: "feed.max_jerk_mm_s3=2e4",
 /// "axis.X.plant.model=rigid" (X is the `name` of a table in the array `axis`). Each setting becomes a text
-/// of its own in `sources`, named kSettingSource, so that its diagnostics have a place. A value that is not
+/// in `sources`, named kSettingSource, so that its diagnostics have a place. A value that is not
 /// TOML is a text.
 void apply_settings(Node& root, const std::vector<std::string>& settings, SourceSet& sources,
                     Diagnostics& diagnostics);

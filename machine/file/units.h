@@ -3,10 +3,10 @@
 #include <string>
 #include <string_view>
 
-/// Units as they stand at the end of a key: "max_mm_s" is the stem "max" in mm/s.
+/// Units as written at the end of a key: "max_mm_s" is the stem "max" in mm/s.
 namespace kadr::machine {
 
-/// What a unit measures; only units of one quantity convert into each other.
+/// A physical quantity; only units of the same quantity convert into each other.
 enum class Quantity {
   length,
   angle,

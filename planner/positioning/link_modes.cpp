@@ -3,8 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "machine/axis.h"
-#include "machine/base/numbers.h"
+#include "machine/motor.h"
 
 namespace kadr::planner {
 namespace {
@@ -40,21 +39,14 @@ struct Quartic {
   }
 };
 
-double motor_stiffness_N_per_m(const machine::AxisModel& axis) {
-  const machine::TwoMassModel& m = axis.plant;
-  if (m.motor == machine::MotorModel::spring) return m.motor_stiffness_N_per_m;
-  const double si_per_u = axis.kind == machine::AxisKind::rotary ? kPi / 180 : 1e-3;
-  return m.holding_force_N * 2 * kPi / (m.tooth_pitch_u * si_per_u);
-}
-
-Quartic characteristic(const machine::TwoMassModel& m, double motor_stiffness_N_per_m) {
+Quartic characteristic(const machine::TwoMassModel& m, const machine::Motor& motor) {
   const double m0 = m.base_mass_kg, m1 = m.link_mass_kg, k = m.link_stiffness_N_per_m,
                c = m.link_damping_Ns_per_m;
-  const double b = m.motor_damping_Ns_per_m + m.base_friction_Ns_per_m, km = motor_stiffness_N_per_m;
+  const double b = motor.damping_Ns_per_m() + m.base_friction_Ns_per_m, km = motor.stiffness();
   return {m0 * m1, m0 * c + (b + c) * m1, m0 * k + b * c + (km + k) * m1, b * k + km * c, km * k};
 }
 
-/// The root that Newton's method comes to from an undamped one, if it swings.
+/// The root that Newton's method finds from an undamped one, if it oscillates.
 std::optional<Complex> root_near(const Quartic& q, double omega_rad_s) {
   Complex s{0, omega_rad_s};
   for (int i = 0; i < kNewtonSteps; ++i) s = s - q.at(s) / q.slope(s);
@@ -62,10 +54,10 @@ std::optional<Complex> root_near(const Quartic& q, double omega_rad_s) {
   return s;
 }
 
-void add_coupled_modes(const machine::AxisModel& axis, std::vector<DrivenMode>& modes) {
-  const machine::TwoMassModel& m = axis.plant;
-  const double km = motor_stiffness_N_per_m(axis);
-  const Quartic q = characteristic(m, km);
+void add_coupled_modes(const machine::TwoMassModel& m, const machine::Motor& motor,
+                       std::vector<DrivenMode>& modes) {
+  const double km = motor.stiffness();
+  const Quartic q = characteristic(m, motor);
   // without damping: m0 m1 w^4 - (m0 k + (Km + k) m1) w^2 + Km k = 0
   const double sum =
       m.base_mass_kg * m.link_stiffness_N_per_m + (km + m.link_stiffness_N_per_m) * m.link_mass_kg;
@@ -89,8 +81,9 @@ std::vector<DrivenMode> link_modes(const machine::AxisModel& axis) {
   std::vector<DrivenMode> modes;
   if (!axis.has_plant) return modes;
   const machine::TwoMassModel& m = axis.plant;
-  if (m.motor != machine::MotorModel::rigid) {
-    add_coupled_modes(axis, modes);
+  const machine::Motor motor(axis);
+  if (!motor.follows_command()) {
+    add_coupled_modes(m, motor, modes);
     return modes;
   }
   const double omega = std::sqrt(m.link_stiffness_N_per_m / m.link_mass_kg);

@@ -12,14 +12,15 @@ namespace kadr::planner {
 /// Damping ratio from which a vibration is left to itself: in five periods it falls to a fifth.
 inline constexpr double kDampedEnough = 0.05;
 
-/// The vibrations that motion along an axis leaves behind, as the driven system has them; none without a
+/// The vibrations that motion along an axis excites in the driven system; none without a
 /// plant.
 ///
-/// rigid motor: the base follows its command whatever the load does, so the link swings at its own
-/// omega = sqrt(k/m1). Spring motor (and stepper, linearised where it stands: Km = 2 pi F_hold/pitch): base
-/// and link swing against each other at the roots of (paper 001, eq. 5 with F = Km (x_step - x0) - B x0')
+/// A motor that follows its command moves the base whatever the load does, so the link swings at its own
+/// omega = sqrt(k/m1). On any other motor, linearised where it stands (Km: Motor::stiffness()), base and link
+/// swing against each other at the roots of (paper 001, eq. 5 with F = Km (x_step - x0) - B x0')
 ///   (m0 s^2 + B s + Km)(m1 s^2 + c s + k) + m1 s^2 (c s + k) = 0,   B = bm + b0
-/// so a law tuned to omega would miss them. The link's share of the command's acceleration is the residue of
+/// which are the eigenvalues of the plant's equations at rest; a law tuned to omega would miss them. The
+/// link's share of the command's acceleration is the residue of
 ///   X1/A = -Km m1 / that polynomial.
 /// Roots damped by kDampedEnough or more are left out. Ascending frequency; the one or two it can be.
 std::vector<DrivenMode> link_modes(const machine::AxisModel& axis);

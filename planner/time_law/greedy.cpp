@@ -18,8 +18,7 @@ struct Range {
   double low, high;
 };
 
-/// The strips |a x + b y| <= 1 of one interval, x before and y after it, in units of the highest squared
-/// speed.
+/// The strips |a x + b y| <= 1 of one interval, x before and y after it, in units of the highest squared speed.
 struct Strips {
   std::vector<double> a, b;
 };
@@ -104,7 +103,7 @@ LawResult GreedyOptimum::solve(const LawProblem& p) {
     if (!projection.extreme(true, high) || !projection.extreme(false, low))
       return tl::unexpected(
           LawFailure{i - 1, p.s_u[i - 1],
-                     fmt::format("from no speed up to {:.6g} mm/s can the path behind it be followed",
+                     fmt::format("at no speed up to {:.6g} mm/s can the path after it be followed",
                                  caps[i - 1].speed_u_s)});
     reach[i - 1] = {std::max(low, 0.0), std::min(high, squared(caps[i - 1].speed_u_s))};
   }
@@ -112,8 +111,9 @@ LawResult GreedyOptimum::solve(const LawProblem& p) {
   if (x < reach[0].low - kInside || x > reach[0].high + kInside)
     return tl::unexpected(LawFailure{
         0, p.s_u[0],
-        fmt::format("the speed is to be {:.6g} mm/s, the path can be followed from {:.6g} to {:.6g} mm/s",
-                    p.begin_u_s, std::sqrt(reach[0].low * unit), std::sqrt(reach[0].high * unit))});
+        fmt::format(
+            "the speed must be {:.6g} mm/s, but the path can only be followed at {:.6g} to {:.6g} mm/s",
+            p.begin_u_s, std::sqrt(reach[0].low * unit), std::sqrt(reach[0].high * unit))});
   std::vector<double> speed(n);
   speed[0] = p.begin_u_s;
   for (std::size_t i = 1; i < n; ++i) {
@@ -129,7 +129,7 @@ LawResult GreedyOptimum::solve(const LawProblem& p) {
     if (high < low - kMeets * (1.0 + low))
       return tl::unexpected(
           LawFailure{i, p.s_u[i],
-                     fmt::format("speeds from {:.6g} mm/s on are needed, up to {:.6g} mm/s can be reached",
+                     fmt::format("at least {:.6g} mm/s is needed, but only {:.6g} mm/s can be reached",
                                  std::sqrt(low * unit), std::sqrt(std::max(high, 0.0) * unit))});
     x = std::max(high, 0.0);
     speed[i] = std::sqrt(x * unit);

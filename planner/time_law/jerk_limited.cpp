@@ -135,7 +135,7 @@ LawResult JerkLimitedLaw::solve(const LawProblem& problem) {
     const std::size_t node = problem.begin_u_s != 0.0 ? 0 : n - 1;
     return tl::unexpected(LawFailure{
         node, problem.s_u[node],
-        fmt::format("the jerk-limited law runs from rest to rest, the speed here is to be {:.6g} mm/s",
+        fmt::format("the jerk-limited law runs from rest to rest, but the speed here must be {:.6g} mm/s",
                     node == 0 ? problem.begin_u_s : problem.end_u_s)});
   }
   const NodeJerk jerk{std::vector<double>(n, jerk_u_s3_), std::vector<double>(n, jerk_u_s3_)};

@@ -191,7 +191,7 @@ PlanError law_not_found(const Path& path, const RunProblem& run, const LawFailur
   d.message = std::string(code_entry(d.code).title);
   d.label = fmt::format("at {:.3f} mm of the path (node {} of {}): {}", failure.s_u, failure.node + 1,
                         run.problem.nodes(), failure.reason);
-  d.help = "take more planner.tube_levels, a larger planner.node_mm, or planner.method = \"certified\"";
+  d.help = "use more planner.tube_levels, a larger planner.node_mm, or planner.method = \"certified\"";
   return {std::move(d)};
 }
 

@@ -78,7 +78,7 @@ std::optional<LawFailure> check_nodes(const LawProblem& p) {
     }
     if (!p.cap_u_s.empty() && !(p.cap_u_s[i] >= 0.0))
       return LawFailure{i, p.s_u[i],
-                        fmt::format("a cap of {:.6g} mm/s, it may not be below 0", p.cap_u_s[i])};
+                        fmt::format("a cap of {:.6g} mm/s, it must not be below 0", p.cap_u_s[i])};
     if (!p.interval_accel_u_s2.empty() && i > 0 && !positive(p.interval_accel_u_s2[i]))
       return LawFailure{
           i, p.s_u[i],
@@ -107,7 +107,7 @@ std::optional<LawFailure> check_problem(const LawProblem& p) {
     const double speed = end == 0 ? p.begin_u_s : p.end_u_s;
     if (speed > caps[end].speed_u_s)
       return LawFailure{end, p.s_u[end],
-                        fmt::format("the speed here is to be {:.6g} mm/s, at most {:.6g} mm/s is allowed",
+                        fmt::format("the speed here must be {:.6g} mm/s, but at most {:.6g} mm/s is allowed",
                                     speed, caps[end].speed_u_s)};
   }
   return std::nullopt;

@@ -34,7 +34,7 @@ Winding hoop_winding(const WindValues& p) {
   const int closing = static_cast<int>(std::ceil(360.0 / p["step_deg"]));
   const double lead_deg = exact_atan2(band, 2 * kPi * radius) * kDegPerRad;
   const double alpha_deg = 90.0 - lead_deg;
-  // mm of fibre a degree of mandrel: the helix of one band a turn, and the plain circle
+  // mm of fibre per degree of mandrel: the helix of one band per turn, and the plain circle
   const double wound = std::sqrt(radius * radius + (band / (2 * kPi)) * (band / (2 * kPi))) / kDegPerRad;
   const double circled = radius / kDegPerRad;
 
@@ -48,7 +48,7 @@ Winding hoop_winding(const WindValues& p) {
   };
   double a_deg = 0;
   add(0, a_deg, 0, 90, 0);
-  // one closing turn at the beginning, at each change of direction and at the end; the eye swings over in it
+  // one closing turn at the beginning, at each change of direction and at the end; the eye turns over in it
   auto close = [&](double x, double from_deg, double to_deg) {
     for (int i = 1; i <= closing; ++i) {
       const double u = static_cast<double>(i) / closing;
@@ -91,7 +91,7 @@ Winding helix_winding(const WindValues& p) {
   // blocks of a turn lay about as much mandrel angle as those of a stroke
   const int turn_blocks = std::max(16, static_cast<int>(std::ceil(turn_deg / (stroke_deg / stroke_blocks))));
   const double fibre_per_deg = radius / (kDegPerRad * angle.sin);
-  // carriage way a turn would make at stroke speed; the cubic starts and ends with this slope
+  // carriage travel of a turn at stroke speed; the cubic starts and ends with this slope
   const double slope = length / stroke_deg * turn_deg;
 
   Winding w;
@@ -113,8 +113,7 @@ Winding helix_winding(const WindValues& p) {
                             fibre_per_deg * stroke_deg / stroke_blocks});
       }
       a_deg += stroke_deg;
-      // the turn: the fibre goes round at the end while the eye swings over and the carriage takes back the
-      // lead
+      // the turn: the fibre goes around the end while the eye turns over and the carriage takes back the lead
       const double end = begin + way * length;
       for (int i = 1; i <= turn_blocks; ++i) {
         const double u = static_cast<double>(i) / turn_blocks;
@@ -131,7 +130,7 @@ Winding helix_winding(const WindValues& p) {
 
 namespace {
 
-/// A place of the fibre on the mandrel; `way` +1 or -1 along the axis.
+/// A point of the fibre on the mandrel; `way` +1 or -1 along the axis.
 struct Contact {
   double x_mm, radius_mm, theta_rad, alpha_rad;
   int way;
@@ -144,7 +143,7 @@ void half_circuit(std::vector<Contact>& out, const WindValues& p, int way, doubl
   const double sin_alpha = polar / radius;
   const double cos_alpha = std::sqrt(1 - sin_alpha * sin_alpha);
   const double alpha = exact_atan2(sin_alpha, cos_alpha);
-  // along the cylinder the angle grows by tan(alpha)/R a mm
+  // along the cylinder the angle grows by tan(alpha)/R per mm
   for (int i = 0; i <= blocks; ++i) {
     const double x = length * (static_cast<double>(i) / blocks);
     out.push_back(
@@ -177,7 +176,7 @@ WindPoint eye_of(const Contact& c, const WindValues& p, double theta_rad) {
   const double cos_lat = std::sqrt(1 - sin_lat * sin_lat);
   const double side = c.x_mm >= 0 ? 1 : -1;
   const SinCos alpha = exact_sincos(c.alpha_rad);
-  // tangent: cos(alpha) along the meridian in the way of travel, sin(alpha) round the mandrel
+  // tangent: cos(alpha) along the meridian in the direction of travel, sin(alpha) around the mandrel
   const double axial = alpha.cos * c.way * cos_lat;
   const double radial = -alpha.cos * side * c.way * sin_lat;
   const double hoop = alpha.sin;

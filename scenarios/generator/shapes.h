@@ -16,15 +16,14 @@ class WindValues {
 };
 
 /// Cylinder of radius R and length L, band b:
-///   turns a layer = L/b,   B = +-atan(b/(2 pi R)),   one closing turn at each end while B swings over.
+///   turns per layer = L/b,   B = +-atan(b/(2 pi R)),   one closing turn at each end while B turns over.
 Winding hoop_winding(const WindValues& p);
 
 /// Cylinder, fibre at alpha to the axis, eye at the radius rho:
 ///   dA/dX = tan(alpha)/R,  stroke = L tan(alpha)/R,  circuits n = ceil(2 pi R cos(alpha)/b),
 ///   lead = sqrt(rho^2 - R^2)/tan(alpha),  B = +-(90 deg - alpha),
 ///   turn d at each end with n (2 stroke + 2 d) = 2 pi k, gcd(k, n) = 1: the pattern closes after n circuits.
-/// In the turn the mandrel runs on evenly and the carriage follows a cubic that begins and ends at stroke
-/// speed.
+/// In the turn the mandrel keeps running evenly and the carriage follows a cubic that begins and ends at stroke speed.
 Winding helix_winding(const WindValues& p);
 
 /// Cylinder with two hemispheres, wound along geodesics: Clairaut, r sin(alpha) = r0.

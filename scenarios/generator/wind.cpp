@@ -52,7 +52,7 @@ constexpr std::array kKinds = {
     WindKind{"dome", "Cylinder with two hemispheres, along geodesics", kDome},
 };
 
-// more blocks than this are a slip of the parameters
+// more blocks than this are a mistake in the parameters
 constexpr std::size_t kMostPoints = 5'000'000;
 
 std::string value_text(double value) { return number_text(value); }
@@ -76,7 +76,7 @@ void append_position(std::string& out, const WindPoint& p) {
   append_fixed(out, p.b_deg, kDecimals);
 }
 
-/// Points that a winding will have, roughly; asked before any is made.
+/// Approximate number of points of a winding, checked before any is made.
 double expected_points(std::string_view kind, const WindValues& p) {
   const double around_mm = 6.3 * p["radius_mm"];
   if (kind == "hoop") return p["layers"] * (p["length_mm"] / p["band_mm"] + 1) * 360 / p["step_deg"];

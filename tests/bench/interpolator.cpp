@@ -73,8 +73,7 @@ void lines_ramps(benchmark::State& s) { lines(s, Feed::wild, false); }
 void lines_steady_hash(benchmark::State& s) { lines(s, Feed::constant, true); }
 void lines_ramps_hash(benchmark::State& s) { lines(s, Feed::wild, true); }
 
-/// A circle of 50 mm, about 32 kHz on the mean of both axes; a spiral as rounding makes it; a helix of 1000
-/// turns.
+/// A circle of 50 mm, about 32 kHz on the mean of both axes; a spiral as rounding makes it; a helix of 1000 turns.
 void arcs(benchmark::State& state, double radius, double growth, double turns, double z) {
   const auto machine = machine_with(3);
   PathMaker maker({radius, 0.0, 0.0});

@@ -12,8 +12,7 @@ namespace {
 
 using namespace kadr;
 
-// Two masses with the given frequencies (whole on the motor's spring, link alone) and damping ratios 0.1 and
-// 0.02.
+// Two masses with the given frequencies (whole on the motor's spring, link alone) and damping ratios 0.1 and 0.02.
 machine::AxisModel make_axis(machine::MotorModel motor, double base_kg, double motor_hz, double link_hz) {
   constexpr double kTwoPi = 6.283185307179586;
   machine::AxisModel axis;

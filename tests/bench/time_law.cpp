@@ -91,8 +91,7 @@ void tube_lanes(benchmark::State& state, DpStepFunction step) {
 BENCHMARK_CAPTURE(tube_lanes, classical_1100_sse2, dp_step_sse2)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(tube_lanes, classical_1100_widest, dp_step_function())->Unit(benchmark::kMillisecond);
 
-/// Paper 000, time against the number of levels: passes, and whether the number of passes alone ended the
-/// loop.
+/// Paper 000, time against the number of levels: passes, and whether the number of passes alone ended the loop.
 void tube_levels(benchmark::State& state) {
   const ReferenceLaw law = paper_law();
   TubeOptions options;

@@ -37,7 +37,7 @@ TEST_CASE("--limit sets the bounds of a program, and refuses what it does not kn
   CHECK(call({"canon", "loop.ngc"}, scratch.path()).code == 0);
   const Finished few = call({"canon", "loop.ngc", "--limit", "loop_passes=49"}, scratch.path());
   CHECK(few.code == 1);
-  CHECK(contains(few.err, "allowed are 49 in all (--limit loop_passes=N)"));
+  CHECK(contains(few.err, "allowed: 49 in all (--limit loop_passes=N)"));
   CHECK(call({"check", "loop.ngc", "--limit", "blocks=10"}, scratch.path()).code == 1);
   CHECK(call({"check", "loop.ngc", "--limit", "blocks=10", "--limit", "blocks=1_000"}, scratch.path()).code ==
         0);

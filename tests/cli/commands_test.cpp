@@ -98,7 +98,7 @@ TEST_CASE("options of kadr run: other log, no log, no plant, --until") {
   SUBCASE("--set changes a value of the machine") {
     const Json slow = Json::parse(
         call({"run", "square.ngc", "--no-log", "--json", "--set", "feed.max_mm_s=5"}, scratch.path()).out);
-    // 80 mm at 5 mm/s take 16 s, without acceleration and the way to the start
+    // 80 mm at 5 mm/s take 16 s, without acceleration and the move to the start
     CHECK(slow["run"]["time_s"] > 16.0);
     CHECK(slow["run"]["time_s"] < 20.0);
   }
@@ -437,7 +437,7 @@ TEST_CASE("kadr machine: list, show, new, check") {
 
   const Finished show = call({"machine", "show", "shop.toml"}, scratch.path());
   CHECK(show.code == 0);
-  // what is shown is a machine file again
+  // the output is a machine file again
   scratch.write("again.toml", show.out);
   CHECK(call({"machine", "check", "again.toml"}, scratch.path()).code == 0);
   scratch.write("square.ngc", test::kSquare);

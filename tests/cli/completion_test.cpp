@@ -62,7 +62,7 @@ void read_help(const std::string& path, std::vector<HelpedCommand>& commands) {
     } else if (!line.starts_with("  ")) {
       in_commands = line == "Subcommands:";
     } else if (in_commands) {
-      // a name stands at the margin, its text is indented deeper
+      // a name is at the margin, its text is indented deeper
       if (line[2] != ' ') below.push_back(path + ' ' + words_of(line).front());
     } else {
       read_names(line, command);
@@ -237,7 +237,7 @@ TEST_CASE("the examples in help texts and manual page are command lines that kad
     CHECK(c.example.find("kadr" + c.path) != std::string::npos);
     // the files that they name are not there; how the words are read is the question
     const Finished done = shell(c.example, scratch.path());
-    CHECK_FALSE(contains(done.err, "--help tells more"));
+    CHECK_FALSE(contains(done.err, "\nsee kadr"));
     CHECK(done.code != 70);
   }
   CHECK(examples > 15);
@@ -291,9 +291,9 @@ TEST_CASE("man formats the manual page without a warning") {
 TEST_CASE(
     "what the help of kadr says for all commands stands in the manual page once, in sections of their own") {
   const std::string page = call({"man"}).out;
-  CHECK_FALSE(contains(page, "tells more"));
+  CHECK_FALSE(contains(page, "shows details"));
   CHECK(page.find("stopped by a signal") == page.rfind("stopped by a signal"));
-  // what one command says below its options is there
+  // the text below a command's options is there
   CHECK(contains(part_of(page, ".SS \\fBkadr wind\\fR", "\n.S"), "carriage"));
 }
 

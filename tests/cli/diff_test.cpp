@@ -154,7 +154,7 @@ TEST_CASE("mistakes in the options of kadr diff are told, exit 2") {
   CHECK(contains(complaint({"--context", "-1"}), "--context"));
   CHECK(contains(complaint({"--context", "many"}),
                  "--context takes a whole number from 0 to 1000; got 'many'"));
-  CHECK(contains(complaint({"--align", "time"}), "--align knows path, tick; got 'time'"));
+  CHECK(contains(complaint({"--align", "time"}), "--align takes one of path, tick; got 'time'"));
   CHECK(call({"diff", "a.lcmlog"}, logs.scratch.path()).code == 2);
   CHECK(call({"diff", "a.lcmlog", "b.lcmlog", "c.lcmlog"}, logs.scratch.path()).code == 2);
 }

@@ -70,7 +70,7 @@ TEST_CASE(
   }
   CHECK(std::llround(pulses) == info["axes"][0]["pulses"].get<std::int64_t>());
   CHECK(peak > 9.9);
-  // the last node is where the machine stands: X10 at 0.0025 mm a step
+  // the last node is the machine's position: X10 at 0.0025 mm a step
   CHECK(split(lines.back(), ',')[2] == "4000");
 }
 
@@ -171,8 +171,8 @@ TEST_CASE("what can't be exported is refused with the way out") {
   };
   refused({"--csv", "--signals", "feed.commanded*,speed"},
           "the log has no signal 'speed' (`kadr export LOG --list`");
-  refused({"--csv", "--from", "2", "--to", "1"}, "--from 2 s is behind --to 1 s");
-  refused({"--vcd", "--rate-hz", "10"}, "--vcd holds every pulse");
+  refused({"--csv", "--from", "2", "--to", "1"}, "--from 2 s is after --to 1 s");
+  refused({"--vcd", "--rate-hz", "10"}, "--vcd contains every pulse");
   refused({"--csv", "--json"}, "");
   refused({}, "");
   refused({"--csv", "--from", "1,5"}, "--from takes a number");
@@ -208,13 +208,12 @@ TEST_CASE("kadr plot draws within the width asked for, in Braille or ASCII, the 
 
 TEST_CASE("kadr plot --path fills the rows asked for and no more, and calls a low end of dust 0") {
   const Scratch scratch;
-  // 100 mm by 20 mm, from a home that is 0 but for rounding
+  // 100 mm by 20 mm, from a home that is 0 up to rounding
   scratch.write("flat.ngc", "G21 G90\nG1 X100 Y10 F6000\nX0 Y20\nM2\n");
   REQUIRE(call({"run", "flat.ngc", "--set", "axis.Y.home_mm=7.07e-6", "-q"}, scratch.path()).code == 0);
   for (const std::string ascii : {"", "--ascii"}) {
     CAPTURE(ascii);
-    // 69 columns for 100 mm: 20 mm are 6.8 cells of double height up from the first: 28 Braille dots, or 8
-    // cells
+    // 69 columns for 100 mm: 20 mm are 6.8 cells of double height up from the first: 28 Braille dots, or 8 cells
     const std::size_t rows = ascii.empty() ? 7 : 8;
     std::vector<std::string> plot = {"plot", "flat.lcmlog", "--path"};
     if (!ascii.empty()) plot.push_back(ascii);

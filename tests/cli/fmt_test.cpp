@@ -78,7 +78,7 @@ TEST_CASE("kadr fmt leaves a line with a mistake as it is, tells it, and rewrite
   const Finished in_place = call({"fmt", "--in-place", "bad.ngc"}, scratch.path());
   CHECK(in_place.code == 1);
   CHECK(scratch.read("bad.ngc") == bad);
-  CHECK(in_place.err.find("bad.ngc: left as it is, mend its errors first") != std::string::npos);
+  CHECK(in_place.err.find("bad.ngc: left unchanged; fix its errors first") != std::string::npos);
   const Finished sarif = call({"fmt", "bad.ngc", "--format", "sarif"}, scratch.path());
   CHECK(Json::parse(sarif.err)["runs"][0]["results"].size() == 1);
 }

@@ -6,7 +6,7 @@
 
 #include "tests/cli/run_kadr.h"
 
-/// `cmake --install` into a folder of its own, and kadr used from there.
+/// `cmake --install` into a new folder, and kadr used from there.
 namespace test = kadr::test;
 using test::contains;
 using test::Finished;
@@ -54,7 +54,7 @@ TEST_CASE("cmake --install brings kadr's own things to their places, and nothing
 TEST_CASE("every relative link of an installed document leads to an installed file") {
   const Scratch scratch;
   REQUIRE(install(scratch, "p").code == 0);
-  // "page target", a line per link, without those to the network and to a place in the same page
+  // "page target", a line per link, without those to the network and within the same page
   const Finished links = shell(
       "cd p/share/doc/kadr && grep -oE '\\]\\([^) ]+\\)' -- *.md docs/*.md | sed -E 's/:\\]\\(/ /; s/[)]$//; "
       "s/#.*//' | grep -vE ' (https?:.*)?$'",

@@ -145,7 +145,7 @@ TEST_CASE(
     CHECK(j["state"] == "cut off");
     CHECK(j["file_bytes"] <= limit);
     CHECK(j["valid_bytes"] > 0);
-    // what the message promises is there
+    // the files that the message names are there
     const auto at = run.err.find("up to tick ") + 11;
     CHECK(j["valid_until_tick"].get<std::int64_t>() >= std::stoll(run.err.substr(at)));
   }

@@ -68,7 +68,7 @@ TEST_CASE("kadr machine new from a data sheet: a file that check passes and a pr
     return MachineJson::parse(f.out)[0]["check"]["time_s"].get<double>();
   };
   CHECK(call({"run", "part.ngc", "-m", "router.toml", "-q"}, scratch.path()).code == 0);
-  // with the axis' own acceleration at corners, what a file that says nothing gets, time doubles
+  // with the axis' own acceleration at corners, the default of the key, time doubles
   std::vector<std::string> slow = {"check", "part.ngc", "-m", "router.toml", "--json"};
   for (const char* axis : {"X", "Y"})
     slow.insert(slow.end(), {"--set", fmt::format("axis.{}.junction_acceleration_mm_s2=200", axis)});
@@ -174,12 +174,12 @@ TEST_CASE("kadr machine new --ask asks on a terminal, and does not hang in a scr
   CHECK_FALSE(scratch.has("shop.toml"));
 
   if (kadr::test::lacks_terminals()) return;
-  // what was given is judged before the first question
+  // given values are checked before the first question
   for (const auto& [option, value, complaint] :
        {std::array{"--acceleration", "5parsec", "unit 'parsec' is not known"},
-        std::array{"--axes", "XX", "X stands twice"},
+        std::array{"--axes", "XX", "X is given twice"},
         std::array{"--tool-change", "-1", "--tool-change is -1"},
-        std::array{"--max-speed", "5000", "say the unit"}}) {
+        std::array{"--max-speed", "5000", "add the unit"}}) {
     Launch wrong;
     wrong.arguments = {"machine", "new", "shop", "--ask", std::string(option) + '=' + value};
     wrong.folder = scratch.path();
@@ -199,9 +199,9 @@ TEST_CASE("kadr machine new --ask asks on a terminal, and does not hang in a scr
   const Finished asked = run_kadr(launch);
   CAPTURE(asked.out);
   CHECK(asked.code == 0);
-  CHECK(contains(asked.out, "X stands twice"));
+  CHECK(contains(asked.out, "X is given twice"));
   CHECK(contains(asked.out, "got 2: '800,800'"));
-  CHECK(contains(asked.out, "say the unit"));
+  CHECK(contains(asked.out, "add the unit"));
   CHECK(contains(asked.out, "Acceleration in mm/s2 or deg/s2 [500]: "));
   CHECK(contains(asked.out, "wrote shop.toml"));
   CHECK(contains(scratch.read("shop.toml"), "max_acceleration_mm_s2 = 500 "));

@@ -127,7 +127,7 @@ TEST_CASE("two runs of kadr law give the same bytes: CSV a row a law, a page wit
   CHECK(line.starts_with("law,xi,duration_s,peak_accel_m_s2,"));
   const auto columns = std::count(line.begin(), line.end(), ',');
   int rows = 0;
-  // a name in quotes may have one comma of its own
+  // a name in quotes may contain a comma
   for (; std::getline(lines, line); ++rows) {
     const std::string values = line.substr(line.find('"', 1));
     CHECK(std::count(values.begin(), values.end(), ',') == columns);
@@ -158,7 +158,7 @@ TEST_CASE("what can't be asked is refused with what was given and what is allowe
       {{"--xi", "0.3"}, "xi is 0.3: it may be 0.3232233 at least"},
       {{"--xi", "0.6"}, "xi is 0.6: it may be 0.5 at most"},
       {{"--distance-m", "far"}, "--distance-m takes a number; got 'far'"},
-      {{"--drive", "rope"}, "--drive knows force, position; got 'rope'"},
+      {{"--drive", "rope"}, "--drive takes one of force, position; got 'rope'"},
   };
   for (const Refusal& r : refusals) {
     const Finished run = law(r.arguments);

@@ -47,7 +47,7 @@ TEST_CASE("kadr report writes one page whose numbers are the log's, and a second
   CHECK(contains(html, "<h1>p.ngc on mill3</h1>"));
   const Json info = Json::parse(call({"info", "p.lcmlog", "--json"}, page().scratch.path()).out)[0];
   CHECK(contains(html, "<td>" + info["steps_hash"].get<std::string>() + "</td>"));
-  // the limits of mill3 stand beside what was reached: X 2500 mm/s2
+  // the limits of mill3 are next to the measured values: X 2500 mm/s2
   CHECK(contains(html, " / 2 500.0 mm/s2"));
   CHECK(call({"report", "p.lcmlog", "-o", "-"}, page().scratch.path()).out == html);
   CHECK(html.size() < 2'000'000);
@@ -166,7 +166,7 @@ TEST_CASE("a page keeps within its size: control ticks are gathered in twos, fou
   const std::string small = scratch.read("small.html");
   CHECK(small.size() <= 240'000);
   CHECK_FALSE(contains(small, "\"every\":1,"));
-  // each one round what matters all the same
+  // each one around what matters
   CHECK(contains(whole, "\"windows\":[],"));
   CHECK(contains(small, "\"windows\":[{\"first\":"));
 }

@@ -55,7 +55,7 @@ struct Pipe {
   ::_exit(126);
 }
 
-/// Reads what is there; false at the end.
+/// Reads the available output; false at the end.
 bool drain(int fd, std::string& text) {
   char buffer[1 << 16];
   const ssize_t got = ::read(fd, buffer, sizeof buffer);

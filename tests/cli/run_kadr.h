@@ -9,7 +9,7 @@
 /// Runs the built program as a user does: own process, own folder, own environment.
 namespace kadr::test {
 
-/// What a program that has ended left behind.
+/// Output and exit code of a finished program.
 struct Finished {
   int code = -1;    ///< exit code; -1 if a signal ended it
   int signal = 0;   ///< number of that signal
@@ -31,8 +31,7 @@ struct Launch {
   std::function<void(pid_t)> watch;
 };
 
-/// True where the system has no pseudo-terminals (a bare root without /dev/pts); then the case is marked as
-/// skipped.
+/// True where the system has no pseudo-terminals (a bare root without /dev/pts); then the case is marked as skipped.
 bool lacks_terminals();
 
 /// Starts build folder's kadr and waits for its end, at most 60 s (then it is killed).
@@ -46,7 +45,7 @@ Finished shell(const std::string& command, const std::string& folder = ".");
 /// True if PATH has such a program; else the case is marked as skipped, saying why.
 bool has_program(const std::string& name);
 
-/// An empty folder of its own, removed at the end.
+/// A new empty folder, removed at the end.
 class Scratch {
  public:
   Scratch();

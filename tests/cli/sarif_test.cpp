@@ -63,8 +63,7 @@ void check_result(const Json& result, const Json& rules) {
     for (const Json& frame : stack.at("frames")) check_location(frame.at("location"));
 }
 
-/// What the schema of SARIF 2.1.0 demands of the objects that kadr writes, and what code hosts demand beyond
-/// it.
+/// Requirements of the schema of SARIF 2.1.0 for the objects that kadr writes, and further ones of code hosts.
 void check_document(const Json& j) {
   CHECK(j.at("version") == "2.1.0");
   CHECK(j.at("$schema").get<std::string>().find("sarif-2.1.0") != std::string::npos);

@@ -16,9 +16,14 @@ TEST_CASE(
     "same") {
   const Scratch folder;
   const Finished run = call({"teach", "page", "line", "7", "4", "-o", "seven.html"}, folder.path());
-  // without a word behind it the same, as teach.html; another word is no command
+  // without a command the same, as teach.html or under the name given; another word is no command
   CHECK(call({"teach"}, folder.path()).code == run.code);
   CHECK(folder.has("teach.html") == (run.code == 0));
+  CHECK(call({"teach", "-o", "alone.html"}, folder.path()).code == run.code);
+  CHECK(folder.has("alone.html") == (run.code == 0));
+  const Finished early = call({"teach", "-o", "early.html", "table", "line", "7", "4"}, folder.path());
+  CHECK(early.code == 2);
+  CHECK(contains(early.err, "options follow the command"));
   CHECK(call({"teach", "pages"}, folder.path()).code == 2);
   if (run.code == 2) {
     const Json missing = Json::parse(call({"version", "--json"}).out).at("pages").at("teaching");

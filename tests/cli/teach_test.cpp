@@ -181,7 +181,7 @@ TEST_CASE("every edge of a VCD is the pulse that the table says, one slot a puls
     const Json j = Json::parse(run.out);
     const Dump dump = read_vcd(scratch.read("a.vcd"));
     CHECK(dump.timescale == "100ns");
-    // 1000 slots a second: slot i at (i + 1) ms
+    // 1000 slots per second: slot i at (i + 1) ms
     const auto expected = pulses_of(
         j, [](std::size_t i, std::size_t, std::size_t) { return static_cast<double>(i + 1) * 10'000.0; });
     CHECK(dump.rises == expected);
@@ -294,7 +294,7 @@ TEST_CASE("kadr teach tells what is wrong with a case, with measured and allowed
       {{"table", "ellipse", "60", "3"}, "no end after 100000 slots, allowed 100000"},
       {{"table", "line", "7", "4", "--method", "chords"},
        "line is not followed by chords; methods for it: classic"},
-      {{"table", "line", "7", "4", "--method", "half-step"}, "--method knows classic, half_step"},
+      {{"table", "line", "7", "4", "--method", "half-step"}, "--method takes one of classic, half_step"},
       {{"table", "line", "7", "4", "--method", "classic", "--method", "dda"}, "is taken once at most"},
       {{"table", "line", "7", "4", "--bits", "61"}, "--bits takes a whole number from 1 to 60; got '61'"},
       {{"table", "line", "7", "4", "--feed", "0"}, "--feed takes a number from 0.001 to 10000000; got '0'"},
@@ -305,7 +305,7 @@ TEST_CASE("kadr teach tells what is wrong with a case, with measured and allowed
       {{"table", "curve", "x y z", "0", "0", "1", "1"}, "can't be read from character 5"},
       {{"table", "bezier", "5", "5", "10", "10", "--method", "half_step"}, "use --method crossing"},
       {{"table", "bezier", "1", "2", "3"}, "bezier takes X1 Y1"},
-      {{"bezier", "0,0 1"}, "point '1' of '0,0 1' has 1 coordinates, 2 belong there"},
+      {{"bezier", "0,0 1"}, "point '1' of '0,0 1' has 1 coordinate, 2 are needed"},
       {{"bezier", "0,0 1,a"}, "'a' in '0,0 1,a' is not a number"},
       {{"bezier", "0,0"}, "has 1 points; a curve takes 2 to 4"},
       {{"bezier", "1,1 1,1"}, "has no length"},

@@ -19,7 +19,7 @@ namespace {
 
 const std::string kHead = "format = 1\n[path]\nprogram = \"part.ngc\"\nmachine = \"mill3\"\n";
 
-/// Solves a problem with that program beside it.
+/// Solves a problem with that program next to it.
 Finished tube(const Scratch& scratch, const std::string& problem, const std::string& program,
               std::vector<std::string> options) {
   scratch.write("part.ngc", program);
@@ -98,7 +98,7 @@ TEST_CASE("limits of a problem go before the machine's: axes, the path, the dist
   const double by_place = time_s(solved(scratch, kHead + "[[zone]]\nat_mm = 20\nmax_mm_s = 5\n", two));
   const double by_comment = time_s(solved(scratch, kHead, "G21\nG1 X20 F1200\n(TECH s_max=5)\nG1 X40\nM2\n"));
   CHECK(by_line == by_place);
-  // told by the program, the slow place has closer nodes beside it
+  // set by the program, the slow position has closer nodes next to it
   CHECK(by_line == doctest::Approx(by_comment).epsilon(1e-2));
   CHECK(by_line > time_s(solved(scratch, kHead, two)));
 }
@@ -108,7 +108,7 @@ TEST_CASE("from_line and to_line choose a stretch, which may begin and end with 
   const std::string program = "G21 G90\nG0 X10\nG4 P0.5\nG1 X30 F1200\nG1 X50\nG4 P0.5\nG0 X0\nM2\n";
   const Finished whole = tube(scratch, kHead, program, {"--method", "greedy"});
   CHECK(whole.code == 2);
-  CHECK(contains(whole.err, "the machine stands still behind this move"));
+  CHECK(contains(whole.err, "the machine stops after this move"));
   CHECK(contains(whole.err, "here are 3: line 2; lines 4 to 5; line 7"));
   const Json j = solved(scratch, kHead + "from_line = 3\nto_line = 6\n", program);
   CHECK(j["program"]["first_line"] == 4);
@@ -186,7 +186,7 @@ TEST_CASE("a spline that leaves the lines is refused with place, measured and al
   CHECK(contains(corner.err, "part.ngc:5"));
   const Finished arc = tube(scratch, kHead + keys, kBent, {});
   CHECK(arc.code == 2);
-  CHECK(contains(arc.err, "is no straight line"));
+  CHECK(contains(arc.err, "is not a straight line"));
 }
 
 TEST_CASE("warnings of the program are told, its errors end the reading with their place") {

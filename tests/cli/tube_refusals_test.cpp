@@ -25,7 +25,7 @@ std::vector<std::string> bad_problems() {
   return names;
 }
 
-/// A problem with an axis X of 420 mm, and what else it says.
+/// A problem with an axis X of 420 mm and further lines.
 std::string problem(const std::string& path, const std::string& rest = "") {
   return "format = 1\n[path]\n" + path +
          "\n[[axis]]\nname = \"X\"\nunit = \"mm\"\nmax_mm_s = 400\nmax_acceleration_mm_s2 = 1200\nslope_mm = "
@@ -105,7 +105,7 @@ TEST_CASE("a law that can't brake in time is told with node and place, exit 1") 
                                   "[[zone]]\nat_mm = 12\nmax_mm_s = 10\n"));
   const Finished out = call({"tube", "p.toml", "--method", "greedy"}, scratch.path());
   CHECK(out.code == 1);
-  CHECK(out.out.find("no law   greedy: node 0, s = 0.000 mm: the speed is to be 500") != std::string::npos);
+  CHECK(out.out.find("no law   greedy: node 0, s = 0.000 mm: the speed must be 500") != std::string::npos);
 }
 
 TEST_CASE(
@@ -122,7 +122,7 @@ TEST_CASE(
   CHECK(complaint({"missing.toml"}) == "kadr: missing.toml: No such file or directory\n");
   CHECK(complaint({"."}).find("kadr: .: ") == 0);
   CHECK(complaint({"p.toml", "--method", "tub"})
-            .find("--method knows classical, tube, greedy, optimum, certified, "
+            .find("--method takes one of classical, tube, greedy, optimum, certified, "
                   "jerk-limited; got 'tub'") != std::string::npos);
   CHECK(complaint({"p.toml", "--method", "jerk-limited"}).find("write [jerk] with max_mm_s3") !=
         std::string::npos);

@@ -94,7 +94,7 @@ std::vector<std::string> run_command(const std::string& command, const std::stri
   for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) text.append(buffer, n);
   const int status = pclose(pipe);
   std::vector<std::string> lines = split_lines(text);
-  // a slow machine tells its progress, a fast one has nothing to tell
+  // a slow machine prints its progress, a fast one nothing
   std::erase_if(lines, [](const std::string& l) {
     return l.starts_with("kadr: run ") && l.find(" % line ") != l.npos;
   });

@@ -7,8 +7,7 @@
 /// Documents whose examples are run: fenced blocks marked ```console with "$ command" and the output below
 /// it.
 ///   "> " after a command continues it; "[..]" in a line stands for any text; a line "[...]" alone for any
-///   lines; the last line "(exit 1)" for the exit code where it is not 0. Standard output and error are taken
-///   together.
+///   lines; the last line "(exit 1)" for the exit code where it is not 0. Standard output and error are taken together.
 namespace kadr::docs {
 
 struct Example {
@@ -25,7 +24,7 @@ std::vector<Example> parse_examples(const std::vector<std::string>& document);
 
 /// True if the line is the pattern, "[..]" standing for any text.
 bool matches_line(const std::string& pattern, const std::string& line);
-/// True if the output is what is expected, "[...]" standing for any lines.
+/// True if the output is as expected; "[...]" matches any lines.
 bool matches_output(const std::vector<std::string>& expected, const std::vector<std::string>& output);
 
 /// Runs the command with bash in a folder; the programs of `bin` come first. Output without lines of

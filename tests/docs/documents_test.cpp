@@ -13,8 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder to run in: the project's scenarios and machine files are there, what commands write is thrown
-/// away.
+/// A folder to run in: the project's scenarios and machine files are there, the output files of commands are deleted.
 class Workplace {
  public:
   Workplace() : path_(fs::temp_directory_path() / ("kadr_docs_" + std::to_string(getpid()))) {

@@ -28,7 +28,7 @@ std::string texts_of(const fs::path& folder, const std::string& ending) {
   return all;
 }
 
-/// Names of all cases in a source; string literals that stand one behind the other are one.
+/// Names of all cases in a source; adjacent string literals are one.
 std::set<std::string> cases_of(const std::string& source) {
   constexpr std::string_view head = "TEST_CASE(";
   std::set<std::string> names;

@@ -5,8 +5,7 @@
 #include "gcode/gcode.h"
 #include "machine/base/require.h"
 
-/// kadr fmt: whatever the text, its form is final, keeps its lines, and means the same where it meant
-/// anything.
+/// kadr fmt: whatever the text, its form is final, keeps its lines, and means the same where it meant anything.
 namespace {
 
 using namespace kadr;

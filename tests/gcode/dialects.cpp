@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "gcode/dialect/codes.h"
 #include "support.h"
 
 using namespace kadr;
@@ -16,14 +17,8 @@ InterpretOptions of(Dialect dialect) {
 
 /// Seconds of the only dwell of a program, -1 if there are none or several.
 double dwell_s(const std::string& text, Dialect dialect) {
-  double found = -1;
-  int dwells = 0;
-  for (const Block& block : run(text, of(dialect)).blocks) {
-    if (block.kind != BlockKind::dwell) continue;
-    found = block.dwell_s;
-    ++dwells;
-  }
-  return dwells == 1 ? found : -1;
+  const std::vector<Dwell> dwells = run(text, of(dialect)).all<Dwell>();
+  return dwells.size() == 1 ? dwells[0].time_s : -1;
 }
 
 }  // namespace
@@ -56,6 +51,13 @@ TEST_CASE("G70 and G71 are inches and millimetres in fanuc only") {
   CHECK(last_point("G70 G0 X1\n", of(Dialect::fanuc))[0] == 25.4);
   CHECK(last_point("G70\nG71 G0 X1\n", of(Dialect::fanuc))[0] == 1);
   CHECK(only_code("G70\n") == Code::word_not_run);
+}
+
+TEST_CASE("a dialect means codes of LinuxCNC by its own") {
+  CHECK(meant_code(Dialect::fanuc, 'G', 700) == code::g20);
+  CHECK(meant_code(Dialect::fanuc, 'G', 710) == code::g21);
+  CHECK(meant_code(Dialect::fanuc, 'M', 700) == 700);
+  CHECK(meant_code(Dialect::marlin, 'G', 700) == 700);
 }
 
 TEST_CASE("P of a fanuc M98 tells repeats and program, unless L tells the repeats") {

@@ -24,7 +24,7 @@ TEST_CASE("a line beyond the bound is told with its length and left out, lines a
   const Outcome outcome = run(longest + " \nG0 X1.2.3\n", options);
   CHECK(outcome.codes() == std::vector<Code>{Code::line_too_long, Code::bad_number});
   CHECK(outcome.rendered.find("21 bytes") != std::string::npos);
-  CHECK(outcome.rendered.find("allowed are 20 (--limit line_bytes=N)") != std::string::npos);
+  CHECK(outcome.rendered.find("allowed: 20 (--limit line_bytes=N)") != std::string::npos);
 }
 
 TEST_CASE("bound 0 on the length of a line is none") {

@@ -15,8 +15,8 @@ constexpr int kDeepest = 3;                     // loops and conditions within e
 constexpr std::size_t kLongestArguments = 140;  // characters, before the last one
 constexpr int kFirstCounter = 20;               // #20 .. count the passes of loops, one for each depth
 
-/// Programs of O-words: every loop counts, and a subroutine calls only those written before it, so that each
-/// program ends.
+/// Programs of O-words: every loop counts, and a subroutine calls only those written before
+/// it, so that each program ends.
 class FlowPrograms {
  public:
   explicit FlowPrograms(Random& random) : w_(random) {}

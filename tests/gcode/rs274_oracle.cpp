@@ -19,7 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kOracleSeconds = 4;
-constexpr int kTimedOut = 124;  // exit status of `timeout`
+// exit statuses of `timeout`: 124 when the time is over, from 125 when the command could not run or a signal
+// ended it
+constexpr int kTimedOut = 124;
 
 /// A folder that is removed with everything in it.
 class TemporaryFolder {
@@ -95,9 +97,9 @@ Trace oracle_trace(const std::string& rs274, const TestProgram& program) {
   const int status = std::system(command.c_str());
   Trace trace;
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-  trace.timed_out = code == kTimedOut;
+  trace.no_verdict = code >= kTimedOut;
   trace.refused = code != 0;
-  if (trace.timed_out) return trace;
+  if (trace.no_verdict) return trace;
   trace.calls = oracle_calls(lines_of(read_text(folder.path() / "out")), program.tools);
   for (const std::string& line : lines_of(read_text(folder.path() / "err"))) {
     if (line != "executing" && line.rfind("link (updating", 0) != 0) trace.refusal += line + "\n";
@@ -119,6 +121,9 @@ Trace own_trace(const TestProgram& program) {
   trace.calls = own_calls(outcome.blocks);
   trace.refused = outcome.diagnostics.has_errors();
   if (trace.refused) trace.refusal = outcome.rendered;
+  for (const Diagnostic& d : outcome.diagnostics.list()) {
+    if (d.severity == Severity::error) trace.errors.push_back(d.code);
+  }
   return trace;
 }
 

@@ -94,7 +94,7 @@ TEST_CASE("each file of texts ascends by number, within the range that its first
 }
 
 TEST_CASE("the texts of the codes are read by codes.cpp alone") {
-  // an edited text must not rebuild what only reports the code
+  // an edited text must not rebuild files that only report the code
   for (const char* folder : {"machine", "gcode", "planner", "plant", "emulator", "scenarios"}) {
     for (const auto& file : fs::recursive_directory_iterator(kSource / folder)) {
       const std::string path = file.path().string();

@@ -109,7 +109,7 @@ TEST_CASE("a converted length is the number a person computes, in the table and 
   CHECK(sheet->axis[0].max_u == 800.1);
   CHECK(sheet->axis[2].min_u == -41.91);
   CHECK(render_data_sheet(*sheet, "m").find("range_mm = [0, 800.1] ") != std::string::npos);
-  // what has more digits keeps them
+  // numbers with more digits keep them
   CHECK(sheet->axis[0].max_u_s.value == doctest::Approx(5000.0 / 60).epsilon(1e-15));
 }
 
@@ -164,7 +164,7 @@ TEST_CASE("a bad data sheet is refused with option, axis, what was given and wha
     const char* value;
     const char* complaint;
   } cases[] = {
-      {&Words::axes, "XYX", "each once, e.g. XYZ; got 'XYX': X stands twice"},
+      {&Words::axes, "XYX", "each once, e.g. XYZ; got 'XYX': X is given twice"},
       {&Words::axes, "XQ", "--axes takes letters of X Y Z A B C U V W"},
       {&Words::axes, ",", "--axes takes letters"},
       {&Words::travel, "800,800",
@@ -178,7 +178,7 @@ TEST_CASE("a bad data sheet is refused with option, axis, what was given and wha
       {&Words::travel, "1..", "got '1..'"},
       {&Words::travel, "1e300", "allowed: -1e+08 to 1e+08 mm"},
       {&Words::max_speed, "5000", "--max-speed of axis X takes a speed with its unit, e.g. 5000mm/min"},
-      {&Words::max_speed, "5000", "say the unit"},
+      {&Words::max_speed, "5000", "add the unit"},
       {&Words::max_speed, "-5m/min", "is -83.3333 mm/s ('-5m/min'); allowed: 1e-06 to 1e+09 mm/s"},
       {&Words::max_speed, "0mm/s", "is 0 mm/s"},
       {&Words::max_speed, "inf", "got 'inf'"},

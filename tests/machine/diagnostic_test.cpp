@@ -251,7 +251,7 @@ TEST_CASE("files of 0 bytes, 1 kB and 5 MB read back as written") {
     std::remove(path.c_str());
     CHECK(read.text() == text);
     CHECK(read.name() == path);
-    // what was let go is read again from the file, although nothing names it any more
+    // released memory is read again from the file, although the file has no name any more
     read.let_go(0, size);
     CHECK(read.text() == text);
     if (size > 160) CHECK(read.line(2) == std::string(79, 'a'));

@@ -23,7 +23,7 @@ std::vector<std::filesystem::path> bad_files() {
   return list;
 }
 
-/// Settings of the command line stand in the first lines of a bad file: "# setting: key=value".
+/// Settings of the command line are in the first lines of a bad file: "# setting: key=value".
 std::vector<std::string> settings_of(const SourceText& source) {
   constexpr std::string_view mark = "# setting: ";
   std::vector<std::string> list;

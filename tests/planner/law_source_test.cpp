@@ -87,8 +87,7 @@ TEST_CASE("a tick's linear feed stays near the law: 1/12 j tau^3 at most where t
 }
 
 TEST_CASE("the first tick from rest starts late where a full ramp would run back") {
-  // s = j t^3/6: over the first tick S = j tau^3/6, v1 = j tau^2/2 = 3 S/tau > 2 S/tau: 0 -> v1 over 2 S/v1 =
-  // 2/3 tau
+  // s = j t^3/6: over the first tick S = j tau^3/6, v1 = j tau^2/2 = 3 S/tau > 2 S/tau: 0 -> v1 over 2 S/v1 = 2/3 tau
   const auto machine = plain_machine();
   ProgramWriter w(machine);
   w.line(xyz(100), 100.0);

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "machine/machine.h"
@@ -76,7 +78,7 @@ planner::FeedPlan track(const planner::Path& path, const machine::MachineModel& 
   return plan;
 }
 
-/// The path with the feeds that the highest percent allows: what verify() measures against.
+/// The path with the feeds that the highest override allows: the reference for verify().
 planner::Path at_most_percent(planner::Path path, double most) {
   for (planner::PathSegment& s : path.segments) s.feed_u_s *= most;
   return path;
@@ -85,8 +87,7 @@ planner::Path at_most_percent(planner::Path path, double most) {
 std::string first_of(const std::vector<planner::Violation>& found) {
   if (found.empty()) return "";
   const planner::Violation& v = found.front();
-  return v.what + " at " + std::to_string(v.time_s) + " s, segment " + std::to_string(v.segment) + ": " +
-         std::to_string(v.value) + ", limit " + std::to_string(v.limit);
+  return fmt::format("{} at {} s, segment {}: {}, limit {}", v.what, v.time_s, v.segment, v.value, v.limit);
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ struct RapidRide {
   std::vector<TickMotion> ticks;
   double end_u = 0;
   bool stopped = false;
-  /// What the link is left with: its base follows the cubic through each tick's places and speeds, as a rigid
-  /// motor's does.
+  /// What the link is left with: its base follows the cubic through each tick's places and
+  /// speeds, as a rigid motor's does.
   double swing_u(const machine::MachineModel& machine) const {
     const planner::Mode mode = planner::link_modes(machine.axis[0])[0].mode;
     planner::LinkState link;

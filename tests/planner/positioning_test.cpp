@@ -40,7 +40,7 @@ machine::MachineModel flexible_machine(RapidShape shape, double zeta = 0.0) {
   return m;
 }
 
-/// What a law leaves of an undriven link after its end, by Runge and Kutta's method: a second way.
+/// Residual vibration of an undriven link after a law, by Runge and Kutta's method: a second way.
 double residual_by_steps(const MotionLaw& law, const Mode& mode, double share) {
   const double w = mode.omega_rad_s, z = mode.zeta;
   double x = 0, v = 0;
@@ -109,8 +109,7 @@ TEST_CASE("a link on a motor's spring rings at an eigenvalue of the coupled syst
     for (int e = 0; e < 4; ++e) {
       const std::complex<double> s = solver.eigenvalues()[e];
       if (!(s.imag() > 0) || -s.real() / std::abs(s) >= kDampedEnough) continue;
-      // X1(s) = e3^T (sI - A)^-1 b Xs with b = (0, Km/m0, 0, -Km/m0) and Xs = A/s^2: residue at s, times 2
-      // and wd
+      // X1(s) = e3^T (sI - A)^-1 b Xs with b = (0, Km/m0, 0, -Km/m0) and Xs = A/s^2: residue at s, times 2 and wd
       const Eigen::Vector4cd right = solver.eigenvectors().col(e);
       const Eigen::Vector4cd left = solver.eigenvectors().inverse().row(e).transpose();
       const std::complex<double> drive = left(1) * (km / m0) - left(3) * (km / m0);
@@ -285,8 +284,7 @@ TEST_CASE("the automatic choice follows the rule, and says why") {
         RapidShape::zv);  // 1.25 periods, zeros known to 1 % of their width: 0.8 %
   CHECK(shape_for(0.0, 5.0, 6.25) == RapidShape::zvd);  // not known to 1 %
   CHECK(shape_for(0.045, 0.1, 200) == RapidShape::zv);  // damped so much that no T law is silent
-  // 200 mm: the speed limit asks for a ramp of 100 ms, two periods; but the time between the ramps is 1 s, 20
-  // periods
+  // 200 mm: the speed limit asks for a ramp of 100 ms, two periods; but the time between the ramps is 1 s, 20 periods
   CHECK(shape_for(0.0, 0.1, 200) == RapidShape::zv);
 }
 

@@ -50,8 +50,7 @@ TEST_CASE("a spline through the points of a circle is the circle: distance, leng
   CHECK(fit.deviation_u == doctest::Approx(0.0171337).epsilon(1e-3));
   CHECK(fit.most_slope == doctest::Approx(1.0 + 1.1424e-4).epsilon(1e-5));
   CHECK(fit.least_slope > 1.0);
-  // a spline's X'' is off by (k ds)^2/12 of it, k ds = 3 degrees: 2.3e-4; |X'|^2 = 1 + 2.3e-4 of chord length
-  // as much
+  // a spline's X'' is off by (k ds)^2/12 of it, k ds = 3 degrees: 2.3e-4; |X'|^2 = 1 + 2.3e-4 of chord length as much
   CHECK(curvature_error(fit, 10, 110) < 1e-3);
   CHECK(curvature_error(fit, 0, 120) <
         3e-3);  // not a knot: of the same order at the ends, and some times as much
@@ -75,7 +74,7 @@ TEST_CASE(
     CHECK(clamped.path.eval(axis, clamped.path.end_u()).slope ==
           doctest::Approx((path.node(120)[axis] - path.node(119)[axis]) / last).epsilon(1e-9));
   }
-  // what an end does wrong dies away by 2 - sqrt 3 = 0.27 a row: 1e-6 of it after 10 rows
+  // the error of an end decays by 2 - sqrt 3 = 0.27 per row: 1e-6 of it after 10 rows
   CHECK(curvature_error(natural, 15, 105) < 1e-3);
   CHECK(curvature_error(clamped, 15, 105) < 1e-3);
   CHECK(curvature_error(natural, 0, 0) == doctest::Approx(1.0));  // the check sees it

@@ -72,8 +72,7 @@ TEST_CASE("derivatives of a stretch are those of its segments, at a joint those 
   const Path path = bent(machine);
   const PathDerivatives at = derivatives(path, {1, 2});
   double slope[3], curvature[3];
-  // the arc from (40, 0) round (40, 20): X' = cos(s/20), Y' = sin(s/20), X'' = -sin(s/20)/20, Y'' =
-  // cos(s/20)/20
+  // the arc from (40, 0) round (40, 20): X' = cos(s/20), Y' = sin(s/20), X'' = -sin(s/20)/20, Y'' = cos(s/20)/20
   for (const double s : {0.0, 7.0, 31.0}) {
     at(s, slope, curvature);
     CHECK(slope[0] == doctest::Approx(std::cos(s / 20.0)).epsilon(1e-12));
@@ -84,7 +83,7 @@ TEST_CASE("derivatives of a stretch are those of its segments, at a joint those 
   at(path.start_s_u[2] - path.start_s_u[1], slope, curvature);
   CHECK(slope[0] == doctest::Approx(10.0 / std::sqrt(1700.0)).epsilon(1e-12));
   CHECK(curvature[1] == 0.0);
-  at(1e6, slope, curvature);  // past the end its last segment goes on
+  at(1e6, slope, curvature);  // past the end its last segment continues
   CHECK(slope[1] == doctest::Approx(40.0 / std::sqrt(1700.0)).epsilon(1e-12));
 }
 

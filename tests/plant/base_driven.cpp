@@ -157,8 +157,7 @@ TEST_CASE("the base-driven link matches 28 closed-form responses to 1e-8, zeros 
 
 TEST_CASE("a corner taken without a stop kicks the link by the jump of the base's speed") {
   // base at rest, then at 20 mm/s at once: the tool stays behind, x1' = -20 mm/s. Without damping
-  // x1(t) = -20/w sin wt, the base moves on evenly; after 1 ms with w = 100: x1 = -0.2 sin 0.1 =
-  // -0.019966683329365628.
+  // x1(t) = -20/w sin wt, the base moves on evenly; after 1 ms with w = 100: x1 = -0.2 sin 0.1 = -0.019966683329365628.
   machine::MachineModel model;
   machine::AxisModel axis;
   axis.step_u = 0.01;

@@ -18,8 +18,7 @@ using machine::MotorModel;
 
 namespace {
 
-// A train of whole numbers alone, so that libm has no part in it: every axis accelerates, runs, reverses and
-// rests.
+// A train of whole numbers alone, so that libm has no part in it: every axis accelerates, runs, reverses and rests.
 std::vector<StepBatch> whole_number_train(const machine::MachineModel& model, std::int64_t ticks) {
   std::vector<StepBatch> batches(static_cast<std::size_t>(ticks));
   for (std::size_t a = 0; a < model.axis.size(); ++a) {

@@ -14,8 +14,8 @@ using machine::MotorModel;
 namespace {
 
 // Largest |motor work - kinetic - spring - dissipated| over ticks and axes, as a part of the largest work
-// done. Work and losses are integrals of power from pulse to pulse, kinetic and spring energy come from the
-// integrator's state.
+// done. Work and losses are integrals of power from pulse to pulse, kinetic and spring
+// energy come from the integrator's state.
 double gap(machine::MachineModel model, IntegratorKind kind, const std::vector<StepBatch>& batches) {
   model.plant.integrator = kind;
   Plant plant(model, {.energy = true});

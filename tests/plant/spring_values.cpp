@@ -103,8 +103,7 @@ TEST_CASE(
     "a force-driven pair of masses matches the closed form: centre of mass and ringing at w sqrt(1 + "
     "m1/m0)") {
   // F = (m0 + m1) A for 0.36 tf, 0 for 0.28 tf, -F for 0.36 tf; A = 3.5/(16 * 0.36 * 0.64), tf = 4 s; w = 100
-  // pi/3. x0 = R - m1 x1/M with R'' = F/M; x1 as a base-driven link of frequency w sqrt(1 + 1/4.5), forced by
-  // -F/m0.
+  // pi/3. x0 = R - m1 x1/M with R'' = F/M; x1 as a base-driven link of frequency w sqrt(1 + 1/4.5), forced by -F/m0.
   const double m0 = 4.5, m1 = 1, k = kSpringW * kSpringW, force_N = 5.5 * 3.5 / (16 * 0.36 * 0.64);
   for (double zeta : {0.0, 0.005}) {
     const double c = 2 * zeta * kSpringW;

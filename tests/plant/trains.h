@@ -15,8 +15,7 @@ struct Motion {
   std::function<double(double)> steps_s;
 };
 
-/// Raised-cosine ramp to `rate_hz`, constant rate, ramp back, then rest. Length `total_s`, each ramp
-/// `ramp_s`.
+/// Raised-cosine ramp to `rate_hz`, constant rate, ramp back, then rest. Length `total_s`, each ramp `ramp_s`.
 Motion ramp_train(double rate_hz, double total_s, double ramp_s);
 /// There and back again: amplitude * (1 - cos(2 pi f t)) / 2.
 Motion swing(double amplitude_steps, double frequency_hz);

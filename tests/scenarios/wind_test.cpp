@@ -107,8 +107,7 @@ TEST_CASE("on a helical stroke the free fibre leaves the mandrel as a tangent at
     if (a.fibre_angle_deg == alpha_deg || i == 1)
       CHECK((b.a_deg - a.a_deg) * kPi / 180 / std::fabs(b.contact_x_mm - a.contact_x_mm) ==
             doctest::Approx(std::tan(alpha_deg * kPi / 180) / 40).epsilon(1e-9));
-    // seen from the contact the eye is sqrt(65^2 - 40^2) = 51.235 mm round and 51.235/tan(55) = 35.875 mm
-    // along
+    // seen from the contact the eye is sqrt(65^2 - 40^2) = 51.235 mm round and 51.235/tan(55) = 35.875 mm along
     CHECK(std::fabs(b.x_mm - b.contact_x_mm) == doctest::Approx(35.875).epsilon(1e-4));
     CHECK(std::fabs(b.b_deg) == doctest::Approx(90 - alpha_deg));
   }
@@ -136,7 +135,7 @@ TEST_CASE("a dome winding follows geodesics: r sin(alpha) stays the polar radius
     normal.x = p.contact_x_mm > 0 ? beyond : -beyond;
     CHECK(std::fabs(dot(fibre, normal)) / (free * radius) < 1e-9);
     if (i + 1 == w->points.size()) continue;
-    // and points along the way the fibre goes on: the chord to the next contact, within the bend of one block
+    // and points where the fibre continues: along the chord to the next contact, within the bend of one block
     const Vec3 chord = contact_of(w->points[i + 1]) - contact_of(p);
     CHECK(dot(chord, fibre) / (norm(chord) * free) > 0.998);
   }

@@ -6,15 +6,14 @@
 
 namespace {
 
-/// Exit code of a run in which nothing was checked because something is not installed (ctest:
-/// SKIP_RETURN_CODE).
+/// Exit code of a run in which nothing was checked because something is not installed (ctest: SKIP_RETURN_CODE).
 constexpr int kSkipped = 77;
 
 /// What a whole run checked.
 struct RunRecord {
   bool ended = false;
   int assertions = 0;
-  bool skipped = false;  ///< a case told so: MESSAGE("skipped: why")
+  bool skipped = false;  ///< a case said so: MESSAGE("skipped: why")
 };
 RunRecord run_record;
 

@@ -4,8 +4,8 @@
 namespace kadr::test {
 
 /// A machine made in code: n linear axes X Y Z ..., 2 um steps, 110 mm/s, 2000 mm/s2, 40000 mm/s3, corners at
-/// 2 mm/s (2000 mm/s2 over 1 ms), two masses of 4.5 kg and 1 kg per axis on a linear motor (link at 16.7 Hz,
-/// zeta 0.005).
+/// 2 mm/s (2000 mm/s2 over 1 ms), two masses of 4.5 kg and 1 kg per axis on a linear motor
+/// (link at 16.7 Hz, zeta 0.005).
 inline machine::MachineModel test_machine(int axes = 3) {
   machine::MachineModel m;
   m.name = "test";

@@ -6,9 +6,10 @@
 #include <variant>
 
 #include "emulator/log/log_reader.h"
+#include "emulator/log_tools/diff/exact_ticks.h"
 #include "machine/base/vocabulary.h"
 
-/// What of a log is compared: one table per kind of record, one line per field.
+/// What of a log is compared, by the tables of its channels (emulator/log/channels/).
 namespace kadr::emulator {
 
 /// Where a difference stands, in the order of comparison within a control tick.
@@ -25,51 +26,43 @@ inline constexpr std::size_t kDiffChannels = 7;
 /// "KADR_EVENT"; commands and plant states are both "KADR_TICKS"
 std::string_view channel_name(DiffChannel channel);
 
-using FieldValue = std::variant<std::int64_t, double, std::string>;
-
-/// Unit of a field; `_u` is the unit of the path or the axis.
-enum class FieldUnit : std::uint8_t { none, path, path_speed, path_accel, axis, axis_speed, force, time };
-
-/// Plant states and feed may have a tolerance: --tolerance KEY=VALUE.
-enum class ToleranceKey : std::uint8_t { base, link, base_rate, link_rate, force, feed, none };
-inline constexpr std::size_t kToleranceKeys = 6;
-inline constexpr Vocabulary<ToleranceKey, kToleranceKeys + 1> kToleranceWords{{
-    {ToleranceKey::base, "base"},
-    {ToleranceKey::link, "link"},
-    {ToleranceKey::base_rate, "base_rate"},
-    {ToleranceKey::link_rate, "link_rate"},
-    {ToleranceKey::force, "force"},
-    {ToleranceKey::feed, "feed"},
-    {ToleranceKey::none, ""},
-}};
-static_assert(kToleranceWords.complete());
-
+/// A field of a channel's table, as a comparison reads it.
 template <class Record>
 struct LogField {
-  std::string_view name;  ///< as in kadr.lcm
+  std::string
+      name;  ///< as in kadr.lcm; outside of KADR_TICKS, of other exact data, with the channel: "KADR_X/y"
   FieldUnit unit = FieldUnit::none;
   FieldValue (*get)(const Record&) = nullptr;
   ToleranceKey key = ToleranceKey::none;                    ///< of a plant state
   std::string_view (*word)(std::int64_t number) = nullptr;  ///< name of a coded number
+  std::string signal{};  ///< of exact data that is a signal as it stands: "load.torque_Nm"; else empty
 };
 
-/// One control tick of KADR_TICKS, and one axis of it.
+/// One control tick of exact data, one axis of it, and one axis of the summary.
 struct TickAt {
-  const TickBlock& block;
+  const ExactTicks& exact;
   std::size_t index;
 };
 struct AxisAt {
-  const AxisTicks& axis;
+  const ExactTicks& exact;
+  std::size_t axis;
   std::size_t index;
 };
+struct AxisSummaryAt {
+  const LogSummary& summary;
+  std::size_t axis;
+};
+
+/// What one log does not have: a channel that the kadr that wrote it did not know. It is not compared.
+inline bool is_absent(const FieldValue& of_ticks) { return std::holds_alternative<std::string>(of_ticks); }
 
 std::span<const LogField<TickAt>> tick_fields();
 std::span<const LogField<AxisAt>> axis_fields();  ///< with a key: plant states, else commands
 std::span<const LogField<EventRecord>> event_fields();
 std::span<const LogField<BlockRecord>> block_fields();
 std::span<const LogField<LogDiagnostic>> diagnostic_fields();
-std::span<const LogField<RunSummary>> summary_fields();
-std::span<const LogField<AxisSummary>> axis_summary_fields();
+std::span<const LogField<LogSummary>> summary_fields();
+std::span<const LogField<AxisSummaryAt>> axis_summary_fields();
 /// KADR_STEPS, per axis: "pulses", "offset_ticks", "sign". They have no accessor: pulses are compared one by
 /// one.
 std::span<const std::string_view> step_fields();

@@ -65,7 +65,7 @@ tl::unexpected<std::string> fault(std::string text) { return tl::unexpected<std:
 
 struct KnownField {
   DiffChannel channel;
-  std::string_view name;
+  std::string name;
   Key key;
 };
 
@@ -83,19 +83,24 @@ std::vector<KnownField> known_fields() {
   add_fields(list, tick_fields(), DiffChannel::command);
   for (const auto& f : axis_fields())
     list.push_back({f.key == Key::none ? DiffChannel::command : DiffChannel::load, f.name, f.key});
-  for (const std::string_view name : step_fields()) list.push_back({DiffChannel::steps, name, Key::none});
+  for (const std::string_view name : step_fields())
+    list.push_back({DiffChannel::steps, std::string(name), Key::none});
   add_fields(list, summary_fields(), DiffChannel::summary);
   add_fields(list, axis_summary_fields(), DiffChannel::summary);
   return list;
 }
 
 std::string ignored_name(DiffChannel channel, std::string_view field) {
+  if (field.find('/') != std::string_view::npos) return std::string(field);
   return fmt::format("{}/{}", channel_name(channel), field);
 }
 
 /// True if a text without '/' names that field: by channel, or by group.
 bool in_group(std::string_view text, const KnownField& field) {
-  if (text == channel_name(field.channel)) return true;
+  const auto slash = field.name.find('/');
+  if (text == (slash == std::string::npos ? channel_name(field.channel)
+                                          : std::string_view(field.name).substr(0, slash)))
+    return true;
   if (text == "load") return field.channel == DiffChannel::load;
   if (text == "feed")
     return field.channel == DiffChannel::command && (field.name == "feed_u_s" || field.name == "accel_u_s2");

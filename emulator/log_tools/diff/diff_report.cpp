@@ -19,7 +19,7 @@ constexpr std::size_t kNameWidth = 24;   // cells of a log's name in a table
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-/// Titles of the columns of both logs: their file names, if those tell them apart and are short.
+/// Titles of the columns of both logs: their file names, if they differ and are short.
 std::pair<std::string, std::string> log_titles(const LogDiff& diff) {
   const std::string a = file_name(diff.a.path), b = file_name(diff.b.path);
   if (a == b || display_width(a) > kNameWidth || display_width(b) > kNameWidth) return {"A", "B"};
@@ -82,7 +82,7 @@ std::string context_table(const FirstDifference& first, const LogDiff& diff) {
 
 std::string headline(const LogDiff& diff) {
   if (!diff.compared)
-    return "logs not compared: their clocks differ, so control ticks do not stand for the same time "
+    return "logs not compared: their clocks differ, so control ticks do not mean the same time "
            "(--align path compares by path length)\n";
   if (diff.first) {
     const TickDifference& d = diff.first->tick;
@@ -93,12 +93,12 @@ std::string headline(const LogDiff& diff) {
   if (diff.lengths_differ()) {
     const LogSide& longer = diff.a.control_ticks > diff.b.control_ticks ? diff.a : diff.b;
     const LogSide& shorter = diff.a.control_ticks > diff.b.control_ticks ? diff.b : diff.a;
-    return fmt::format("logs differ: {} has {} control ticks more than {}; the {} of both are the same\n",
-                       longer.path, grouped(longer.control_ticks - shorter.control_ticks), shorter.path,
+    return fmt::format("logs differ: {} has {} more than {}; the {} of both are the same\n", longer.path,
+                       counted(longer.control_ticks - shorter.control_ticks, "control tick"), shorter.path,
                        grouped(diff.both));
   }
   if (!diff.summary.empty()) return "logs differ: in KADR_SUMMARY alone\n";
-  return fmt::format("no difference in {} control ticks\n", grouped(diff.both));
+  return fmt::format("no difference in {}\n", counted(diff.both, "control tick"));
 }
 
 std::string inputs_line(const std::vector<InputDifference>& inputs) {
@@ -129,7 +129,7 @@ std::string totals(const LogDiff& diff) {
   return table.empty() ? "" : "totals\n" + table.render("  ");
 }
 
-/// Largest differences of the plant's states: what a tolerance would have to be.
+/// Largest differences of the plant's states: the tolerance that would be needed.
 std::string peaks(const LogDiff& diff) {
   if (diff.load_peaks.empty()) return "";
   TextTable table(

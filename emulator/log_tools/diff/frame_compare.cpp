@@ -42,9 +42,7 @@ std::vector<const Record*> records(const LogFrame& frame) {
 }
 
 TickAt tick_at(const LogFrame& frame) { return {*frame.ticks, frame.tick_index}; }
-AxisAt axis_at(const LogFrame& frame, std::size_t axis) {
-  return {frame.ticks->axis[axis], frame.tick_index};
-}
+AxisAt axis_at(const LogFrame& frame, std::size_t axis) { return {*frame.ticks, axis, frame.tick_index}; }
 
 }  // namespace
 
@@ -59,7 +57,7 @@ std::vector<AxisPair> common_axes(const LogHeader& a, const LogHeader& b) {
   return pairs;
 }
 
-/// Where differences go: the mask always, the list if it is asked for.
+/// Destination of differences: the mask always, the list on request.
 struct FrameCompare::Sink {
   std::vector<FieldDifference>* list;
   const FrameCompare& compare;
@@ -177,6 +175,7 @@ void FrameCompare::compare_commands(const LogFrame& a, const LogFrame& b, Sink& 
   for (std::size_t f = 0; f < table.size(); ++f) {
     if (tick_ignored_[f]) continue;
     const FieldValue p = table[f].get(x), q = table[f].get(y);
+    if (is_absent(p) || is_absent(q)) continue;
     if (!same_value(p, q)) sink.add(DiffChannel::command, table[f], nullptr, p, q, end);
   }
   const auto of_axis = axis_fields();
@@ -184,6 +183,7 @@ void FrameCompare::compare_commands(const LogFrame& a, const LogFrame& b, Sink& 
     for (std::size_t f = 0; f < of_axis.size(); ++f) {
       if (of_axis[f].key != ToleranceKey::none || axis_ignored_[f]) continue;
       const FieldValue p = of_axis[f].get(axis_at(a, axis.a)), q = of_axis[f].get(axis_at(b, axis.b));
+      if (is_absent(p) || is_absent(q)) continue;
       if (!same_value(p, q)) sink.add(DiffChannel::command, of_axis[f], &axis, p, q, end);
     }
 }
@@ -245,7 +245,7 @@ void FrameCompare::compare_load(const LogFrame& a, const LogFrame& b, Sink& sink
       if (field.key == ToleranceKey::none || axis_ignored_[f]) continue;
       const AxisPair& axis = axes_[n];
       const FieldValue p = field.get(axis_at(a, axis.a)), q = field.get(axis_at(b, axis.b));
-      if (same_value(p, q)) continue;
+      if (is_absent(p) || is_absent(q) || same_value(p, q)) continue;
       const double size = std::fabs(difference_of(p, q).value_or(0));
       LoadPeak& peak = peaks_[n * table.size() + f];
       if (!(size <= peak.difference)) {
@@ -261,11 +261,11 @@ ChannelMask FrameCompare::compare_summaries(const LogSummary& a, const LogSummar
                                             std::vector<FieldDifference>& list) const {
   Sink sink{&list, *this};
   const Ticks tick = std::min(a.run.ticks, b.run.ticks);
-  sink.fields(DiffChannel::summary, summary_fields(), a.run, b.run, nullptr, tick);
+  sink.fields(DiffChannel::summary, summary_fields(), a, b, nullptr, tick);
   for (const AxisPair& axis : axes_)
     if (axis.a < a.run.axis.size() && axis.b < b.run.axis.size())
-      sink.fields(DiffChannel::summary, axis_summary_fields(), a.run.axis[axis.a], b.run.axis[axis.b], &axis,
-                  tick);
+      sink.fields(DiffChannel::summary, axis_summary_fields(), AxisSummaryAt{a, axis.a},
+                  AxisSummaryAt{b, axis.b}, &axis, tick);
   return sink.mask;
 }
 

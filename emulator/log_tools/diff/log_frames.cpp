@@ -32,12 +32,12 @@ bool LogFrames::next(LogFrame& frame) {
   return true;
 }
 
-/// One message of the log; false at its end, when what is left has been made frames of.
+/// Reads one message. Returns false at the end, after turning what is buffered into frames.
 bool LogFrames::read() {
   LogMessage message;
   if (!reader_.next(message)) {
     const bool whole = end().state == LogState::complete || end().state == LogState::interrupted;
-    // exact data without their other half, and events behind the last whole block, are not complete
+    // exact data without their other half, and events after the last whole block, are not complete
     if (whole) {
       flush_block();
       flush_items(std::numeric_limits<std::int64_t>::max());
@@ -53,17 +53,32 @@ bool LogFrames::read() {
   if (auto* e = std::get_if<EventRecord>(&message)) add_item(std::move(*e));
   if (auto* d = std::get_if<LogDiagnostic>(&message)) add_item(std::move(*d));
   if (auto* s = std::get_if<LogSummary>(&message)) summary_ = std::move(*s);
-  if (auto* t = std::get_if<TickBlock>(&message)) {
-    if (ticks_) flush_block();
-    ticks_ = std::make_shared<const TickBlock>(std::move(*t));
-    if (!header().logs_steps) flush_block();
-  }
+  for_each_channel(TickChannels{}, [&]<class R>() {
+    auto* columns = std::get_if<R>(&message);
+    if (columns == nullptr) return;
+    if constexpr (std::same_as<R, TickBlock>)
+      take_ticks(std::move(*columns));
+    else
+      std::get<std::optional<R>>(waiting_) = std::move(*columns);
+  });
   if (auto* s = std::get_if<StepBlock>(&message)) {
     if (steps_) flush_block();
     steps_ = std::make_shared<const StepBlock>(std::move(*s));
     if (!header().logs_ticks || ticks_) flush_block();
   }
   return true;
+}
+
+void LogFrames::take_ticks(TickBlock ticks) {
+  if (ticks_) flush_block();
+  auto exact = std::make_shared<ExactTicks>(ExactTicks{std::move(ticks), std::move(waiting_)});
+  waiting_ = {};
+  for_each_channel(TickChannels{}, [&]<class R>() {
+    auto& columns = std::get<std::optional<R>>(exact->others);
+    if (columns && (columns->first != exact->first || columns->size() != exact->size())) columns.reset();
+  });
+  ticks_ = std::move(exact);
+  if (!header().logs_steps) flush_block();
 }
 
 /// Frames of the exact data read: the control ticks of either message, ascending.

@@ -10,6 +10,7 @@
 #include <tl/expected.hpp>
 
 #include "emulator/log/log_reader.h"
+#include "emulator/log_tools/diff/exact_ticks.h"
 
 namespace kadr::emulator {
 
@@ -19,7 +20,7 @@ using LogItem = std::variant<BlockRecord, EventRecord, LogDiagnostic>;
 /// Everything that a log says of one control tick. Copies are cheap: the exact data are shared.
 struct LogFrame {
   std::int64_t control_tick = 0;
-  std::shared_ptr<const TickBlock> ticks;    ///< null: KADR_TICKS does not hold this tick
+  std::shared_ptr<const ExactTicks> ticks;   ///< null: KADR_TICKS does not hold this tick
   std::size_t tick_index = 0;                ///< in `ticks`
   std::shared_ptr<const StepBlock> steps;    ///< null: KADR_STEPS does not hold this tick
   std::size_t step_index = 0;                ///< in `steps`
@@ -46,14 +47,16 @@ class LogFrames {
  private:
   explicit LogFrames(LogReader reader) : reader_(std::move(reader)) {}
   bool read();
+  void take_ticks(TickBlock ticks);
   void flush_block();
   void flush_items(std::int64_t before_tick);
   void add_frame(LogFrame frame);
   std::int64_t control_tick_of(const LogItem& item) const;
 
   LogReader reader_;
-  std::shared_ptr<const TickBlock> ticks_;  // read, its frames not given yet
+  std::shared_ptr<const ExactTicks> ticks_;  // read, its frames not given yet
   std::shared_ptr<const StepBlock> steps_;
+  TickMessages waiting_;  // other exact data: KADR_TICKS of the same control ticks follows
   std::deque<LogItem> items_;
   std::deque<LogFrame> ready_;
   std::shared_ptr<const BlockRecord> block_;

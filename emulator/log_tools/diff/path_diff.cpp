@@ -123,7 +123,7 @@ class PathCompare {
       return;
     const auto text = [](const EventRecord* e) {
       if (e == nullptr) return std::string("-");
-      return fmt::format("{} {}, line {}, behind block {}", e->kind.text(), number_text(e->value),
+      return fmt::format("{} {}, line {}, after block {}", e->kind.text(), number_text(e->value),
                          e->span.line, e->block);
     };
     const LogHeader& header = a ? result_.a.header : result_.b.header;

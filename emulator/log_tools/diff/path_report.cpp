@@ -29,11 +29,12 @@ std::string steps_text(const PathDiff& d) {
   if (!d.steps_compared) return "steps: not compared\n";
   std::string text;
   if (d.blocks_differing == 0)
-    text = fmt::format("steps: the same sequence in {} of {} blocks\n", grouped(d.blocks), grouped(d.blocks));
+    text =
+        fmt::format("steps: the same sequence in {} of {}\n", grouped(d.blocks), counted(d.blocks, "block"));
   else
-    text = fmt::format("steps: {} of {} blocks differ, first {}", grouped(d.blocks_differing),
-                       grouped(d.blocks), render_block_difference(*d.first_block, d.a.header));
-  if (d.given_up) text += "steps: given up behind that: the logs are too far apart on the path\n";
+    text = fmt::format("steps: {} of {} differ, first {}", grouped(d.blocks_differing),
+                       counted(d.blocks, "block"), render_block_difference(*d.first_block, d.a.header));
+  if (d.given_up) text += "steps: not compared after that: the logs are too far apart on the path\n";
   return text;
 }
 
@@ -41,11 +42,11 @@ std::string feed_text(const PathDiff& d) {
   if (!d.feed_compared) return "feed: not compared\n";
   const std::string unit = speed_unit(d.unit);
   if (d.spans == 0)
-    return fmt::format("feed: the same at every place of the path, within {} {}\n",
+    return fmt::format("feed: the same at every position of the path, within {} {}\n",
                        number_text(d.tolerance_u_s), unit);
-  std::string text = fmt::format("feed: differs on {} {} of the path in {} {}; they part at\n",
-                                 fixed(d.span_length_u, kPathDecimals), d.unit, grouped(d.spans),
-                                 d.spans == 1 ? "stretch" : "stretches");
+  std::string text =
+      fmt::format("feed: differs on {} {} of the path in {}; they diverge at\n",
+                  fixed(d.span_length_u, kPathDecimals), d.unit, counted(d.spans, "stretch", "stretches"));
   text += render_feed_span(*d.first_span, d);
   if (d.largest_span)
     text += fmt::format("  largest difference {} {} at {} {}\n", significant(d.largest_span->largest_u_s),

@@ -121,7 +121,7 @@ tl::expected<void, std::string> LogSamples::choose(const SampleChoice& choice) {
     }
     if (!found)
       return tl::unexpected(
-          fmt::format("the log has no signal '{}' (`kadr export LOG --list` names them all)", pattern));
+          fmt::format("the log has no signal '{}' (`kadr export LOG --list` lists them all)", pattern));
   }
   return {};
 }

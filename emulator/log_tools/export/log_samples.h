@@ -21,6 +21,7 @@ struct Signal {
   std::string unit;                  ///< "mm/s"; empty: a count or a code
   bool whole = false;                ///< a whole number
   std::vector<std::string> words{};  ///< of a code: what its values 0, 1 ... mean; else empty
+  bool further = false;              ///< a column of the log as it stands, which has no chart of its own
 };
 
 /// One control tick, at its end.

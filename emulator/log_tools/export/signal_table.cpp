@@ -1,7 +1,10 @@
 #include "emulator/log_tools/export/signal_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "emulator/log_tools/diff/diff_fields.h"
 #include "machine/tick_motion.h"
@@ -124,6 +127,42 @@ void add_axis(Table& table, const LogHeader& header, std::size_t a, bool plant, 
              [a](const TickContext& c) { return c.ticks().axis[a].motor_force_N[c.at()]; });
 }
 
+/// A column of exact data as it stands in the log; no value in control ticks whose log does not have it.
+template <class At>
+std::function<double(const At&)> number_of(const LogField<At>& field) {
+  return [get = field.get](const At& at) {
+    const FieldValue value = get(at);
+    if (const auto* real = std::get_if<double>(&value)) return *real;
+    if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+    return kNone;
+  };
+}
+
+/// What has no signal above: the columns of other channels, and those appended to KADR_TICKS.
+void add_further(Table& table, const LogHeader& header, const LogFrame& first) {
+  const auto add = [&](std::string name, std::string unit, const FieldValue& sample,
+                       std::function<double(const TickContext&)> value) {
+    if (is_absent(sample)) return;
+    const bool whole = std::holds_alternative<std::int64_t>(sample);
+    table.sources.push_back({{std::move(name), std::move(unit), whole, {}, true}, std::move(value)});
+  };
+  for (const auto& field : tick_fields())
+    if (!field.signal.empty())
+      add(field.signal, unit_text(field.unit, path_unit(header), ""),
+          field.get({*first.ticks, first.tick_index}), [number = number_of(field)](const TickContext& c) {
+            return number({*c.frame->ticks, c.at()});
+          });
+  for (std::size_t a = 0; a < header.axis.size(); ++a)
+    for (const auto& field : axis_fields())
+      if (!field.signal.empty())
+        add(fmt::format("axis.{}.{}", header.axis[a].name, field.signal),
+            unit_text(field.unit, path_unit(header), header.axis[a].unit),
+            field.get({*first.ticks, a, first.tick_index}),
+            [a, number = number_of(field)](const TickContext& c) {
+              return number({*c.frame->ticks, a, c.at()});
+            });
+}
+
 }  // namespace
 
 std::vector<SignalSource> signal_table(const LogHeader& header, const LogFrame& first) {
@@ -132,6 +171,7 @@ std::vector<SignalSource> signal_table(const LogHeader& header, const LogFrame& 
   add_feed(table, path_unit(header), !first.ticks->override_requested.empty());
   if (plant) add_path_error(table, header);
   for (std::size_t a = 0; a < header.axis.size(); ++a) add_axis(table, header, a, plant, header.logs_steps);
+  add_further(table, header, first);
   return std::move(table.sources);
 }
 

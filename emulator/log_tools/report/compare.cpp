@@ -22,7 +22,7 @@ constexpr std::size_t kMostReasons = 6;
 
 const RunSummary& summary(const ComparedRun& run) { return run.data.summary->run; }
 
-/// Runs are named A, B, C ... in tables and charts; their files stand once above.
+/// Runs are named A, B, C ... in tables and charts; their files are listed once above.
 std::string letter(std::size_t k) { return std::string(1, static_cast<char>('A' + k)); }
 
 template <class Get>
@@ -140,8 +140,8 @@ std::string compared_note(const std::vector<ComparedRun>& runs) {
   std::string out;
   for (std::size_t k = 1; k < runs.size(); ++k) {
     const LogHeader &a = runs.front().data.header, &b = runs[k].data.header;
-    if (a.program_hash != b.program_hash) out += fmt::format("{} is of another program than A\n", letter(k));
-    if (a.machine_name != b.machine_name) out += fmt::format("{} is on another machine than A\n", letter(k));
+    if (a.program_hash != b.program_hash) out += fmt::format("{} ran another program than A\n", letter(k));
+    if (a.machine_name != b.machine_name) out += fmt::format("{} ran on another machine than A\n", letter(k));
   }
   return out;
 }

@@ -8,7 +8,7 @@
 namespace kadr::emulator {
 namespace {
 
-/// The page's signals, as far as the log has them.
+/// The page's signals, as far as the log has them; further ones are added (Signal::further).
 constexpr const char* kSignals[] = {
     "feed.commanded*",    "feed.programmed*",     "feed.override_used*", "feed.override_requested*",
     "feed.acceleration*", "feed.jerk*",           "feed.limited_by",     "path.error*",
@@ -25,11 +25,13 @@ std::string wanted(const LogSamples& log) {
       if (matches_pattern(signal.name, pattern)) out += (out.empty() ? "" : ",") + signal.name;
   };
   for (const char* pattern : kSignals) add(pattern);
+  for (const Signal& signal : log.signals())
+    if (signal.further) add(signal.name.c_str());
   add(kPath);
   return out;
 }
 
-/// The settings of the log are a machine file, and behind it how the run was called.
+/// The settings of the log are a machine file, followed by the options of the run.
 std::optional<machine::MachineModel> machine_of(const LogHeader& header) {
   SourceSet sources;
   const std::string text = header.settings_toml.substr(0, header.settings_toml.find("[run]\n"));

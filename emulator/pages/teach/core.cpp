@@ -1,6 +1,5 @@
 // The teaching page's door to the core, in WebAssembly: numbers in, numbers out, no state but the last
-// answer. A picture of memory is handed over as rows of eight-byte words; core.ts reads them by the same
-// numbers.
+// answer. A picture of memory is handed over as rows of eight-byte words; core.ts reads them by the same numbers.
 #include <bit>
 #include <cstring>
 #include <optional>
@@ -15,7 +14,7 @@
 
 namespace kadr {
 
-// a page can't be told more than that its core has stopped
+// the page only learns that its core has stopped
 void break_promise(const char*, const char*, int) { __builtin_trap(); }
 
 namespace {
@@ -32,7 +31,7 @@ std::uint64_t word(double v) { return std::bit_cast<std::uint64_t>(v); }
 std::uint64_t word(std::int64_t v) { return static_cast<std::uint64_t>(v); }
 std::uint64_t word(bool v) { return v ? 1 : 0; }
 
-char text[4096];            // words of a case, a line each
+char text[4096];            // words of a case, one per line
 double numbers[2 * 4 * 3];  // control points of two Beziers in three axes
 TeachCase subject;
 CaseReading reading;
@@ -42,7 +41,7 @@ std::vector<Bezier> chain;  // curves end to end
 std::optional<planner::ArcLength> arc;
 int arc_of = -1;
 
-/// The page numbers the methods as methods() lists them.
+/// The page numbers the methods in the order of methods().
 lattice::Method method_at(int i) { return lattice::methods()[static_cast<std::size_t>(i)].method; }
 
 void put_row(const StepRow& row, bool last, double reached_at_t, std::size_t i) {
@@ -89,7 +88,7 @@ KADR_EXPORT(numbers) double* kadr_numbers() { return numbers; }
 KADR_EXPORT(answer) const std::uint64_t* kadr_answer() { return answer.data(); }
 KADR_EXPORT(answer_size) int kadr_answer_size() { return static_cast<int>(answer.size()); }
 
-/// Reads a case of two axes: its words, a line each, in text().
+/// Reads a case of two axes: its words, one per line, in text().
 /// @return CaseFault
 KADR_EXPORT(read_case) int kadr_read_case(int length) {
   std::vector<std::string> words;
@@ -127,7 +126,7 @@ KADR_EXPORT(follow) int kadr_follow(int method, int most_slots) {
   return 0;
 }
 
-/// Rows of 17 words, one a slot and one for the last node.
+/// Rows of 17 words, one per slot and one for the last node.
 KADR_EXPORT(rows) void kadr_rows() {
   answer.clear();
   const bool crossings = !table.rows.empty() && table.rows.front().slot.parameter >= 0;
@@ -160,7 +159,7 @@ KADR_EXPORT(column_name) const char* kadr_column_name(int i) {
   return (i == 0 ? table.value_name : i == 1 ? table.tested_name : table.tested_y_name).c_str();
 }
 
-/// The ideal curve, x and y by turns.
+/// The ideal curve, x and y alternating.
 KADR_EXPORT(curve) void kadr_curve() {
   answer.clear();
   for (const Place& p : curve_places(subject.legs.front(), table)) {
@@ -185,7 +184,7 @@ KADR_EXPORT(sign_at) int kadr_sign_at(int x2, int y2) {
 }
 
 /// Ticks of a 10 MHz clock: duration, then smallest and largest time between pulses of X and of Y.
-/// @param crossing  at the crossings instead of one slot a pulse; the table must have them
+/// @param crossing  at the crossings instead of one slot per pulse; the table must have them
 KADR_EXPORT(spacing) bool kadr_spacing(bool crossing, double feed_steps_s) {
   answer.clear();
   if (crossing && table.crossings_steps.size() != table.rows.size()) return false;
@@ -200,7 +199,7 @@ KADR_EXPORT(spacing) bool kadr_spacing(bool crossing, double feed_steps_s) {
   return true;
 }
 
-/// Angle and speed by turns.
+/// Angle and speed alternating.
 KADR_EXPORT(rose) void kadr_rose(int method, int directions, int radius_steps) {
   answer.clear();
   for (const RosePoint& p : speed_rose(method_at(method), directions, radius_steps)) {
@@ -223,7 +222,7 @@ KADR_EXPORT(chain) void kadr_chain(int first_degree, int second_degree) {
   }
 }
 
-/// Position and curvature vector at evenly spaced t, six words a place.
+/// Position and curvature vector at evenly spaced t, six words per point.
 KADR_EXPORT(comb) void kadr_comb(int curve, int places) {
   const Bezier& b = chain[static_cast<std::size_t>(curve)];
   answer.clear();
@@ -241,7 +240,7 @@ KADR_EXPORT(segment) void kadr_segment(int curve) {
   answer = {word(planner::ArcLength(b).length_u()), word(smallest.radius_u), word(smallest.t)};
 }
 
-/// What the joint does (joint.h), and the direction of the first curve's end.
+/// The joint's properties (joint.h), and the direction of the first curve's end.
 KADR_EXPORT(joint) void kadr_joint() {
   const planner::JointReport j = planner::joint_report(chain[0], chain[1]);
   answer = {word(j.gap_u),
@@ -269,7 +268,7 @@ KADR_EXPORT(repair) bool kadr_repair(int kind) {
 /// Errors of t(S): the largest of t, place and feed, then u, error of t and error of feed by place.
 /// @param method  0 Newton, 1 minimax of Newton 8, 2 minimax of the exact t(S), 3 quintic table of `degree`
 /// parts
-/// @param every   every so manyth place
+/// @param every   step between the points shown
 KADR_EXPORT(length_errors) void kadr_length_errors(int curve, int method, int degree, int every) {
   if (arc_of != curve) {
     arc.emplace(chain[static_cast<std::size_t>(curve)]);

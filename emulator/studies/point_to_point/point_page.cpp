@@ -17,7 +17,7 @@ using planner::PointLaw;
 
 constexpr std::size_t kMostLines = 6;  ///< that can be told apart in a chart
 constexpr int kPointsPerPeriod = 24;
-constexpr double kPeriodsAfter = 10;  ///< of swinging, shown after the end
+constexpr double kPeriodsAfter = 10;  ///< of vibration, shown after the end
 constexpr int kMostPoints = 20'000;   ///< of a line
 constexpr const char* kStyles[kMostLines] = {"a", "b", "c", "d", "e", "f"};
 
@@ -98,7 +98,7 @@ class PointPage {
     return fmt::format("<h2>{}</h2>\n{}", xml_text(title), render_svg(chart));
   }
 
-  /// The load relative to its base, and what is left of it, each law's end at 0.
+  /// The load relative to its base, and its residual vibration, each law's end at 0.
   std::string swing() const {
     LineChart whole, rest;
     whole.id = "swing";

@@ -5,8 +5,8 @@
 
 namespace kadr::emulator {
 
-/// Laws from rest to rest as one HTML file without script: acceleration, speed, power and the load's swing
-/// over time, a close-up of what is left, and the table. No wall clock, so equal runs give equal bytes.
+/// Laws from rest to rest as one HTML file without script: acceleration, speed, power and the load's vibration
+/// over time, a close-up of the residual, and the table. No wall clock, so equal runs give equal bytes.
 std::string render_point_page(const PointQuestion& question, const PointStudy& study);
 
 }  // namespace kadr::emulator

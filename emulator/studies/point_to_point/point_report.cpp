@@ -12,7 +12,7 @@ namespace {
 
 using Align = TextTable::Align;
 
-/// Millimetres with six decimals; what is below a picometre is silence.
+/// Millimetres with six decimals; below a picometre counts as zero.
 std::string millimetres(double length_m) { return fixed(1e3 * (length_m < 1e-12 ? 0.0 : length_m), 5); }
 
 std::string unit_text(const planner::PointFault& fault) {
@@ -36,8 +36,8 @@ std::string fault_text(const planner::PointFault& fault) {
       return fmt::format("{} of {:.9g} s is too short: the shortest within these limits is {:.6f} s",
                          fault.what, fault.measured, fault.allowed);
     case Kind::too_fine:
-      return fmt::format("{}: there are {:.6g}, at most {:.6g} are looked through", fault.what,
-                         fault.measured, fault.allowed);
+      return fmt::format("{}: there are {:.6g}, at most {:.6g} are examined", fault.what, fault.measured,
+                         fault.allowed);
     case Kind::bad_share:
       return fmt::format(
           "{}: it may be {:.7g}{} at {}", is, fault.allowed, unit,
@@ -51,7 +51,7 @@ std::string render_point_question(const PointQuestion& q, const PointStudy& stud
   const planner::Mode& m = study.driven.mode;
   const double time_s = q.time_optimal ? study.shortest_s : q.time_s;
   std::string out =
-      fmt::format("{:g} m in {}, a <= {:g} m/s2, v <= {:g} m/s; the shortest time there is: {:.6f} s\n",
+      fmt::format("{:g} m in {}, a <= {:g} m/s2, v <= {:g} m/s; the shortest possible time: {:.6f} s\n",
                   q.task.distance_u, q.time_optimal ? "the least time" : fmt::format("{:g} s", q.time_s),
                   q.task.accel_limit_u_s2, q.task.speed_limit_u_s, study.shortest_s);
   out += fmt::format("load    {:g} kg, drive {:g} of it, counterweight {:g} of it, g = {:.6g} m/s2{}\n",

@@ -5,22 +5,22 @@
 #include "emulator/studies/point_to_point/table2.h"
 #include "emulator/text/json.h"
 
-/// What `kadr law` tells of laws from rest to rest.
+/// The output of `kadr law` about laws from rest to rest.
 namespace kadr::emulator {
 
 /// "time of 3.7 s is too short: the shortest within these limits is 3.741657 s"
 std::string fault_text(const planner::PointFault& fault);
 
-/// What was asked, in four lines: motion, load, what rings, how energy is counted.
+/// The question, in four lines: motion, load, vibration, how energy is counted.
 std::string render_point_question(const PointQuestion& question, const PointStudy& study);
-/// A row a law: times, peaks, work, residual vibration, the worst of it in bands of omega.
+/// One row per law: times, peaks, work, residual vibration, and its maximum over bands of omega.
 std::string render_point_table(const PointStudy& study);
-/// The optimum, the advice for a rapid, what does not fit.
+/// The optimum, the advice for a rapid, and the laws that do not fit.
 std::string render_point_answer(const PointStudy& study);
-/// Table 2 of paper 001, a row a cell: printed, computed as the paper did, and by physics; why they differ.
+/// Table 2 of paper 001, one row per cell: printed, computed as the paper did, and by physics; why they differ.
 std::string render_table2(const std::vector<Table2Row>& rows);
 
-/// The table with full precision: a line of names with units, a row a law.
+/// The table with full precision: a line of names with units, one row per law.
 std::string point_csv(const PointStudy& study);
 /// The same and the pieces of every law.
 Json json_of(const PointQuestion& question, const PointStudy& study);

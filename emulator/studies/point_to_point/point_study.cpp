@@ -58,7 +58,7 @@ class Study {
       if (base)
         add(name, shape(*base));
       else
-        out_.left_out.push_back(fmt::format("{} takes {:.6f} s at least", name, out_.shortest_s + longer_s));
+        out_.left_out.push_back(fmt::format("{} takes at least {:.6f} s", name, out_.shortest_s + longer_s));
     });
     return finished();
   }
@@ -87,7 +87,7 @@ class Study {
   double period_s() const { return mode().period_s(); }
   double distance() const { return task_.distance_u; }
 
-  /// Laws that take a T law and a while longer.
+  /// Laws made from a T law plus some extra time.
   template <class Take>
   void shaped(Take&& take) {
     const double half_s = mode().damped_period_s() / 2;

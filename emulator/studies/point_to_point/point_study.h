@@ -6,7 +6,7 @@
 
 namespace kadr::emulator {
 
-/// What `kadr law` is asked; the defaults are Table 1 of paper 001, with omega = 100 pi/3 rad/s, which it
+/// The question to `kadr law`; the defaults are Table 1 of paper 001, with omega = 100 pi/3 rad/s, which it
 /// rounds to 105. Lengths are metres, so that energies are joules.
 struct PointQuestion {
   planner::PointTask task{3.5, 3.0, 1.0};
@@ -16,15 +16,15 @@ struct PointQuestion {
   planner::Drive drive = planner::Drive::position;
   planner::Load load;
   bool printed_gravity = false;     ///< 9.81 taken for K_g, as the paper does (work.h)
-  std::vector<double> xi;           ///< T laws to compare besides
+  std::vector<double> xi;           ///< additional T laws to compare
   double omega_uncertainty = 0.01;  ///< for the advice
 };
 
-/// A law and what was measured of it.
+/// A law and its measurements.
 struct PointRow {
   std::string name;
   planner::PointLaw law;
-  double xi = 0;  ///< of a symmetric T law; 0: it is none
+  double xi = 0;  ///< of a symmetric T law; 0: not one
   planner::Work work;
   double amplitude_m = 0;  ///< residual envelope at the end
   planner::ResidualPeaks peaks;
@@ -33,19 +33,19 @@ struct PointRow {
 inline constexpr double kBands[3] = {0.01, 0.05, 0.10};
 
 struct PointStudy {
-  planner::DrivenMode driven;  ///< what the laws are tuned to
+  planner::DrivenMode driven;  ///< vibration that the laws are tuned to
   planner::Load load;          ///< with the gravity that was used
   double shortest_s = 0;       ///< of any law within the limits
   std::vector<PointRow> rows;
   std::size_t chosen = 0;             ///< row that answers the paper's question: least energy or least time
-  std::string answer;                 ///< what was chosen, and why
-  std::string advice;                 ///< what a rapid would take
+  std::string answer;                 ///< the choice, and why
+  std::string advice;                 ///< the law that a rapid would use
   std::vector<std::string> left_out;  ///< laws that do not fit into the time, with the shortest one they need
   std::size_t zeros = 0;              ///< silent xi at this time
 };
 
 /// Builds and measures every law of a question.
-/// @return or what is wrong with it: a quantity out of range, or the shortest time there is
+/// @return or the error: a quantity out of range, or the shortest possible time
 planner::PointResult<PointStudy> study_point_laws(const PointQuestion& question);
 
 }  // namespace kadr::emulator

@@ -56,7 +56,7 @@ std::string segment_text(const BezierSegment& s, std::size_t number, const Bezie
     out += "  straight: no curvature\n";
   else
     out += fmt::format("  R_min {} mm at t = {}\n", fixed(s.smallest.radius_u, 6), fixed(s.smallest.t, 5));
-  if (s.slowest_mm < kSmooth * s.fastest_mm) out += "  warning: a cusp, the direction turns round at once\n";
+  if (s.slowest_mm < kSmooth * s.fastest_mm) out += "  warning: a cusp: the direction reverses at once\n";
   out += fmt::format("  t(S): {} quintic parts keep the feed to 1e-6\n", s.fitted_parts);
   if (demand.acceleration_mm_s2 > 0 && !std::isinf(s.smallest.radius_u)) {
     const double most = curve_speed(s, demand);

@@ -6,7 +6,7 @@
 
 namespace kadr::emulator {
 
-/// What is asked of a chain of Beziers; 0: nothing.
+/// Checks of a chain of Beziers; 0: none.
 struct BezierDemand {
   double feed_mm_s = 0;
   double acceleration_mm_s2 = 0;
@@ -14,8 +14,7 @@ struct BezierDemand {
 
 /// Whether the curves meet, and the feed is allowed on every curve and joint.
 bool allowed(const BezierStudy& study, const BezierDemand& demand);
-/// A paragraph a curve and a joint: polynomials, length, radius, allowed feed, jumps, repairs, errors of
-/// t(S).
+/// One paragraph per curve and joint: polynomials, length, radius, allowed feed, jumps, repairs, errors of t(S).
 std::string render_beziers(const BezierStudy& study, const BezierDemand& demand);
 Json json_of(const BezierStudy& study, const BezierDemand& demand);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/text/text.h"
 #include "machine/base/parse_number.h"
 
 namespace kadr::emulator {
@@ -32,7 +33,8 @@ ReadPoints read_points(const std::string& text, std::size_t& axes) {
     if (axes == 0) axes = numbers.size();
     if (numbers.size() != axes || axes < 2 || axes > planner::kMostBezierAxes)
       return tl::unexpected(
-          fmt::format("point '{}' of '{}' has {} coordinates, {} belong there", word, text, numbers.size(),
+          fmt::format("point '{}' of '{}' has {}, {} are needed", word, text,
+                      counted(static_cast<std::int64_t>(numbers.size()), "coordinate"),
                       axes >= 2 && axes <= planner::kMostBezierAxes ? std::to_string(axes) : "2 to 9"));
     points.emplace_back();
     for (std::size_t k = 0; k < axes; ++k) {
@@ -43,9 +45,10 @@ ReadPoints read_points(const std::string& text, std::size_t& axes) {
     }
   }
   if (points.size() < 2 || points.size() > 4)
-    return tl::unexpected(fmt::format("'{}' has {} points; a curve takes 2 to 4", text, points.size()));
+    return tl::unexpected(fmt::format("'{}' has {}; a curve takes 2 to 4", text,
+                                      counted(static_cast<std::int64_t>(points.size()), "point")));
   if (std::all_of(points.begin(), points.end(), [&](const auto& p) { return p == points.front(); }))
-    return tl::unexpected(fmt::format("'{}' has no length: all its points are one", text));
+    return tl::unexpected(fmt::format("'{}' has no length: all its points coincide", text));
   return points;
 }
 

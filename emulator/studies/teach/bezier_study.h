@@ -7,19 +7,19 @@
 
 namespace kadr::emulator {
 
-/// A t(S) and how wrong it is.
+/// A t(S) and its errors.
 struct LengthTableRow {
   std::string name;
   planner::ReparameterisationError error;
 };
 
-/// What is known of a curve of a chain.
+/// Properties of one curve of a chain.
 struct BezierSegment {
   planner::Bezier curve;
   double length_mm = 0;
   planner::SmallestRadius smallest;
-  double slowest_mm = 0, fastest_mm = 0;      ///< of |B'(t)|, looked at in 2001 places
-  std::vector<LengthTableRow> length_tables;  ///< paper mode alone
+  double slowest_mm = 0, fastest_mm = 0;      ///< of |B'(t)|, sampled at 2001 points
+  std::vector<LengthTableRow> length_tables;  ///< paper mode only
   int fitted_parts = 0;                       ///< of the table that keeps the feed to 1e-6
 };
 
@@ -28,8 +28,8 @@ struct BezierStudy {
   std::vector<planner::JointReport> joints;  ///< [segments - 1]
 };
 
-/// Control points as text, "0,0,0 2,2,4 5,-0.5,2", a text a curve.
-/// @return the curves, or what is wrong with which text
+/// Control points as text, "0,0,0 2,2,4 5,-0.5,2", one text per curve.
+/// @return the curves, or the error with its text
 tl::expected<std::vector<planner::Bezier>, std::string> read_beziers(const std::vector<std::string>& texts);
 
 /// @param paper  with the errors of t(S) by every method of paper 004 and the quintic tables

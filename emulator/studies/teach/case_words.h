@@ -1,13 +1,13 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "emulator/interpolator/lattice/curve.h"
 #include "machine/base/vocabulary.h"
 
-/// What is to be interpolated, as words: `line 7 4`. Shared by `kadr teach` and its page, so nothing here
-/// throws.
+/// The curve to interpolate, as words: `line 7 4`. Shared by `kadr teach` and its page, so nothing here throws.
 namespace kadr::emulator {
 
 /// How a path of several lines is followed: the axes together along it, or each at its own rate from node to
@@ -19,24 +19,32 @@ inline constexpr Vocabulary<TeachMode, 2> kTeachModes{{
 }};
 static_assert(kTeachModes.complete());
 
-/// What is to be interpolated: curves end to end, each given from its own beginning. Steps throughout.
+enum class CaseKind : std::uint8_t { line, polyline, arc, circle, ellipse, parabola, curve, bezier };
+inline constexpr Vocabulary<CaseKind, 8> kCaseKinds{{
+    {CaseKind::line, "line", "straight from the origin, 2 to 9 axes"},
+    {CaseKind::polyline, "polyline", "lines from node to node; --axes, --mode ptp"},
+    {CaseKind::arc, "arc", "about the origin; a full turn where both ends coincide"},
+    {CaseKind::circle, "circle", "a full turn from (R, 0)"},
+    {CaseKind::ellipse, "ellipse", "once around from (A, 0)"},
+    {CaseKind::parabola, "parabola", "y^2 = 2 P x from Y0 to Y1"},
+    {CaseKind::curve, "curve", "F = 0; ccw: F < 0 to the left of travel"},
+    {CaseKind::bezier, "bezier", "from the origin, degree 1 to 3; --axes"},
+}};
+static_assert(kCaseKinds.complete());
+
+/// The numbers that a kind of case takes, for the help: "DX DY [DZ ...]".
+std::string_view case_numbers(CaseKind kind);
+
+/// The curve to interpolate: curves end to end, each given from its own beginning. Steps throughout.
 struct TeachCase {
   std::string title;  ///< "line 7 4"
-  std::string kind;   ///< "line"
+  CaseKind kind = CaseKind::line;
   std::vector<lattice::Curve> legs;
   lattice::Point begin{};  ///< of the first leg
   int axes = 2;
 };
 
-/// The kinds of case with their words, for the help: "line DX DY [DZ ...]", ...
-struct TeachKind {
-  const char* name;
-  const char* words;
-  const char* meaning;
-};
-const std::vector<TeachKind>& teach_kinds();
-
-/// What is wrong with the words of a case.
+/// Errors in the words of a case.
 enum class CaseFault : std::uint8_t {
   none,
   kind,          ///< no such kind
@@ -56,7 +64,7 @@ inline constexpr std::int64_t kMostHalfAxis_steps = 10'000;
 inline constexpr std::int64_t kMostParabola_steps = std::int64_t{1} << 29;
 inline constexpr int kMostPolynomialDegree = 6;
 
-/// A case, or what is wrong with which of its words.
+/// A case, or the error with its word.
 struct CaseReading {
   TeachCase subject;
   CaseFault fault = CaseFault::none;
@@ -65,7 +73,7 @@ struct CaseReading {
 };
 
 /// Reads the words of a case: the kind and its numbers, in steps.
-/// @param axes  of Beziers and polylines, whose words are taken in groups of so many
+/// @param axes  of Beziers and polylines, whose words are taken in groups of this size
 CaseReading read_case(const std::vector<std::string>& words, int axes);
 
 /// "6400 y - x^3": whole coefficients, powers of x and y, degree kMostPolynomialDegree at most.

@@ -53,7 +53,7 @@ Place side_crossing(const Point& node, const lattice::Slot& slot, Value&& f) {
   const auto at = [&](double v) { return x_steps ? Place{side, v} : Place{v, side}; };
   double low = middle - 0.5, high = middle + 0.5;
   const double low_f = f(at(low));
-  // a curve that clips a corner is not seen on the side: the nearer corner stands for it
+  // a curve that clips a corner does not cross the side: use the nearer corner
   if ((low_f < 0) == (f(at(high)) < 0)) return std::fabs(low_f) < std::fabs(f(at(high))) ? at(low) : at(high);
   for (int i = 0; i < kHalvings; ++i) {
     const double half = 0.5 * (low + high);

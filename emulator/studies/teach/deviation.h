@@ -10,7 +10,7 @@ struct Place {
   double x, y;  ///< steps
 };
 
-/// How far a node lies from a curve, in steps. Of a plane curve with two sides it has the sign of F; of
+/// Distance of a node from a curve, in steps. For a plane curve with two sides it has the sign of F; for
 /// others none. At a crossing of a Bezier it is the distance from the point of that moment.
 /// @param t  parameter at which the node was reached, of a Bezier alone
 double deviation_steps(const lattice::Curve& curve, const lattice::Point& node, double t);
@@ -28,7 +28,7 @@ std::vector<double> crossing_shares(const lattice::Curve& curve, const lattice::
 /// F(x, y) as the step tables show it; nothing for a curve in more axes or a Bezier that is no conic.
 std::optional<lattice::Polynomial> sign_polynomial(const lattice::Curve& curve);
 
-/// Foot of the perpendicular from a place to F = 0: Newton's method by turns across the curve and along it.
+/// Foot of the perpendicular from a point to F = 0: Newton's method, alternating across the curve and along it.
 /// @param fx, fy  derivatives of f
 Place foot_of(const lattice::Polynomial& f, const lattice::Polynomial& fx, const lattice::Polynomial& fy,
               Place from);

@@ -8,7 +8,7 @@
 /// A case followed by a method. Shared by `kadr teach` and its page, so nothing here throws.
 namespace kadr::emulator {
 
-/// A row of a step table: the node, what is known of it, and what is done in the slot that follows.
+/// A row of a step table: the node, its values, and the step in the slot that follows.
 struct StepRow {
   lattice::Point node{};
   lattice::Slot slot;
@@ -18,16 +18,16 @@ struct StepRow {
 /// A case followed by a method to its end.
 struct StepTable {
   lattice::Method method = lattice::Method::half_step;
-  std::string value_name;   ///< what Slot::value is, empty: nothing
-  std::string tested_name;  ///< what Slot::tested is
+  std::string value_name;   ///< meaning of Slot::value, empty: none
+  std::string tested_name;  ///< meaning of Slot::tested
   std::string tested_y_name;
   int axes = 2;
-  std::vector<StepRow> rows;  ///< one a slot; a node beyond the last slot is `last`
+  std::vector<StepRow> rows;  ///< one per slot; the node after the last slot is `last`
   StepRow last;
   lattice::Point end{};  ///< where the case ends
   bool end_reached = false;
   std::int64_t pulses = 0, diagonals = 0, forced = 0, idle = 0;
-  double worst_steps = 0;  ///< largest deviation, plain distance
+  double worst_steps = 0;  ///< largest deviation, Euclidean distance
   double rms_steps = 0;
   double worst_square_steps = -1;  ///< largest deviation in the larger axis; -1: not measured on this curve
   std::uint64_t hash = 0;          ///< of the steps in order
@@ -42,7 +42,7 @@ struct TeachOptions {
   std::int64_t most_slots = 100'000;
 };
 
-/// A step table, or why there is none.
+/// A step table, or the reason why there is none.
 struct Followed {
   StepTable table;
   lattice::Refusal refusal = lattice::Refusal::none;

@@ -10,7 +10,7 @@ namespace {
 /// A change of a wire, in the order of time and then of writing.
 struct Edge {
   std::int64_t at;
-  int order;  ///< falls before DIR before rises, where they meet
+  int order;  ///< at one moment: falls, then DIR, then rises
   char wire;
   bool high;
 };

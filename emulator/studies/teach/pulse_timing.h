@@ -13,7 +13,7 @@ enum class PulseTiming : std::uint8_t {
   crossing,  ///< where the ideal path, at a constant feed, crosses the middle between two nodes
 };
 inline constexpr Vocabulary<PulseTiming, 2> kPulseTimings{{
-    {PulseTiming::uniform, "uniform", "a slot after the other"},
+    {PulseTiming::uniform, "uniform", "slot after slot"},
     {PulseTiming::crossing, "crossing", "where the path crosses the middle between two nodes"},
 }};
 static_assert(kPulseTimings.complete());
@@ -40,7 +40,7 @@ Spacing spacing_of(const std::vector<TeachPulse>& pulses);
 /// Smallest time between two pulses of one axis; INT64_MAX: no axis has two.
 std::int64_t least_spacing_ticks(const PulseTrain& train);
 
-/// @param feed_steps_s  uniform: slots a second; crossing: speed along the ideal path, steps a second
+/// @param feed_steps_s  uniform: slots per second; crossing: speed along the ideal path, steps per second
 /// @pre crossing: the table has crossings
 PulseTrain timed(const StepTable& table, PulseTiming timing, double feed_steps_s, std::int64_t clock_hz);
 

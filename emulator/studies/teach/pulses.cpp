@@ -5,7 +5,7 @@
 namespace kadr::emulator {
 namespace {
 
-// two edges of a pulse and one of DIR need ticks of their own
+// two edges of a pulse and one of DIR need separate ticks
 constexpr std::int64_t kLeastSpacing_ticks = 4;
 
 }  // namespace

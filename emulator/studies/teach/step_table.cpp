@@ -9,23 +9,22 @@ using lattice::Curve;
 using lattice::Method;
 using lattice::Refusal;
 
-std::string refusal_text(Refusal refusal, const Curve& curve, Method method, const std::string& kind) {
+std::string refusal_text(Refusal refusal, const Curve& curve, Method method, std::string_view kind) {
   const auto name = lattice::entry_of(method).name();
   switch (refusal) {
     case Refusal::no_length:
-      return fmt::format("{}: there is no way to go: both ends are one node", kind);
+      return fmt::format("{}: nothing to follow: both ends are the same node", kind);
     case Refusal::range:
       return fmt::format("{}: a coordinate is beyond what {} counts in integers, {} steps", kind, name,
                          lattice::most_steps(curve));
     case Refusal::off_curve:
-      return fmt::format("{}: the end lies more than 0.707 steps beside the circle through the beginning",
-                         kind);
+      return fmt::format("{}: the end is more than 0.707 steps off the circle through the start", kind);
     case Refusal::one_quadrant:
-      return fmt::format("{}: {} stays within the quadrant of its beginning; the end lies in another one",
-                         kind, name);
+      return fmt::format("{}: {} stays within the quadrant of its start; the end is in another one", kind,
+                         name);
     case Refusal::in_line:
-      return fmt::format("{}: the control points are in line, so it is no conic; use --method crossing",
-                         kind);
+      return fmt::format(
+          "{}: the control points are collinear, so this is not a conic; use --method crossing", kind);
     case Refusal::none:
     case Refusal::other_curve:
       break;
@@ -42,13 +41,13 @@ tl::expected<StepTable, std::string> step_table(const TeachCase& subject, Method
                                                 const TeachOptions& options) {
   Followed followed = follow(subject, method, options);
   if (followed.refusal != Refusal::none)
-    return tl::unexpected(
-        refusal_text(followed.refusal, subject.legs[followed.leg], followed.table.method, subject.kind));
+    return tl::unexpected(refusal_text(followed.refusal, subject.legs[followed.leg], followed.table.method,
+                                       kCaseKinds.word(subject.kind)));
   if (!followed.complete)
     return tl::unexpected(fmt::format(
         "{}: no end after {} slots, allowed {} (--most); it is longer, or folds inside a cell, where a "
         "sign can't follow it",
-        subject.kind, options.most_slots, options.most_slots));
+        kCaseKinds.word(subject.kind), options.most_slots, options.most_slots));
   return std::move(followed.table);
 }
 

@@ -5,5 +5,5 @@
 #include "emulator/studies/teach/teach_page.h"
 #include "emulator/studies/teach/teach_report.h"
 
-/// `kadr teach`: interpolators and Bezier curves step by step, for people who learn how they work
-/// (docs/interpolators.md).
+/// `kadr teach`: interpolators and Bezier curves step by step, for people who
+/// learn how they work (docs/interpolators.md).

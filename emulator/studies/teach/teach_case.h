@@ -9,7 +9,7 @@
 namespace kadr::emulator {
 
 /// Reads the words of a case (case_words.h).
-/// @param axes  of Beziers and polylines, whose words are taken in groups of so many
+/// @param axes  of Beziers and polylines, whose words are taken in groups of this size
 /// @return the case, or what is wrong with its words
 tl::expected<TeachCase, std::string> read_teach_case(const std::vector<std::string>& words, int axes);
 

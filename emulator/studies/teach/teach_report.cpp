@@ -95,9 +95,10 @@ std::string render_step_table(const TeachCase& subject, const StepTable& table) 
   std::string out =
       fmt::format("{}, {}: {}; deviation in steps\n", subject.title, method.name(), method.meaning());
   out += text.render();
-  out += fmt::format("{} slots, {} pulses, {} slots with several axes, {} idle, {} forced by the end (!)\n",
-                     grouped(static_cast<std::int64_t>(table.rows.size())), grouped(table.pulses),
-                     grouped(table.diagonals), grouped(table.idle), grouped(table.forced));
+  out += fmt::format("{}, {}, {} with several axes, {} idle, {} forced by the end (!)\n",
+                     counted(static_cast<std::int64_t>(table.rows.size()), "slot"),
+                     counted(table.pulses, "pulse"), counted(table.diagonals, "slot"), grouped(table.idle),
+                     grouped(table.forced));
   out += fmt::format("largest deviation {} steps, root mean square {} steps", fixed(table.worst_steps, 4),
                      fixed(table.rms_steps, 4));
   if (table.worst_square_steps >= 0) out += fmt::format(", in the larger axis {} steps", square_text(table));

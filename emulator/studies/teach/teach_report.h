@@ -6,19 +6,19 @@
 #include "emulator/studies/teach/step_table.h"
 #include "emulator/text/json.h"
 
-/// What `kadr teach` shows.
+/// The output of `kadr teach`.
 namespace kadr::emulator {
 
-/// Title line, a row a slot, and what came out.
+/// Title line, one row per slot, and the result.
 std::string render_step_table(const TeachCase& subject, const StepTable& table);
-/// "i,x,y,F,G=2F',move,deviation_steps": a row a slot and one for the last node.
+/// "i,x,y,F,G=2F',move,deviation_steps": one row per slot and one for the last node.
 std::string render_step_csv(const StepTable& table);
 Json json_of(const TeachCase& subject, const StepTable& table);
 
 /// "+X", "-X+Y"; "-": nothing steps.
 std::string move_text(const lattice::Slot& slot, int axes);
 
-/// Methods side by side: a row each, and below them the moves where they are few.
+/// Methods side by side: one row each, and below them the moves if they are few.
 std::string render_comparison(const TeachCase& subject, const std::vector<StepTable>& tables);
 std::string render_comparison_csv(const std::vector<StepTable>& tables);
 Json comparison_json(const TeachCase& subject, const std::vector<StepTable>& tables);

@@ -115,9 +115,9 @@ LimitText limit_text(const planner::LawViolation& violation, const TimeLawProble
 
 std::string render_problem(const TimeLawProblem& p, std::string_view file) {
   std::string out =
-      fmt::format("{}: {}, {} nodes over {} mm, {} {}, accelerations held at {}\n", file, p.name,
-                  grouped(static_cast<std::int64_t>(p.law.nodes())), fixed(p.law.length_u(), 3), p.law.axes,
-                  p.law.axes == 1 ? "axis" : "axes",
+      fmt::format("{}: {}, {} nodes over {} mm, {}, accelerations held at {}\n", file, p.name,
+                  grouped(static_cast<std::int64_t>(p.law.nodes())), fixed(p.law.length_u(), 3),
+                  counted(static_cast<std::int64_t>(p.law.axes), "axis", "axes"),
                   p.law.accel_test == planner::AccelTest::end_node ? "end nodes" : "both nodes");
   if (!p.program) return out;
   const ProgramPath& program = *p.program;

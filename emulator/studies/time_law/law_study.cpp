@@ -76,11 +76,11 @@ std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::v
                              bytes_text(static_cast<std::int64_t>(work.memory_bytes)), problem.law.nodes());
       allowed = bytes_text(static_cast<std::int64_t>(kMostMemory_bytes));
     } else if (work.transitions > kMostTransitions) {
-      measured = fmt::format("looks at up to {:.1e} transitions a pass, nodes times levels squared",
+      measured = fmt::format("looks at up to {:.1e} transitions per pass, nodes times levels squared",
                              work.transitions);
       allowed = fmt::format("{:.0e} transitions", kMostTransitions);
     } else if (work.jerk_rows > kMostJerkRows) {
-      measured = fmt::format("has {:.1e} limits to keep, for each node two an axis and end", work.jerk_rows);
+      measured = fmt::format("has {:.1e} limits to keep, two per node, axis and end", work.jerk_rows);
       allowed = fmt::format("{:.0e} limits", kMostJerkRows);
     } else {
       continue;
@@ -88,7 +88,7 @@ std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::v
     Diagnostic d = machine::file_diagnostic(Code::problem_too_large, problem.size_span,
                                             fmt::format("method {} {}", kLawMethods.word(method), measured));
     d.notes.push_back("allowed: " + allowed);
-    d.help = "take fewer nodes or levels, or name other methods with --method";
+    d.help = "use fewer nodes or levels, or choose other methods with --method";
     return d;
   }
   return {};

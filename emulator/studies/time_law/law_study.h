@@ -11,10 +11,10 @@ namespace kadr::emulator {
 using machine::kLawMethods;
 using machine::PlanMethod;
 
-/// All that the problem states: jerk-limited needs a limit.
+/// All methods that the problem states: jerk-limited needs a limit.
 std::vector<PlanMethod> methods_of(const TimeLawProblem& problem);
 
-/// What one method found, and what was measured of it.
+/// The law that one method found, and its measurements.
 struct MethodOutcome {
   PlanMethod method;
   planner::LawResult law;  ///< or why there is none, and at which node
@@ -37,9 +37,9 @@ struct TubeStory {
 
 struct LawStudy {
   std::vector<MethodOutcome> outcomes;
-  TubeStory tube;                  ///< empty unless the tube was asked for
-  double lower_bound_s = 0;        ///< of J, by optimum or certified; 0 if neither was asked for
-  std::uint32_t inner_points = 0;  ///< looked at in every interval
+  TubeStory tube;                  ///< empty unless the tube was requested
+  double lower_bound_s = 0;        ///< of J, by optimum or certified; 0 if neither was requested
+  std::uint32_t inner_points = 0;  ///< sampled in every interval
 
   bool good() const;
 };
@@ -51,7 +51,7 @@ std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::v
                                      bool keep_profiles);
 
 /// Solves a problem by each method, and measures every law by law_metrics() and verify_law().
-/// Told how far a study is: method, what it does, how much of that is done (planner::LawProgress).
+/// Reports the progress of a study: method, its stage, the share done (planner::LawProgress).
 using StudyProgress = std::function<void(PlanMethod method, std::string_view stage, double done)>;
 /// @param keep_profiles  of every pass of the tube
 LawStudy study_laws(const TimeLawProblem& problem, const std::vector<PlanMethod>& methods, bool keep_profiles,

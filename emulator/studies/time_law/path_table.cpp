@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "emulator/studies/time_law/problem.h"
+#include "emulator/text/text.h"
 #include "machine/base/parse_number.h"
 #include "machine/file/tree.h"
 
@@ -42,7 +43,7 @@ class TableText {
     if (diagnostics_.errors() != errors) return {};
     if (table_.s_u.size() < 4) {
       tell({file_, std::max(line_, 1u), 1, 1},
-           fmt::format("{} rows, at least 4 are needed", table_.s_u.size()));
+           counted(static_cast<std::int64_t>(table_.s_u.size()), "row") + ", at least 4 are needed");
       return {};
     }
     return std::move(table_);
@@ -59,7 +60,7 @@ class TableText {
     return fmt::format("the first line names the columns: s,{}", fmt::join(axes_, ","));
   }
 
-  /// Goes to the next line that says something.
+  /// Goes to the next line that is not blank or a comment.
   bool next_line() {
     while (next_ < text_.size()) {
       const std::size_t end = std::min(text_.find('\n', next_), text_.size());
@@ -72,7 +73,7 @@ class TableText {
     return false;
   }
 
-  /// Fields of the line, and where they are.
+  /// Fields of the line, with their positions.
   void split() {
     fields_.clear();
     for (std::size_t begin = 0;;) {
@@ -99,7 +100,7 @@ class TableText {
       if (found == axes_.end()) {
         tell(span(fields_[i]), fmt::format("no [[axis]] is named '{}'", fields_[i]), header_help());
       } else if (seen[axis]) {
-        tell(span(fields_[i]), fmt::format("axis {} has a column already", fields_[i]));
+        tell(span(fields_[i]), fmt::format("axis {} already has a column", fields_[i]));
       } else {
         seen[axis] = true;
         axis_of_.push_back(axis);
@@ -146,7 +147,7 @@ class TableText {
     if (!s) return true;
     if (!table_.s_u.empty() && *s < table_.s_u.back() + kLeastStep_mm)
       tell(span(fields_[0]),
-           fmt::format("s is {}, in the row before {}: it must grow by {} or more", number_text(*s),
+           fmt::format("s is {}, in the row before {}: it must increase by {} or more", number_text(*s),
                        number_text(table_.s_u.back()), number_text(kLeastStep_mm)));
     table_.s_u.push_back(*s);
     return true;
@@ -160,7 +161,7 @@ class TableText {
   const std::vector<std::string>& axes_;
   Diagnostics& diagnostics_;
   std::vector<std::string_view> fields_;
-  std::vector<std::size_t> axis_of_;  // [columns behind s]
+  std::vector<std::size_t> axis_of_;  // [columns after s]
   PathTable table_;
 };
 

@@ -27,10 +27,10 @@ struct ProgramPath {
   std::uint32_t first_line = 0, last_line = 0;  ///< of the first and the last move
   planner::Path path{0};                        ///< of the whole program
   planner::Run run;                             ///< the stretch
-  std::optional<planner::SplineFit> fit;        ///< in place of the lines
+  std::optional<planner::SplineFit> fit;        ///< instead of the lines
   double tolerance_mm = 0;                      ///< of the fit
   std::vector<std::uint32_t> line;              // [nodes], of the program
-  std::vector<std::string> reasons;             ///< what caps can be held by: "program", "junction X" ...
+  std::vector<std::string> reasons;             ///< reasons of caps: "program", "junction X" ...
   std::vector<std::uint16_t> held_by;           // [nodes], index of a reason
 };
 
@@ -45,7 +45,7 @@ struct TimeLawProblem {
   planner::TubeOptions tube;
   std::int32_t classical_levels = 1100;
   std::optional<double> jerk_mm_s3;
-  Span size_span;        ///< what the number of nodes comes from
+  Span size_span;        ///< where the number of nodes is stated
   Diagnostics warnings;  ///< of the program
 
   /// X' and X'' between nodes; this problem outlives it.
@@ -55,13 +55,13 @@ struct TimeLawProblem {
                           : planner::derivatives(program->path, program->run);
     return table ? table->derivatives() : planner::derivatives(formulas, law.s_u.back());
   }
-  /// The limit along the path, or the highest cap of a node where there is none: what speeds are scaled by.
+  /// The limit along the path, or the highest cap of a node if there is none; speeds are scaled by it.
   double scale_mm_s() const;
 };
 
-/// Reads sources[file] as a problem; a table, or a program and its machine, lie beside it and are added to
+/// Reads sources[file] as a problem; a table, or a program and its machine, are next to it and are added to
 /// the sources.
-/// @return the problem, which check_problem() finds nothing wrong with, or all mistakes found
+/// @return the problem, which passes check_problem(), or all mistakes found
 /// @throws std::system_error for a table that is there and can't be read
 tl::expected<TimeLawProblem, Diagnostics> read_time_law_problem(SourceSet& sources, std::uint32_t file);
 

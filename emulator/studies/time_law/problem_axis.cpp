@@ -98,14 +98,14 @@ class AxisReader {
   void refuse_formula(TableReader& keys, const std::string& unit) {
     for (const std::string& key : {"offset_" + unit, "slope_" + unit}) {
       if (!keys.has(key)) continue;
-      tell(Code::problem_path, keys.number(key, kValue).span, "the table gives the axis's values already",
+      tell(Code::problem_path, keys.number(key, kValue).span, "the table already gives the axis's values",
            "keep one of the table and the formula");
     }
     for (const char* key : {"waves", "steps"}) {
       if (!keys.has(key)) continue;
       const std::vector<Node>& terms = keys.tables(key);
       tell(Code::problem_path, terms.empty() ? keys.header() : terms.front().span,
-           "the table gives the axis's values already", "keep one of the table and the formula");
+           "the table already gives the axis's values", "keep one of the table and the formula");
     }
   }
 

@@ -71,7 +71,7 @@ class ProblemReader {
     by_table_ = !by_program_ && keys.has("table");
     table_ = keys.text("table", "");
     if (by_program_ && keys.has("table"))
-      tell(Code::problem_path, table_.span, "the program gives the path already",
+      tell(Code::problem_path, table_.span, "the program already gives the path",
            "keep one of table and program");
     if (by_program_)
       program_.read_path(keys);
@@ -89,24 +89,24 @@ class ProblemReader {
       tell(Code::problem_path, node->span, "has neither length_mm and nodes nor a table or program",
            "write table = \"FILE.csv\", program = \"FILE.ngc\", or length_mm and nodes and the axes' "
            "formulas");
-    // what is not needed has a value that nobody reads, so that its key is known all the same
+    // values that are not needed are read anyway, so that their keys are known
     const bool needed = !by_table_ && !by_program_ && (has_length || has_nodes);
     const auto otherwise = [&](double value) { return needed ? std::optional<double>() : value; };
     const auto length = keys.number("length_mm", kLength, otherwise(1));
     const auto nodes = keys.number("nodes", kNodes, otherwise(3));
     if ((by_table_ || by_program_) && has_length) {
       const char* other = by_table_ ? "table" : "program";
-      tell(Code::problem_path, length.span, fmt::format("the {} gives the length already", other),
+      tell(Code::problem_path, length.span, fmt::format("the {} already gives the length", other),
            fmt::format("keep one of {} and length_mm", other));
     }
     if (by_program_ && !program_.by_spline() && has_nodes)
       tell(Code::problem_path, nodes.span, "a program's joints are nodes, and others lie between them",
-           "write node_mm, the longest way between nodes, or fit = \"spline\"");
+           "write node_mm, the longest distance between nodes, or fit = \"spline\"");
     length_mm_ = length.value;
     if (needed || has_nodes) nodes_ = nodes;
     out_.size_span = nodes_ ? nodes_->span : by_program_ ? program_.program_span() : table_.span;
     planner::LawProblem& law = out_.law;
-    // a program says how fast, with its feeds and its machine
+    // a program sets the speed, with its feeds and its machine
     law.path_feed_u_s =
         keys.number("max_mm_s", kSpeed, of_machine(&machine::PathLimits::max_feed_mm_s)).value;
     law.path_accel_u_s2 = keys.number("max_acceleration_mm_s2", kPathAcceleration,
@@ -142,7 +142,8 @@ class ProblemReader {
       begin = end = at.span;
       if (keys.has("to_mm")) {
         const auto to = keys.number("to_mm", kPlace);
-        tell(Code::problem_zone, to.span, "a zone at a place has no end", "write from_mm in place of at_mm");
+        tell(Code::problem_zone, to.span, "a zone at one position has no end",
+             "write from_mm instead of at_mm");
       }
     } else {
       const auto from = keys.number("from_mm", kPlace), to = keys.number("to_mm", kPlace);
@@ -164,7 +165,7 @@ class ProblemReader {
   void read_penalty(const Node* node) {
     if (!node) return;
     TableReader keys(node, "penalty", node->span, context_);
-    // what is not given is as the path has it: by a program, as in a run of it
+    // a value that is not given comes from the path: for a program, as in a run of it
     const planner::Penalty otherwise;
     const double weight = keys.number("weight_s5_per_mm2", {0, 1e6}, otherwise.weight_s5_u2).value;
     const bool per_length = keys.flag("per_length", otherwise.per_length).value;
@@ -198,7 +199,7 @@ class ProblemReader {
     keys.finish();
   }
 
-  /// Puts the path at its nodes, and looks whether a law can be thought of.
+  /// Evaluates the path at its nodes, and checks whether a law can exist.
   void place() {
     if (by_program_ ? !place_program() : by_table_ ? !place_table() : !place_formulas()) return;
     out_.law.penalty.weight_s5_u2 = weight_s5_u2_.value_or(out_.law.penalty.weight_s5_u2);
@@ -243,7 +244,7 @@ class ProblemReader {
     const fs::path path = fs::path(sources_[file_].name()).parent_path() / table_.value;
     if (!fs::is_regular_file(path)) {
       tell(Code::problem_table, table_.span, fmt::format("there is no file {}", path.string()),
-           "the table lies beside the problem");
+           "the table is next to the problem file");
       return false;
     }
     std::vector<std::string> names;
@@ -261,7 +262,7 @@ class ProblemReader {
 
   void check_zones() {
     const double first = out_.law.s_u.front(), last = out_.law.s_u.back();
-    // behind those of the file a program may have some of its own
+    // a program may have zones of its own after those of the file
     for (std::size_t i = 0; i < zone_spans_.size(); ++i) {
       const planner::SpeedZone& zone = out_.law.zones[i];
       const bool before = zone.begin_u < first;

@@ -6,7 +6,7 @@
 
 namespace kadr::emulator {
 
-/// Reads the machine that a problem names: one that ships with kadr, or a file beside the problem.
+/// Reads the machine that a problem names: one that ships with kadr, or a file next to the problem.
 /// @return nothing if there is none or it has mistakes (in the context's diagnostics)
 std::optional<machine::MachineFile> open_problem_machine(SourceSet& sources, std::uint32_t file,
                                                          const machine::Reading<std::string>& name,

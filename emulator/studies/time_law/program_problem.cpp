@@ -170,7 +170,7 @@ bool ProgramProblem::choose_stretch(const planner::PathLimitTable& table, Progra
   }
   if (count == 1) return true;
   if (count > motions.size()) motions.push_back("...");
-  tell(Code::problem_program, segments[behind].span, "the machine stands still behind this move",
+  tell(Code::problem_program, segments[behind].span, "the machine stops after this move",
        fmt::format("one motion from rest to rest; here are {}: {}", count, fmt::join(motions, "; ")),
        "name one of them with path.from_line and path.to_line");
   return false;
@@ -179,7 +179,7 @@ bool ProgramProblem::choose_stretch(const planner::PathLimitTable& table, Progra
 bool ProgramProblem::few_enough(double nodes) {
   if (nodes <= kMostNodes) return true;
   tell(Code::problem_too_large, program_.span, fmt::format("the path has about {:.3g} nodes", nodes),
-       fmt::format("{:.0f}", kMostNodes), "take a larger path.node_mm, or fewer lines");
+       fmt::format("{:.0f}", kMostNodes), "use a larger path.node_mm, or fewer lines");
   return false;
 }
 
@@ -210,7 +210,7 @@ bool ProgramProblem::state_spline(const std::optional<double>& nodes, TimeLawPro
   const planner::Path& path = program.path;
   for (std::size_t i = program.run.first; i <= program.run.last; ++i) {
     if (path.segments[i].kind == planner::SegmentKind::line) continue;
-    tell(Code::problem_program, path.segments[i].span, "is no straight line",
+    tell(Code::problem_program, path.segments[i].span, "is not a straight line",
          "lines alone, whose ends are the points of a spline",
          "keep fit = \"exact\", or name the lines with path.from_line and path.to_line");
     return false;
@@ -227,7 +227,7 @@ bool ProgramProblem::state_spline(const std::optional<double>& nodes, TimeLawPro
          fmt::format("the spline is {:.6g} mm from this line, at s = {:.3f} mm", program.fit->deviation_u,
                      program.fit->deviation_s_u),
          fmt::format("{:g} mm, path.tolerance_mm", tolerance_.value),
-         "a corner is no point of a smooth path: end the stretch there, keep fit = \"exact\", or allow more");
+         "a smooth path has no corners: end the stretch there, keep fit = \"exact\", or allow more");
     return false;
   }
   std::optional<std::size_t> even;

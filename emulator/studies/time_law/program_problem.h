@@ -8,26 +8,26 @@
 
 namespace kadr::emulator {
 
-/// The part of a problem whose path is a stretch of a program: its keys, and what becomes of them.
+/// A problem whose path is a stretch of a program: its keys and how they are used.
 class ProgramProblem {
  public:
   ProgramProblem(SourceSet& sources, std::uint32_t file, machine::ReadContext& context)
       : sources_(sources), file_(file), context_(context) {}
 
-  /// The keys of [path] that such a problem has of its own; max_mm_s and others are read elsewhere.
+  /// The keys of [path] for such a problem; max_mm_s and others are read elsewhere.
   void read_path(machine::TableReader& keys);
-  /// An [[axis]]: limits that go before the machine's.
+  /// An [[axis]]: limits that override the machine's.
   void read_axis(const machine::Node& node);
 
   /// Opens machine and program, lays out the path and states it. Of `out` axes, program, warnings and law are
   /// set; limits along the path, end speeds, zones and accel_test stay.
-  /// @param nodes  of a spline: even nodes in place of its rows
+  /// @param nodes  of a spline: even nodes instead of its rows
   /// @return false if there are mistakes (in the context's diagnostics)
   bool place(const std::optional<double>& nodes, TimeLawProblem& out);
 
   const Span& program_span() const { return program_.span; }
   bool by_spline() const { return spline_; }
-  /// Where the first motion of a line begins, if the stretch has it. @pre place()
+  /// Where the first motion of a line begins, if the stretch contains it. @pre place()
   static std::optional<double> line_s_mm(const ProgramPath& program, std::uint32_t line,
                                          std::uint32_t program_file);
   std::uint32_t program_file() const { return program_file_; }

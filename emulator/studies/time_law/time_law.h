@@ -5,5 +5,4 @@
 #include "emulator/studies/time_law/sweep_report.h"
 #include "emulator/studies/time_law/tube_page.h"
 
-/// `kadr tube`: the time laws of paper 000 over a problem file or a stretch of a program, compared
-/// (docs/time_law.md).
+/// `kadr tube`: the time laws of paper 000 over a problem file or a stretch of a program, compared (docs/time_law.md).

@@ -84,7 +84,7 @@ class Page {
     return line;
   }
 
-  /// Edges of the tube of a pass: of the profile before, within 0 and the caps.
+  /// Edges of the tube of a pass: around the previous profile, within 0 and the caps.
   ChartBand tube_band(std::size_t pass) const {
     ChartBand band{"", "tube", {}, {}};
     const std::vector<double>& middle = study_.tube.profiles_mm_s[pass - 1];
@@ -140,7 +140,7 @@ class Page {
         count);
     std::string out = fmt::format(
         "<h2>Speed along the path, pass by pass</h2>\n<p>Each pass looks for the best "
-        "law in a tube round the one before.</p>\n{}",
+        "law in a tube around the previous one.</p>\n{}",
         render_svg(chart));
     std::vector<std::vector<std::string>> rows{{"s, mm", "highest"}};
     for (std::size_t pass = 0; pass < count; ++pass) rows[0].push_back(fmt::format("pass {}", pass + 1));

@@ -8,7 +8,7 @@
 namespace kadr::emulator {
 
 /// The laws of a problem as one HTML file without script: the speed along the path pass by pass with the
-/// tube's edges and what caps it, a close-up of the last passes, the speed of every method over time, each
+/// tube's edges and caps, a close-up of the last passes, the speed of every method over time, each
 /// with its numbers in a table. No wall clock, so equal runs give equal bytes.
 /// @param study  with the profiles of the tube, if it was asked for
 /// @param file   of the problem, for the headline

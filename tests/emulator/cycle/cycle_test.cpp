@@ -79,8 +79,7 @@ TEST_CASE("a program without motion takes its dwell time") {
 }
 
 namespace {
-/// Step sequence block by block: axis numbers in order of the pulses, signs included, joints from the block
-/// records.
+/// Step sequence block by block: axis numbers in order of the pulses, signs included, joints from the block records.
 std::vector<int> sequence_of_axis(const RunResult& r, std::size_t axis) {
   std::vector<int> list;
   for (const auto& t : r.log.ticks)
@@ -212,8 +211,7 @@ TEST_CASE("a signal ends the run after the control tick with outcome interrupted
 }
 
 TEST_CASE("a held feed costs a quarter of an acceleration tick along the path, and says so") {
-  // constant feed over a tick against a feed that changes by a tau: the distance is at most a tau^2 / 8 =
-  // 0.25 um
+  // constant feed over a tick against a feed that changes by a tau: the distance is at most a tau^2 / 8 = 0.25 um
   machine::MachineModel m = test_machine(1);
   RunResult linear, held;
   run_program(linear, "G1 X100 F6000\nM2\n", m);

@@ -115,7 +115,7 @@ TEST_CASE("steps on the path come into force with the first control tick that be
         PathPlace{Kind::line, 2, 1, 50}, PathPlace{Kind::block, 0, 1, 50}}) {
     Ride r;
     run_with(r, kCorner, {at_place(place, half, 0.5)});
-    CHECK(r.job.operator_steps[0].path_u == 50.0);
+    CHECK(r.job.step_places_u.at(0) == 50.0);
     const auto it = std::find_if(r.log.events.begin(), r.log.events.end(), [](const EventRecord& e) {
       return e.kind == emulator::EventKind::feed_override;
     });

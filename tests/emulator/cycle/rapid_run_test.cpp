@@ -7,7 +7,7 @@
 #include "tests/support/run_program.h"
 
 /// Rapids of planner.rapid_law in the emulated machine: real step pulses, two masses under CVODE, and what
-/// still swings after the stop.
+/// still vibrates after the stop.
 namespace kadr::test {
 namespace {
 
@@ -23,7 +23,7 @@ machine::MachineModel rig(RapidShape shape) {
 }
 
 struct Stop {
-  double swing_um = 0;   ///< largest |x1| from 0.2 s after the stop on, when the motor's own swing is gone
+  double swing_um = 0;  ///< largest |x1| from 0.2 s after the stop on, when the motor's own vibration is gone
   double stated_um = 0;  ///< amplitude that the plan says is left
   double time_s = 0;     ///< of the rapid
 };
@@ -95,7 +95,7 @@ TEST_CASE("ZVD keeps the emulated rig within 7.5 um over 10 % of its frequency, 
 }
 
 TEST_CASE("the swing on the emulated rig is that of the closed form") {
-  // a long move with damping: what the acceleration left has died down, and no T law is silent
+  // a long move with damping: the vibration after the acceleration has decayed, and no T law is silent
   for (const double zeta : {0.02, 0.04}) {
     machine::MachineModel m = rig(RapidShape::t_zero);
     machine::TwoMassModel& p = m.axis[0].plant;

@@ -5,11 +5,11 @@
 #include <string>
 
 #include "machine/base/require.h"
+#include "planner/planner.h"
 #include "tests/support/run_program.h"
 #include "tests/support/test_machine.h"
 
-// No broken plan leaves prepare(), no wrong node leaves run(): both end with a broken promise that names the
-// place.
+// No broken plan leaves prepare(), no wrong node leaves run(): both end with a broken promise that names the position.
 
 using namespace kadr;
 using namespace kadr::test;
@@ -167,8 +167,8 @@ TEST_CASE("prepare() refuses a pause that is too short, elsewhere, missing, or t
 TEST_CASE(
     "of a thousand blocks limits are looked at in the sample that the page states, the law everywhere") {
   // 64 blocks would be looked at wholly; of a thousand those from 0, 256, 512, 768 on, 16 each, and the
-  // last 16. The law needs some blocks to get fast, so blocks 480 to 560 are planned at 75 mm/s where 50 are
-  // programmed.
+  // last 16. The law needs some blocks to get fast, so blocks 480 to 560 are planned at 75
+  // mm/s where 50 are programmed.
   const std::string program = dense_program();
   CHECK(said_of(program, planner::plan).empty());
   const std::string said = said_of(program, too_fast_on(480, 560));
@@ -200,11 +200,10 @@ TEST_CASE("curves are verified but for acceleration and jerk of those that turn 
   CHECK(said_of(bend, planner::plan).empty());
   CHECK(has(said_of_damage([](auto& p) { hurry(p, 1.01); }, bend), "test.ngc:3: "));
   // the known fault: the tip of this one, 1.6 um wide, is passed far above the axis jerk. When the planner is
-  // mended, the exception goes (VerifyOptions::curves_that_turn_back), and the last line of this test with
-  // it.
+  // mended, the exception goes (VerifyOptions::curves_that_turn_back), and the last line of this test with it.
   const char* const tip = "G21 G90 G94 G17 G64\nF1200\nG5 X10 Y0 I30 J0.05 P20 Q0.05\nM2\n";
   CHECK(said_of(tip, planner::plan).empty());
-  // what is not excused there: feed and the law itself
+  // not exempt there: feed and the law itself
   CHECK(has(said_of_damage([](auto& p) { p.law.pieces[2].speed_u_s += 1e-3; }, tip), "continuity of speed"));
   emulator::Job job = make_job(tip, test_machine());
   Diagnostics diagnostics;

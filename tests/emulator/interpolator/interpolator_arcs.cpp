@@ -47,8 +47,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a quarter of 10 mm radius crosses the first half-steps where cosine and sine say") {
-  // x = 10 cos(phi): 9.9995 at phi = acos(0.99995) = 0.0100000417; y = 0.0005 at phi = asin(0.00005); s = 10
-  // phi
+  // x = 10 cos(phi): 9.9995 at phi = acos(0.99995) = 0.0100000417; y = 0.0005 at phi = asin(0.00005); s = 10 phi
   const auto machine = machine_with(2);
   PathMaker maker({10.0, 0.0});
   maker.arc(0, 1, -10.0, 0.0, 0.5 * kPi, 0.0, {0.0, 0.0});
@@ -86,7 +85,7 @@ TEST_CASE("a helix of 1000 turns has 1000 times the pulses of one turn and keeps
   maker.arc(0, 1, -1.0, 0.0, 1000 * 2 * kPi, 0.0, {0.0, 0.0, -50.0});
   const Run run =
       run_path(maker.path, machine, drive(maker.path.length_u(), 200.0, machine, Feed::linear, 1));
-  // radius 100 steps: 400 pulses a turn and axis
+  // radius 100 steps: 400 pulses per turn and axis
   CHECK(run.pulses == std::vector<std::int64_t>{400'000, 400'000, 5'000});
   check_ends(maker.path, machine, run);
 }

@@ -195,7 +195,7 @@ TEST_CASE("segment and joint are told: on a joint the ended segment, past it the
   interpolator.advance(motion(1, 1.0, 1.5, 1000.0, 0.0), batch);
   CHECK(interpolator.segment() == 1);
   CHECK_FALSE(interpolator.passed_joint());
-  // the corner lies between the ticks: the new direction holds just after it
+  // the corner lies between the ticks: the new direction applies just after it
   CHECK(batch.axis[0].command.speed_begin_u_s == 0.0);
   CHECK(batch.axis[1].command.speed_begin_u_s == 1000.0);
 
@@ -255,7 +255,7 @@ TEST_CASE("a line of 100 million steps needs no table and counts exactly") {
   emulator::CrossingInterpolator interpolator(maker.path, machine);
   StepBatch batch;
   std::int64_t net = 0;
-  // 40 m/s: 40,000 steps a tick
+  // 40 m/s: 40,000 steps per tick
   double s = 0;
   for (std::int64_t tick = 0; s < maker.path.length_u(); ++tick) {
     const double to = std::min(s + 40.0, maker.path.length_u());

@@ -36,7 +36,7 @@ std::vector<std::array<std::int64_t, 2>> lattice_nodes(const lattice::Curve& cur
   return nodes;
 }
 
-/// Nodes of a run after all pulses of one place.
+/// Nodes of a run after all pulses of one position.
 std::vector<std::array<std::int64_t, 2>> run_nodes(const Run& run) {
   std::vector<std::array<std::int64_t, 2>> nodes;
   std::array<std::int64_t, 2> at{};

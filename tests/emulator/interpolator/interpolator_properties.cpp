@@ -12,7 +12,7 @@ using emulator::lattice_node;
 
 namespace {
 
-/// Coordinates that hurt: anywhere, on nodes, on half-steps, unchanged, a hair beside.
+/// Difficult coordinates: anywhere, on nodes, on half-steps, unchanged, slightly off.
 double coordinate(Dice& dice, double from, double step_u, double reach_u) {
   switch (dice.whole(0, 5)) {
     case 0:
@@ -77,7 +77,7 @@ std::vector<std::tuple<std::size_t, std::int32_t, std::int32_t, double>> sequenc
   return all;
 }
 
-/// Rounding of coordinates and of path length, in steps: places nearer than that cannot be told apart.
+/// Rounding of coordinates and of path length, in steps: positions closer than that cannot be told apart.
 double blur_steps(const Case& c, std::size_t axis) {
   double reach = c.path.length_u();
   for (std::size_t i = 0; i <= c.path.size(); ++i) reach = std::max(reach, std::fabs(c.path.node(i)[axis]));

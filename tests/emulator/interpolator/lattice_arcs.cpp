@@ -112,7 +112,7 @@ TEST_CASE("lattice: radial errors of single circles are those of the study") {
 }
 
 TEST_CASE("lattice: random arcs both ways: the half-step misses no end and is never forced") {
-  // what the classic one misses is seen in a few of a hundred
+  // the classic method misses in a few of a hundred cases
   const std::uint64_t count = std::max<std::uint64_t>(environment_count("KADR_COUNT", 1'500), 300);
   std::mt19937 random(static_cast<unsigned>(kadr::test::property_seed(7)));
   Worst half, extra, classic;
@@ -144,8 +144,7 @@ TEST_CASE("lattice: random arcs both ways: the half-step misses no end and is ne
 }
 
 TEST_CASE("lattice: the half-step circle visits just the dual squares that the circle meets") {
-  // an independent walk: from square to square through the side that the circle x = R cos, y = R sin leaves
-  // by
+  // an independent walk: from square to square through the side that the circle x = R cos, y = R sin leaves by
   for (int r = 1; r <= 60; ++r) {
     const Trace t = trace(ArcCurve{{r, 0}, {0, r}, Turn::ccw}, Method::half_step);
     PlaneNode n{r, 0};

@@ -158,7 +158,7 @@ TEST_CASE(
                       .end_reached);
       options.fraction_bits = 44;
     }
-  // what would leave 128 bits is refused: y = x^6 at x = 20000 is 6.4e25
+  // values beyond 128 bits are refused: y = x^6 at x = 20000 is 6.4e25
   const lattice::Polynomial steep({{1, 0, 1}, {-1, 6, 0}});
   CHECK(lattice::make_stepper(lattice::ImplicitCurve{steep, {20'000, 0}, {20'005, 0}, 1}, Method::newton)
             .refusal == lattice::Refusal::range);
@@ -215,7 +215,7 @@ TEST_CASE("lattice: quadratic Beziers as integer conics meet their ends") {
     if (lattice::make_stepper(q, Method::half_step).refusal == lattice::Refusal::in_line) continue;
     ++curves;
     CHECK(t.end_reached);
-    // the events of the same curve are within the same half step, another way to the same pulses
+    // the events of the same curve are within the same half step, found by another method
     const Trace events = trace(q, Method::crossing);
     CHECK(events.end_reached);
     const auto at = [&](double u) {

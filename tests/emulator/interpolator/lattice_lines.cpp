@@ -220,8 +220,7 @@ TEST_CASE("lattice: with two axes the half-crossing order is the half-step path"
 }
 
 TEST_CASE("lattice: a DDA idles where its modulus is longer than the line") {
-  // 7 x 4 in registers of 8: nothing overflows in the first of 8 slots, then X always and Y in every second
-  // one
+  // 7 x 4 in registers of 8: nothing overflows in the first of 8 slots, then X always and Y in every second one
   const Trace t = trace(line({7, 4}), Method::dda);
   CHECK(t.slots.size() == 8);
   CHECK(t.idle == 1);

@@ -1,16 +1,31 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <kadr/axis_t.hpp>
+#include <kadr/block_end_t.hpp>
+#include <kadr/block_t.hpp>
+#include <kadr/diag_t.hpp>
+#include <kadr/event_t.hpp>
+#include <kadr/feed_t.hpp>
+#include <kadr/run_t.hpp>
+#include <kadr/steps_t.hpp>
+#include <kadr/summary_t.hpp>
+#include <kadr/ticks_t.hpp>
+#include <map>
 #include <sstream>
 
-#include "emulator/log/log_types.h"
+#include "emulator/log/describe.h"
 #include "emulator/log/pulse_code.h"
 #include "log_support.h"
 
-/// docs/log_format.md says what the log is.
+/// The log as docs/log_format.md describes it.
 using namespace kadr;
 using namespace kadr::emulator;
 
@@ -21,6 +36,27 @@ std::string document() {
   std::stringstream text;
   text << in.rdbuf();
   return text.str();
+}
+
+/// The part of a file from `begin` up to `end` (empty: the file's begin, its end) is `text`. KADR_REGENERATE
+/// writes it.
+void check_file(const std::string& path, const std::string& begin, const std::string& end,
+                const std::string& text) {
+  std::ifstream in(path);
+  std::stringstream stream;
+  stream << in.rdbuf();
+  std::string file = stream.str();
+  const std::size_t from = begin.empty() ? 0 : file.find(begin);
+  REQUIRE(from != std::string::npos);
+  const std::size_t to = end.empty() ? file.size() : file.find(end, from);
+  REQUIRE(to != std::string::npos);
+  if (std::getenv("KADR_REGENERATE") != nullptr) {
+    file.replace(from, to - from, text);
+    std::ofstream(path) << file;
+    return;
+  }
+  CAPTURE(path);
+  CHECK(file.substr(from, to - from) == text);
 }
 
 /// Output of a shell command, with its exit status.
@@ -36,23 +72,50 @@ std::pair<int, std::string> run(const std::string& command) {
 
 }  // namespace
 
-TEST_CASE("docs/log_format.md names every channel with its type's fingerprint") {
-  const std::string text = document();
-  const std::array<std::pair<MessageKind, std::string>, 10> rows{
-      {{MessageKind::run, "| `KADR_RUN` | `run_t` |"},
-       {MessageKind::block, "| `KADR_BLOCK` | `block_t` |"},
-       {MessageKind::block_end, "| `KADR_BLOCK_END` | `block_end_t` |"},
-       {MessageKind::ticks, "| `KADR_TICKS` | `ticks_t` |"},
-       {MessageKind::steps, "| `KADR_STEPS` | `steps_t` |"},
-       {MessageKind::feed, "| `KADR_FEED` | `feed_t` |"},
-       {MessageKind::axis, "| `KADR_AXIS_X` ... | `axis_t` |"},
-       {MessageKind::event, "| `KADR_EVENT` | `event_t` |"},
-       {MessageKind::diag, "| `KADR_DIAG` | `diag_t` |"},
-       {MessageKind::summary, "| `KADR_SUMMARY` | `summary_t` |"}}};
-  for (const auto& [kind, row] : rows) {
-    const std::string line = fmt::format("{} {:016x} |", row, static_cast<std::uint64_t>(fingerprint(kind)));
-    CAPTURE(line);
-    CHECK(text.find(line) != std::string::npos);
+TEST_CASE("emulator/log/kadr.lcm is what the channels' tables say") {
+  check_file(KADR_SOURCE_DIR "/emulator/log/kadr.lcm", "", "", lcm_definition());
+}
+
+TEST_CASE("docs/log_format.md has every channel with its fingerprint, and every field with its unit") {
+  const std::string path = KADR_SOURCE_DIR "/docs/log_format.md";
+  check_file(path, "| channel | type |", "\nExact channels and viewer", channel_table());
+  check_file(path, "### KADR_RUN (run_t)", "", field_tables());
+}
+
+TEST_CASE("every table in emulator/log/channels is in the list of channels") {
+  std::vector<std::string> listed;
+  for (const ChannelDescription& channel : describe_channels()) listed.emplace_back(channel.title.name);
+  std::size_t tables = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(KADR_SOURCE_DIR "/emulator/log/channels")) {
+    if (entry.path().extension() != ".h") continue;
+    std::ifstream in(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    const std::size_t title = text.find("ChannelTitle info{");
+    CAPTURE(entry.path());
+    REQUIRE(title != std::string::npos);
+    const std::size_t name = text.find('"', title) + 1;
+    CHECK(std::count(listed.begin(), listed.end(), text.substr(name, text.find('"', name) - name)) == 1);
+    ++tables;
+  }
+  CHECK(tables == listed.size());
+}
+
+TEST_CASE("the tables' fingerprints are those of lcm-gen's classes") {
+  const std::map<std::string, std::int64_t> made{{"run_t", run_t::getHash()},
+                                                 {"block_t", block_t::getHash()},
+                                                 {"block_end_t", block_end_t::getHash()},
+                                                 {"ticks_t", ticks_t::getHash()},
+                                                 {"steps_t", steps_t::getHash()},
+                                                 {"feed_t", feed_t::getHash()},
+                                                 {"axis_t", axis_t::getHash()},
+                                                 {"event_t", event_t::getHash()},
+                                                 {"diag_t", diag_t::getHash()},
+                                                 {"summary_t", summary_t::getHash()}};
+  for (const ChannelDescription& channel : describe_channels()) {
+    CAPTURE(channel.title.type);
+    const auto it = made.find(std::string(channel.title.type));
+    if (it == made.end()) continue;  // its kadr.lcm is compared word by word above
+    CHECK(channel.fingerprint == it->second);
   }
 }
 

@@ -49,7 +49,7 @@ volatile std::sig_atomic_t interrupted = 0;
   const std::int64_t valid = done.error().valid_until.value;
   const bool full =
       done.error().reason == "No space left on device" || done.error().reason == "File too large";
-  // what failed once fails again: nothing is written behind the gap
+  // after one failure every write fails: nothing is written after the gap
   test::FakeRun again(machine);
   const TickRecord& record = again.advance();
   const bool stays = !(*log)->tick(record, again.batch()).has_value() || !(*log)->end({}).has_value();

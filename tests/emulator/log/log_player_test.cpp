@@ -85,12 +85,12 @@ bool carries_multicast(const std::string& url) {
 pid_t start_player(const std::string& path, const std::string& url) {
   const pid_t id = ::fork();
   if (id != 0) return id;
-  // twice the simulated speed: a few hundred kilobytes a second
+  // twice the simulated speed: a few hundred kilobytes per second
   ::execlp("lcm-logplayer", "lcm-logplayer", "-s", "2", "-l", url.c_str(), path.c_str(), nullptr);
   ::_exit(127);
 }
 
-/// Receives until as many messages came as expected, or nothing has come for a second after `done` said yes.
+/// Receives until the expected number of messages came, or none for a second after `done` returned true.
 template <class Done>
 void receive_all(Receiver& receiver, std::size_t expected, Done&& done) {
   const auto give_up = Clock::now() + kPatience;
@@ -136,7 +136,7 @@ Verdict replay(const std::string& path, const std::string& url) {
   return compare(receiver.messages, written);
 }
 
-/// Publishes a run live, with a file besides, and compares both.
+/// Publishes a run live and to a file, and compares both.
 Verdict publish(const std::string& path, const std::string& url) {
   Receiver receiver(url);
   if (!receiver.good()) return Verdict::no_multicast;
@@ -155,7 +155,7 @@ Verdict publish(const std::string& path, const std::string& url) {
   return compare(receiver.messages, written);
 }
 
-/// A network of its own: loopback up, multicast routed to it. False if this host allows none.
+/// A separate network: loopback up, multicast routed to it. False if this host allows none.
 bool enter_own_network() {
   const int spaces = ::geteuid() == 0 ? CLONE_NEWNET : CLONE_NEWNET | CLONE_NEWUSER;
   if (::unshare(spaces) != 0) return false;

@@ -68,8 +68,7 @@ class FakeRun {
   emulator::TickRecord record_;
 };
 
-/// True if the exact data of a log, as far as it goes, are those of the FakeRun, pulse by pulse and bit by
-/// bit.
+/// True if the exact data of a log, as far as it goes, are those of the FakeRun, pulse by pulse and bit by bit.
 bool holds_fake_run(const std::string& path, const machine::MachineModel& machine,
                     FakeRunOptions options = {});
 
@@ -83,7 +82,7 @@ std::int64_t write_log(const std::string& path, const machine::MachineModel& mac
                        std::int64_t control_ticks, FakeRunOptions options = {},
                        emulator::Outcome outcome = emulator::Outcome::complete);
 
-/// A folder of its own for one test case, removed with everything in it.
+/// A new folder for one test case, removed with everything in it.
 class TestFolder {
  public:
   TestFolder();

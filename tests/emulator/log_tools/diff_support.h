@@ -7,7 +7,7 @@
 
 #include "tests/emulator/log/log_support.h"
 
-/// Logs that differ in a known place, for the tests of the comparison.
+/// Logs that differ at a known position, for the tests of the comparison.
 namespace kadr::test {
 
 /// One control tick before it is written; everything in it may be changed.
@@ -22,7 +22,7 @@ struct ChangeableTick {
 using ChangeTick = std::function<void(ChangeableTick&)>;
 
 /// Writes a FakeRun with a block every 100 ticks and an event every 250, changed by `change`.
-/// @param header  what stands in KADR_RUN; its machine is used
+/// @param header  the contents of KADR_RUN; its machine is used
 void write_changed(const std::string& path, const emulator::RunHeader& header, std::int64_t control_ticks,
                    const ChangeTick& change = {}, emulator::Outcome outcome = emulator::Outcome::complete);
 

@@ -20,8 +20,7 @@ TEST_CASE("a pattern's star stands for any text, also none") {
 }
 
 TEST_CASE("an envelope keeps the lowest and highest value of a run of any length") {
-  // 1000 values of 1 ms in at most 8 pieces: 1000/8 = 125 ms needs pieces of 128 ms, so 8 of them; a spike at
-  // 0.500 s
+  // 1000 values of 1 ms in at most 8 pieces: 1000/8 = 125 ms needs pieces of 128 ms, so 8 of them; a spike at 0.500 s
   Envelope envelope(0, 0.001, 8);
   for (int i = 1; i <= 1000; ++i) envelope.add(0.001 * i, i == 500 ? -7 : i == 777 ? 9 : 1);
   const auto pieces = envelope.pieces();

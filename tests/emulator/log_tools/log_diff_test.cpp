@@ -172,8 +172,7 @@ TEST_CASE("a tolerance holds up to its edge") {
   const Two two([](ChangeableTick& tick) {
     if (tick.number == 100) tick.states[0].link_u = 0.5;
   });
-  // the made-up run has ripple = 1e-4 ((3700 + 0) mod 101 - 50) = 1.4e-3 there, and link = -3 ripple =
-  // -0.0042 mm
+  // the made-up run has ripple = 1e-4 ((3700 + 0) mod 101 - 50) = 1.4e-3 there, and link = -3 ripple = -0.0042 mm
   DiffOptions below, above;
   REQUIRE(add_tolerance(below.tolerance, "link=0.50419mm").has_value());
   REQUIRE(add_tolerance(above.tolerance, "link=504.21um").has_value());

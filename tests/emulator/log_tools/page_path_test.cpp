@@ -82,7 +82,7 @@ TEST_CASE("corners of a circle keep its chord; a chord of 5 um at 20 mm is 0.9 m
   CHECK(farthest_mm(path, corners, {0.001, 0.001}) <= 0.005 + 1e-6);
   CHECK(corners.size() > 1000 / 19);
   CHECK(corners.size() < 1000 / 14);
-  // the check sees: with half the corners the chord is four times as high
+  // the check works: with half the corners the chord is four times as high
   PathCorners fewer{{}, {{}, {}}};
   for (std::size_t i = 0; i < corners.size(); i += 2) {
     fewer.ticks.push_back(corners.ticks[i]);
@@ -147,6 +147,6 @@ TEST_CASE(
   CHECK(starts(1000) == std::vector<std::int64_t>{69'500, 1000});
   CHECK(starts(2000) == std::vector<std::int64_t>{39'502, 1000, 69'500, 1000});
   CHECK(starts(3000) == std::vector<std::int64_t>{19'500, 1000, 39'502, 1000, 69'500, 1000});
-  // what overlaps is one: 69.5 to 70.8 s
+  // overlapping intervals are joined: 69.5 to 70.8 s
   CHECK(starts(10'000) == std::vector<std::int64_t>{19'500, 1000, 39'502, 1000, 69'500, 1300});
 }

@@ -15,7 +15,7 @@ using kadr::test::write_path_log;
 
 namespace {
 
-/// A run at 50 mm/s beside another one.
+/// A run at 50 mm/s next to another one.
 struct Pair {
   TestFolder folder;
   machine::MachineModel machine_a = test::log_machine(3), machine_b = machine_a;

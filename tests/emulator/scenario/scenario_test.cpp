@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder of its own for the files of one case.
+/// A new folder for the files of one case.
 class Folder {
  public:
   Folder() {
@@ -175,7 +175,7 @@ pulses = 1
   CHECK(text.find("within_s is not given") != std::string::npos);
   CHECK(text.find("a hash has 16 hexadecimal digits") != std::string::npos);
   CHECK(text.find("there is no code K7777") != std::string::npos);
-  CHECK(text.find("'Q' is no axis letter") != std::string::npos);
+  CHECK(text.find("'Q' is not an axis letter") != std::string::npos);
 }
 
 TEST_CASE("a winding is given by its parameters, checked like every key") {

@@ -86,7 +86,7 @@ TEST_CASE("a technology point at a length of the path cuts the move there, and c
   CHECK(end_feed_mm_s(job, 1) == doctest::Approx(20.0).epsilon(1e-6));
   CHECK(end_feed_mm_s(job, 2) > 99.0);
   CHECK(planner::verify(job.path, job.plan, job.machine.model).empty());
-  // what happens between moves stays at its joint
+  // events between moves stay at their joint
   for (std::size_t i = 0; i < free.events.size(); ++i) {
     const std::size_t at = free.events[i].after_segment;
     CHECK(job.path.start_s_u[job.events[i].after_segment] == free.path.start_s_u[at]);

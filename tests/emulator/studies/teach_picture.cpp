@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kCases = 4000;
 
-/// 2^degree F at a tested place.
+/// 2^degree F at a tested point.
 lattice::Wide at(const lattice::Polynomial& f, TestedPlace p) { return f.doubled(p.x2, p.y2); }
 
 TeachCase one(Curve curve) {
@@ -28,7 +28,7 @@ TeachCase one(Curve curve) {
 
 StepTable followed(const Curve& curve, Method method) { return follow(one(curve), method, {}).table; }
 
-/// What 2^degree F at the tested places is, said by the slot itself: the numbers of the step table.
+/// 2^degree F at the tested points, from the slot itself: the numbers of the step table.
 bool agrees(const Curve& curve, Method method, const lattice::Polynomial& f,
             const std::vector<TestedPlace>& places, const lattice::Slot& slot) {
   const bool arc = std::holds_alternative<lattice::ArcCurve>(curve);
@@ -38,7 +38,7 @@ bool agrees(const Curve& curve, Method method, const lattice::Polynomial& f,
     case Method::half_step:
     case Method::crossing:  // a circle's N is F' - 1/2, so 4 F' = 4 N + 2
       return at(f, places[0]) == (arc ? 4 * lattice::Wide{slot.tested} + 2 : lattice::Wide{slot.tested});
-    case Method::diagonal: {  // beside the neighbour along the longer axis: V = -2 F where that is X, 2 F
+    case Method::diagonal: {  // next to the neighbour along the longer axis: V = -2 F where that is X, 2 F
                               // where Y
       const auto& d = std::get<lattice::LineCurve>(curve).delta;
       const bool x_leads = lattice::magnitude(d[0]) >= lattice::magnitude(d[1]);
@@ -154,8 +154,7 @@ TEST_CASE("the speed rose: 1 along an axis, 1/sqrt 2 or sqrt 2 across, L/(a + b)
 }
 
 TEST_CASE("20,000 traces have one hash, the one that the page's core has in WebAssembly") {
-  // tests/web/teach_test.mjs demands the same of the core; d508b1107e158b18 was found by g++, clang++ and
-  // wasm32
+  // tests/web/teach_test.mjs demands the same of the core; d508b1107e158b18 was found by g++, clang++ and wasm32
   CHECK(sweep_hash(0, 20'000) == 0xd508b1107e158b18ULL);
   // in pieces the same, and one case more or less is seen
   CHECK(sweep_hash(10'000, 10'000, sweep_hash(0, 10'000)) == 0xd508b1107e158b18ULL);

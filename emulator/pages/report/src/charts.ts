@@ -65,7 +65,7 @@ export class Charts {
   }
 
   private add(group: Group, k: number, last: boolean, width: number): void {
-    const box = made('div', '', 'chart'), title = made('h3', `${say(group.title)}, ${group.unit}`);
+    const box = made('div', '', 'chart'), title = made('h3', say(group.title) + (group.unit ? `, ${group.unit}` : ''));
     const values: HTMLElement[] = [];
     const colours = group.curves.map((_, i) => css(`--c${i % 6}`));
     group.names.forEach((name, i) => {

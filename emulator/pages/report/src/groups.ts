@@ -7,6 +7,10 @@ export interface Group { title: string; unit: string; curves: Curve[]; names: st
 const OF_AXES = [['Following error', '.following'], ['Vibration', '.vibration'], ['Axis speed', '.speed'], ['Axis acceleration', '.acceleration'],
   ['Axis jerk', '.jerk'], ['Step rate', '.step_rate']] as const;
 
+/** Signals that have a chart below, by begin or part of the name. Each other one has a chart of its own, titled with its name in the log. */
+const CHARTED = ['feed.', 'path.', ...OF_AXES.map(([, part]) => part)];
+const further = (run: Run): Track[] => [...run.tracks.values()].filter((t) => !CHARTED.some((c) => (c.startsWith('.') ? t.name.startsWith('axis.') && t.name.includes(c) : t.name.startsWith(c))));
+
 /** One run: alike signals of its axes in one chart. */
 export function groupsOf(run: Run, scale: Scale): Group[] {
   const out: Group[] = [];
@@ -27,6 +31,7 @@ export function groupsOf(run: Run, scale: Scale): Group[] {
       add(title, same, same.map((t) => t.name.split('.')[1]));
     }
   }
+  for (const track of further(run)) add(track.name, [track], [track.name]);
   return out;
 }
 
@@ -49,5 +54,6 @@ export function comparedGroups(runs: Run[], scales: Scale[], letters: string[]):
   add('Acceleration along the path', 'feed.acceleration');
   const axes = new Set(runs.flatMap((run) => run.meta.axes.map((a) => a.name)));
   for (const [title, part] of OF_AXES) for (const axis of axes) add(`${title} ${axis}`, `axis.${axis}${part}`);
+  for (const name of new Set(runs.flatMap((run) => further(run).map((t) => t.name)))) add(name, name);
   return out;
 }

@@ -36,9 +36,9 @@ function refusal(name: string): string {
   switch (name) {
     case 'no_length': return either('both ends are one node', 'оба конца — один узел');
     case 'other_curve': return either(`${state.method} doesn\u2019t follow this curve`, `${state.method} не следует этой кривой`);
-    case 'off_curve': return either('the end lies more than 0.707 steps beside the circle through the beginning', 'конец дальше 0.707 шага от окружности через начало');
+    case 'off_curve': return either('the end is more than 0.707 steps off the circle through the start', 'конец дальше 0.707 шага от окружности через начало');
     case 'one_quadrant': return either(`${state.method} stays within the quadrant of its beginning`, `${state.method} остаётся в квадранте своего начала`);
-    case 'in_line': return either('the control points are in line, so it is no conic', 'точки лежат на прямой, это не коника');
+    case 'in_line': return either('the control points are collinear, so this is not a conic', 'точки лежат на прямой, это не коника');
     case 'too_long': return either(`no end after ${MOST_SLOTS} slots, which is all a page can show`, `нет конца после ${MOST_SLOTS} тактов, больше страница не покажет`);
     default: return either('a coordinate is too large', 'слишком большая координата');
   }

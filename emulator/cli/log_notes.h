@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "emulator/cli/console.h"
+#include "emulator/log/log_reader.h"
+
+namespace kadr::cli {
+
+/// Says what of a log of a newer kadr was passed over: a note for each channel.
+void note_passed_over(const std::string& path, const emulator::LogEnd& end, Console& console);
+
+}  // namespace kadr::cli
