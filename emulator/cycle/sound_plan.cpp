@@ -16,7 +16,8 @@ std::string unit_of(const planner::Violation& v, const machine::MachineModel& ma
   const std::string_view what = v.what;
   const auto has = [&](std::string_view word) { return what.find(word) != std::string_view::npos; };
   if (what == "kl" || what == "table size") return "";
-  if (has("time") || has("duration") || has("ticks") || what == "pause" || what == "block end inside a piece") return " s";
+  if (has("time") || has("duration") || has("ticks") || what == "pause" || what == "block end inside a piece")
+    return " s";
   const bool rotary = v.axis >= 0 && is_rotary_letter(machine.axis[static_cast<std::size_t>(v.axis)].letter);
   const std::string length = rotary ? " deg" : " mm";
   if (has("jerk")) return length + "/s3";
@@ -60,8 +61,8 @@ std::string violation_text(const planner::Violation& v, const Job& job) {
 }  // namespace
 
 void require_sound_plan(const Job& job) {
-  const auto found = planner::verify(job.path, job.plan, job.machine.model, planner::production_check(),
-                                     pauses(job));
+  const auto found =
+      planner::verify(job.path, job.plan, job.machine.model, planner::production_check(), pauses(job));
   if (!found.empty()) throw BrokenPromise(violation_text(found.front(), job));
 }
 

@@ -97,8 +97,8 @@ struct Pause {
 };
 
 struct FeedPlan {
-  std::vector<SegmentPlan> segments;  ///< [path.size()]
-  MotionLaw law;                      ///< pauses included
+  std::vector<SegmentPlan> segments;          ///< [path.size()]
+  MotionLaw law;                              ///< pauses included
   std::vector<PositionedSegment> positioned;  ///< ascending
   double motion_s = 0;                        ///< what the law would last without its pauses
   double pause_s = 0;                         ///< sum of the pauses

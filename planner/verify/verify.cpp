@@ -98,7 +98,8 @@ class Verifier {
     check_pauses();
     if (!full() && plan_.segments.size() == path_.size())
       verify_blocks(
-          plan_, machine_, options_, pauses_.size(), [this](std::size_t i) { return jerk_limited(i); }, found_);
+          plan_, machine_, options_, pauses_.size(), [this](std::size_t i) { return jerk_limited(i); },
+          found_);
     return std::move(found_);
   }
 
@@ -455,7 +456,8 @@ class Verifier {
     // the copies of a shaped rapid need not overlap
     const auto between_copies = [this](double s) {
       const std::size_t i = segment_at(s);
-      return positions(i) && s - path_.start_s_u[i] > tolerance_s_ && path_.start_s_u[i + 1] - s > tolerance_s_;
+      return positions(i) && s - path_.start_s_u[i] > tolerance_s_ &&
+             path_.start_s_u[i + 1] - s > tolerance_s_;
     };
     verify_pauses(path_, plan_, machine_, pauses_, tolerance_s_, between_copies, options_, found_);
   }

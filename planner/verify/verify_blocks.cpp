@@ -134,7 +134,8 @@ double StatedJumps::stated_jump_u_s(double time_s) {
 }
 
 void verify_blocks(const FeedPlan& plan, const machine::MachineModel& machine, const VerifyOptions& options,
-                   std::size_t pauses, const std::function<bool(std::size_t)>& jerk_limited, std::vector<Violation>& found) {
+                   std::size_t pauses, const std::function<bool(std::size_t)>& jerk_limited,
+                   std::vector<Violation>& found) {
   if (is_blockwise(machine)) BlockVerifier(plan, machine, options, pauses, jerk_limited, found).run();
 }
 

@@ -38,6 +38,7 @@ class StatedJumps {
 /// @param pauses        how many the law has
 /// @param jerk_limited  whether anything limits the jerk on a segment
 void verify_blocks(const FeedPlan& plan, const machine::MachineModel& machine, const VerifyOptions& options,
-                   std::size_t pauses, const std::function<bool(std::size_t)>& jerk_limited, std::vector<Violation>& found);
+                   std::size_t pauses, const std::function<bool(std::size_t)>& jerk_limited,
+                   std::vector<Violation>& found);
 
 }  // namespace kadr::planner

@@ -64,11 +64,11 @@ std::string dense_program() {
 
 /// Plans the path as if its segments from `first` to the one before `last` allowed half as much feed again.
 emulator::PlanFunction too_fast_on(std::size_t first, std::size_t last) {
-  return [=](planner::Path path, const machine::MachineModel& machine,
-             std::span<const planner::Pause> pauses) {
-    for (std::size_t i = first; i < last; ++i) path.segments[i].feed_u_s *= 1.5;
-    return planner::plan(path, machine, pauses);
-  };
+  return
+      [=](planner::Path path, const machine::MachineModel& machine, std::span<const planner::Pause> pauses) {
+        for (std::size_t i = first; i < last; ++i) path.segments[i].feed_u_s *= 1.5;
+        return planner::plan(path, machine, pauses);
+      };
 }
 
 }  // namespace
