@@ -19,11 +19,18 @@
 /// The cycle: program -> path -> law -> step pulses -> plant -> log, event to event.
 namespace kadr::emulator {
 
+/// How a wait ends (M66).
+struct WaitOutcome {
+  bool reached = false;  ///< the awaited level or edge came; always of an immediate reading
+  double value = 0;      ///< of the input as the wait ends
+  double waited_s = 0;
+};
+
 /// What happens between motions, in program order.
 struct ProgramEvent {
-  gcode::Block block;             ///< dwell, spindle, coolant, tool, output, message, stop, end ...; a wait
-                                  ///< carries what came of it: value, on = reached, dwell_s = time waited
+  gcode::Block block;             ///< dwell, spindle, coolant, tool, output, wait, message, stop, end ...
   std::size_t after_segment = 0;  ///< number of path segments before it
+  WaitOutcome wait = {};          ///< of a wait
 };
 
 /// A step of the scenario's timeline: what an input reads from a control tick on, until its next step.
@@ -122,7 +129,7 @@ bool lay_out(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = Sof
 
 /// Time that a dwell, a wait or a tool change holds the machine, seconds; a whole number of control ticks
 /// where motions end on them too. 0 for everything else.
-double hold_time_s(const gcode::Block& block, const machine::MachineModel& machine);
+double hold_time_s(const ProgramEvent& event, const machine::MachineModel& machine);
 
 /// The standstills that the program asks of plan(), ascending.
 std::vector<planner::Pause> pauses(const Job& job);

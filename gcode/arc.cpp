@@ -31,8 +31,8 @@ ArcLimits arc_limits(bool inches, double tolerance_mm, double tolerance_relative
   return {std::max(least, tolerance_mm), tolerance_relative, ceiling};
 }
 
-Arc arc_about(PlanePoint start, PlanePoint end, PlanePoint center, const ArcLimits& limits) {
-  Arc arc;
+ArcGeometry arc_about(PlanePoint start, PlanePoint end, PlanePoint center, const ArcLimits& limits) {
+  ArcGeometry arc;
   arc.center = center;
   arc.radius_start_mm = distance(start, center);
   arc.radius_end_mm = distance(end, center);
@@ -45,8 +45,8 @@ Arc arc_about(PlanePoint start, PlanePoint end, PlanePoint center, const ArcLimi
   return arc;
 }
 
-Arc arc_of_radius(PlanePoint start, PlanePoint end, double radius_mm, bool clockwise) {
-  Arc arc;
+ArcGeometry arc_of_radius(PlanePoint start, PlanePoint end, double radius_mm, bool clockwise) {
+  ArcGeometry arc;
   const double along_first = end.first_mm - start.first_mm;
   const double along_second = end.second_mm - start.second_mm;
   const double chord = std::sqrt(along_first * along_first + along_second * along_second);

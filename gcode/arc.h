@@ -37,7 +37,7 @@ enum class ArcFault : std::uint8_t {
   no_chord,          ///< R format with start = end: any centre would do
 };
 
-struct Arc {
+struct ArcGeometry {
   ArcFault fault = ArcFault::none;
   PlanePoint center;
   double radius_start_mm = 0;
@@ -48,12 +48,12 @@ struct Arc {
 };
 
 /// The arc about a given centre.
-Arc arc_about(PlanePoint start, PlanePoint end, PlanePoint center, const ArcLimits& limits);
+ArcGeometry arc_about(PlanePoint start, PlanePoint end, PlanePoint center, const ArcLimits& limits);
 
 /// The arc of a given radius, R format: R > 0 the arc up to half a turn, R < 0 the other one.
 ///   centre = mid of chord + n · sqrt(R² - (chord/2)²), n the left normal of the chord for G3, R > 0 and G2,
 ///   R < 0
-Arc arc_of_radius(PlanePoint start, PlanePoint end, double radius_mm, bool clockwise);
+ArcGeometry arc_of_radius(PlanePoint start, PlanePoint end, double radius_mm, bool clockwise);
 
 /// Angle travelled, > 0, in radians: (0, 2 pi] for one turn (start = end: a whole one), 2 pi more for each
 /// further.

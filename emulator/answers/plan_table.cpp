@@ -16,12 +16,6 @@ namespace {
 
 constexpr std::size_t kTextWidth = 34;
 
-std::string pause_name(const gcode::Block& block) {
-  return block.kind == gcode::BlockKind::dwell        ? "dwell"
-         : block.kind == gcode::BlockKind::wait_input ? "wait"
-                                                      : "tool change";
-}
-
 std::size_t width_of(double largest, int decimals, std::size_t least) {
   return std::max(least, fixed(largest, decimals).size());
 }
@@ -83,11 +77,11 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
     for (; next_event < job.events.size() && job.events[next_event].after_segment <= segment; ++next_event) {
       const gcode::Block& block = job.events[next_event].block;
       PlanRow row;
-      row.time_s = hold_time_s(block, machine);
+      row.time_s = hold_time_s(job.events[next_event], machine);
       if (!(row.time_s > 0)) continue;
       row.line = block.span.line;
       row.text = job.sources[block.span.file].line(row.line);
-      row.motion = pause_name(block);
+      row.motion = gcode::kBlockKinds.word(block.kind());
       row.begin_s = time_s;
       row.blockwise = is_blockwise(job);
       time_s += row.time_s;

@@ -5,13 +5,6 @@
 
 namespace kadr::emulator {
 
-/// How a wait ends (M66).
-struct WaitOutcome {
-  bool reached = false;  ///< what was waited for came; always of an immediate reading
-  double value = 0;      ///< of the input as the wait ends
-  double waited_s = 0;
-};
-
 /// Follows one input from a time on. An input reads 0 until its first step; a step holds from the beginning
 /// of its control tick. Rise and fall are steps after `begin_s`; high and low may hold already.
 /// @param steps  ascending by tick

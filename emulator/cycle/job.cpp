@@ -14,7 +14,6 @@ namespace kadr::emulator {
 namespace {
 
 using gcode::Block;
-using gcode::BlockKind;
 
 gcode::InterpretOptions interpret_options(const Job& job) {
   const machine::MachineModel& machine = job.machine.model;
@@ -37,11 +36,12 @@ gcode::InterpretOptions interpret_options(const Job& job) {
 
 }  // namespace
 
-double hold_time_s(const Block& block, const machine::MachineModel& machine) {
-  const bool waits = block.kind == BlockKind::dwell || block.kind == BlockKind::wait_input;
-  const double wish_s = waits                                  ? block.dwell_s
-                        : block.kind == BlockKind::change_tool ? machine.planner.tool_change_s
-                                                               : 0.0;
+double hold_time_s(const ProgramEvent& event, const machine::MachineModel& machine) {
+  const auto* dwell = std::get_if<gcode::Dwell>(&event.block.action);
+  const double wish_s = dwell != nullptr                               ? dwell->time_s
+                        : gcode::is<gcode::InputWait>(event.block)  ? event.wait.waited_s
+                        : gcode::is<gcode::ChangeTool>(event.block) ? machine.planner.tool_change_s
+                                                                    : 0.0;
   if (!(wish_s > 0) || !machine.planner.whole_ticks) return std::max(wish_s, 0.0);
   const double tau_s = machine.clock.tau_s();
   // 1e-9: a dwell of whole ticks stays what it is although it was read from decimals
@@ -51,7 +51,7 @@ double hold_time_s(const Block& block, const machine::MachineModel& machine) {
 std::vector<planner::Pause> pauses(const Job& job) {
   std::vector<planner::Pause> pauses;
   for (const ProgramEvent& event : job.events)
-    if (const double hold_s = hold_time_s(event.block, job.machine.model); hold_s > 0)
+    if (const double hold_s = hold_time_s(event, job.machine.model); hold_s > 0)
       pauses.push_back({event.after_segment, hold_s});
   return pauses;
 }

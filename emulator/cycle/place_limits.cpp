@@ -23,7 +23,7 @@ void limit_places(Job& job, Diagnostics& diagnostics) {
     diagnostics.add(std::move(d));
   };
   const bool waits = std::any_of(job.events.begin(), job.events.end(), [](const ProgramEvent& event) {
-    return event.block.kind == gcode::BlockKind::wait_input;
+    return gcode::is<gcode::InputWait>(event.block);
   });
   for (const PlaceLimit& point : job.place_limits) {
     if (job.path.size() == 0 || point.at_u > job.path.length_u()) {

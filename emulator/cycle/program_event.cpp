@@ -3,308 +3,197 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <string_view>
+#include <string>
+#include <utility>
+
+#include "machine/base/require.h"
+#include "machine/base/variants.h"
 
 namespace kadr::emulator {
 namespace {
 
 using gcode::Block;
-using gcode::BlockKind;
 
-EventKind event_kind(BlockKind kind) {
-  switch (kind) {
-    case BlockKind::dwell:
-      return EventKind::dwell;
-    case BlockKind::spindle_speed:
-    case BlockKind::spindle_clockwise:
-    case BlockKind::spindle_counterclockwise:
-    case BlockKind::spindle_stop:
-    case BlockKind::spindle_mode:
-      return EventKind::spindle;
-    case BlockKind::sync_start:
-    case BlockKind::sync_stop:
-      return EventKind::sync;
-    case BlockKind::mist_on:
-    case BlockKind::mist_off:
-    case BlockKind::flood_on:
-    case BlockKind::flood_off:
-      return EventKind::coolant;
-    case BlockKind::select_tool:
-    case BlockKind::change_tool:
-    case BlockKind::set_tool_number:
-      return EventKind::tool;
-    case BlockKind::digital_output:
-    case BlockKind::analog_output:
-      return EventKind::output;
-    case BlockKind::wait_input:
-      return EventKind::wait;
-    case BlockKind::probe:
-      return EventKind::probe;
-    case BlockKind::message:
-      return EventKind::message;
-    case BlockKind::feed_override:
-    case BlockKind::speed_override:
-      return EventKind::lock;
-    case BlockKind::traverse:
-    case BlockKind::feed:
-    case BlockKind::arc:
-    case BlockKind::spline:
-    case BlockKind::rigid_tap:
-    case BlockKind::set_feed_rate:
-    case BlockKind::set_feed_mode:
-    case BlockKind::set_path_mode:
-    case BlockKind::program_stop:
-    case BlockKind::optional_stop:
-    case BlockKind::program_end:
-    case BlockKind::speed_point:
-    case BlockKind::comment:
-      break;
+/// What an action is to the motion.
+enum class Role : std::uint8_t {
+  move,
+  setting,      ///< in force in each move already: no event
+  on_the_move,  ///< the machine need not stand still
+  with_motion,  ///< as the next motion begins
+  at_rest,      ///< the machine stands still
+};
+
+struct RoleOf {
+  Role operator()(const gcode::Move&) const { return Role::move; }
+  Role operator()(const OneOf<gcode::SetFeedRate, gcode::SetFeedMode, gcode::SetPathMode, gcode::SpeedPoint,
+                              gcode::Comment> auto&) const {
+    return Role::setting;
   }
-  return EventKind::stop;
-}
-
-/// "X -1.5 mm, Z 3 mm": the axes that a probing move named would be lost; all that the machine may have
-/// moved.
-std::string contact_text(const Block& b) {
-  if (!b.probe.tripped) return "no contact";
-  std::string text = b.probe.away ? "contact lost at" : "contact at";
-  for (std::size_t a = 0; a < 3; ++a) text += fmt::format(" {}{:.6g}", kAxisLetters[a], b.contact[a]);
-  return text + " (machine coordinates, mm)";
-}
-
-std::string wait_text(const Block& b) {
-  constexpr std::array<std::string_view, 5> kModes = {"", " rises", " falls", " is high", " is low"};
-  const auto mode = kModes[static_cast<std::size_t>(b.wait.mode)];
-  const std::string input = fmt::format("{} input {}", b.wait.analog ? "analog" : "digital", b.wait.number);
-  if (mode.empty()) return fmt::format("read {}: {:.6g}", input, b.value);
-  const std::string text = fmt::format("wait until {}{}, at most {:.6g} s: ", input, mode, b.wait.timeout_s);
-  return text + (b.on ? fmt::format("after {:.6g} s", b.dwell_s) : std::string("timed out"));
-}
-
-std::string spindle_text(const Block& b) {
-  if (b.kind == BlockKind::spindle_speed && b.surface_speed_m_min > 0)
-    return fmt::format("surface speed {:.6g} m/min", b.surface_speed_m_min);
-  if (b.kind == BlockKind::spindle_speed) return fmt::format("spindle speed {:.6g} rpm", b.value);
-  if (b.kind == BlockKind::spindle_clockwise) return fmt::format("spindle clockwise {:.6g} rpm", b.value);
-  if (b.kind == BlockKind::spindle_counterclockwise)
-    return fmt::format("spindle counter-clockwise {:.6g} rpm", b.value);
-  if (b.kind == BlockKind::spindle_stop) return "spindle stop";
-  if (b.kind == BlockKind::sync_start)
-    return fmt::format("feed follows the spindle's angle, {:.6g} mm per turn", b.value);
-  if (b.kind == BlockKind::sync_stop) return "feed no longer follows the spindle";
-  if (!(b.surface_speed_m_min > 0)) return "spindle at constant speed";
-  const std::string text = fmt::format("constant surface speed {:.6g} m/min", b.surface_speed_m_min);
-  return b.maximum_rpm > 0 ? text + fmt::format(", at most {:.6g} rpm", b.maximum_rpm) : text;
-}
-
-std::string event_text(const Block& b) {
-  switch (b.kind) {
-    case BlockKind::dwell:
-      return fmt::format("dwell {:.6g} s", b.dwell_s);
-    case BlockKind::spindle_speed:
-    case BlockKind::spindle_clockwise:
-    case BlockKind::spindle_counterclockwise:
-    case BlockKind::spindle_stop:
-    case BlockKind::spindle_mode:
-    case BlockKind::sync_start:
-    case BlockKind::sync_stop:
-      return spindle_text(b);
-    case BlockKind::mist_on:
-      return "mist on";
-    case BlockKind::mist_off:
-      return "mist off";
-    case BlockKind::flood_on:
-      return "flood on";
-    case BlockKind::flood_off:
-      return "flood off";
-    case BlockKind::select_tool:
-      return fmt::format("select tool {}", b.number);
-    case BlockKind::change_tool:
-      return fmt::format("change to tool {}", b.number);
-    case BlockKind::set_tool_number:
-      return fmt::format("the tool in the spindle is tool {}", b.number);
-    case BlockKind::digital_output:
-      return fmt::format("digital output {} {}", b.number, b.on ? "on" : "off");
-    case BlockKind::analog_output:
-      return fmt::format("analog output {} = {:.6g}", b.number, b.value);
-    case BlockKind::wait_input:
-      return wait_text(b);
-    case BlockKind::probe:
-      return contact_text(b);
-    case BlockKind::feed_override:
-      return b.number ? "feed override enabled" : "feed override locked";
-    case BlockKind::speed_override:
-      return b.number ? "spindle override enabled" : "spindle override locked";
-    case BlockKind::program_stop:
-      return "program stop";
-    case BlockKind::optional_stop:
-      return "optional stop";
-    case BlockKind::program_end:
-      return "program end";
-    case BlockKind::traverse:
-    case BlockKind::feed:
-    case BlockKind::arc:
-    case BlockKind::spline:
-    case BlockKind::rigid_tap:
-    case BlockKind::set_feed_rate:
-    case BlockKind::set_feed_mode:
-    case BlockKind::set_path_mode:
-    case BlockKind::message:
-    case BlockKind::speed_point:
-    case BlockKind::comment:
-      break;
+  Role operator()(const OneOf<gcode::SpindleSpeed, gcode::SpindleMode, gcode::SyncStart, gcode::SyncStop,
+                              gcode::SelectTool, gcode::SetToolNumber, gcode::Message, gcode::FeedOverride,
+                              gcode::SpeedOverride> auto&) const {
+    return Role::on_the_move;
   }
-  return b.text.substr(std::min(b.text.find_first_not_of(' '), b.text.size()));
+  Role operator()(const OneOf<gcode::DigitalOutput, gcode::AnalogOutput> auto& output) const {
+    return output.with_motion ? Role::with_motion : Role::at_rest;
+  }
+  Role operator()(const OneOf<gcode::Dwell, gcode::InputWait, gcode::SpindleClockwise,
+                              gcode::SpindleCounterclockwise, gcode::SpindleStop, gcode::MistOn, gcode::MistOff,
+                              gcode::FloodOn, gcode::FloodOff, gcode::ChangeTool, gcode::ProgramStop,
+                              gcode::OptionalStop, gcode::ProgramEnd> auto&) const {
+    return Role::at_rest;
+  }
+};
+
+Role role_of(const Block& block) { return std::visit(RoleOf{}, block.action); }
+
+EventRecord record(EventKind kind, double value, std::string text) {
+  EventRecord e;
+  e.kind = kind;
+  e.value = value;
+  e.text = std::move(text);
+  return e;
 }
 
-double event_value(const Block& b) {
-  switch (b.kind) {
-    case BlockKind::dwell:
-      return b.dwell_s;
-    case BlockKind::spindle_mode:
-      return b.surface_speed_m_min;
-    case BlockKind::spindle_speed:
-    case BlockKind::spindle_clockwise:
-    case BlockKind::spindle_counterclockwise:
-    case BlockKind::sync_start:
-    case BlockKind::analog_output:
-    case BlockKind::wait_input:
-      return b.value;
-    case BlockKind::digital_output:
-      return b.on ? 1 : 0;
-    case BlockKind::probe:
-      return b.probe.tripped ? 1 : 0;
-    case BlockKind::traverse:
-    case BlockKind::feed:
-    case BlockKind::arc:
-    case BlockKind::spline:
-    case BlockKind::rigid_tap:
-    case BlockKind::set_feed_rate:
-    case BlockKind::set_feed_mode:
-    case BlockKind::set_path_mode:
-    case BlockKind::spindle_stop:
-    case BlockKind::mist_on:
-    case BlockKind::mist_off:
-    case BlockKind::flood_on:
-    case BlockKind::flood_off:
-    case BlockKind::sync_stop:
-    case BlockKind::select_tool:
-    case BlockKind::change_tool:
-    case BlockKind::set_tool_number:
-    case BlockKind::message:
-    case BlockKind::program_stop:
-    case BlockKind::optional_stop:
-    case BlockKind::program_end:
-    case BlockKind::feed_override:
-    case BlockKind::speed_override:
-    case BlockKind::speed_point:
-    case BlockKind::comment:
-      break;
+/// The record of each action that is an event.
+struct RecordOf {
+  const WaitOutcome& outcome;
+
+  EventRecord operator()(const gcode::Dwell& dwell) const {
+    return record(EventKind::dwell, dwell.time_s, fmt::format("dwell {:.6g} s", dwell.time_s));
   }
-  return b.number;
-}
+  EventRecord operator()(const gcode::InputWait& wait) const {
+    const std::string input = fmt::format("{} input {}", wait.analog ? "analog" : "digital", wait.number);
+    const auto waited = [&](const char* mode) {
+      const std::string text = fmt::format("wait until {} {}, at most {:.6g} s: ", input, mode, wait.timeout_s);
+      return text + (outcome.reached ? fmt::format("after {:.6g} s", outcome.waited_s) : "timed out");
+    };
+    switch (wait.mode) {
+      case gcode::WaitMode::immediate:
+        return record(EventKind::wait, outcome.value, fmt::format("read {}: {:.6g}", input, outcome.value));
+      case gcode::WaitMode::rise:
+        return record(EventKind::wait, outcome.value, waited("rises"));
+      case gcode::WaitMode::fall:
+        return record(EventKind::wait, outcome.value, waited("falls"));
+      case gcode::WaitMode::high:
+        return record(EventKind::wait, outcome.value, waited("is high"));
+      case gcode::WaitMode::low:
+        return record(EventKind::wait, outcome.value, waited("is low"));
+    }
+    return {};
+  }
+  /// Contact position, all three linear axes: the block no longer knows which ones the move named.
+  EventRecord operator()(const gcode::Probe& probe) const {
+    if (!probe.tripped) return record(EventKind::probe, 0, "no contact");
+    std::string text = probe.away ? "contact lost at" : "contact at";
+    for (std::size_t a = 0; a < 3; ++a) text += fmt::format(" {}{:.6g}", kAxisLetters[a], probe.contact[a]);
+    return record(EventKind::probe, 1, text + " (machine coordinates, mm)");
+  }
+
+  EventRecord operator()(const gcode::SpindleSpeed& speed) const {
+    return record(EventKind::spindle, speed.s_word,
+                  speed.surface_speed_m_min > 0
+                      ? fmt::format("surface speed {:.6g} m/min", speed.surface_speed_m_min)
+                      : fmt::format("spindle speed {:.6g} rpm", speed.s_word));
+  }
+  EventRecord operator()(const gcode::SpindleClockwise& start) const {
+    return record(EventKind::spindle, start.speed_rpm,
+                  fmt::format("spindle clockwise {:.6g} rpm", start.speed_rpm));
+  }
+  EventRecord operator()(const gcode::SpindleCounterclockwise& start) const {
+    return record(EventKind::spindle, start.speed_rpm,
+                  fmt::format("spindle counter-clockwise {:.6g} rpm", start.speed_rpm));
+  }
+  EventRecord operator()(const gcode::SpindleStop& stop) const {
+    return record(EventKind::spindle, stop.orientation ? stop.orientation->direction : 0, "spindle stop");
+  }
+  EventRecord operator()(const gcode::SpindleMode& mode) const {
+    std::string text = "spindle at constant speed";
+    if (mode.surface_speed_m_min > 0)
+      text = fmt::format("constant surface speed {:.6g} m/min", mode.surface_speed_m_min);
+    if (mode.surface_speed_m_min > 0 && mode.maximum_rpm > 0)
+      text += fmt::format(", at most {:.6g} rpm", mode.maximum_rpm);
+    return record(EventKind::spindle, mode.surface_speed_m_min, text);
+  }
+  EventRecord operator()(const gcode::SyncStart& sync) const {
+    return record(EventKind::sync, sync.pitch_mm_rev,
+                  fmt::format("feed follows the spindle's angle, {:.6g} mm per turn", sync.pitch_mm_rev));
+  }
+  EventRecord operator()(const gcode::SyncStop&) const {
+    return record(EventKind::sync, 0, "feed no longer follows the spindle");
+  }
+
+  EventRecord operator()(const gcode::MistOn&) const { return record(EventKind::coolant, 0, "mist on"); }
+  EventRecord operator()(const gcode::MistOff&) const { return record(EventKind::coolant, 0, "mist off"); }
+  EventRecord operator()(const gcode::FloodOn&) const { return record(EventKind::coolant, 0, "flood on"); }
+  EventRecord operator()(const gcode::FloodOff&) const { return record(EventKind::coolant, 0, "flood off"); }
+  EventRecord operator()(const gcode::SelectTool& select) const {
+    return record(EventKind::tool, select.tool, fmt::format("select tool {}", select.tool));
+  }
+  EventRecord operator()(const gcode::ChangeTool& change) const {
+    return record(EventKind::tool, change.tool, fmt::format("change to tool {}", change.tool));
+  }
+  EventRecord operator()(const gcode::SetToolNumber& set) const {
+    return record(EventKind::tool, set.tool, fmt::format("the tool in the spindle is tool {}", set.tool));
+  }
+  EventRecord operator()(const gcode::DigitalOutput& output) const {
+    return record(EventKind::output, output.on ? 1 : 0,
+                  fmt::format("digital output {} {}", output.number, output.on ? "on" : "off"));
+  }
+  EventRecord operator()(const gcode::AnalogOutput& output) const {
+    return record(EventKind::output, output.value,
+                  fmt::format("analog output {} = {:.6g}", output.number, output.value));
+  }
+
+  EventRecord operator()(const gcode::Message& message) const {
+    const std::size_t first = std::min(message.text.find_first_not_of(' '), message.text.size());
+    return record(EventKind::message, 0, message.text.substr(first));
+  }
+  EventRecord operator()(const gcode::ProgramStop&) const { return record(EventKind::stop, 0, "program stop"); }
+  EventRecord operator()(const gcode::OptionalStop&) const {
+    return record(EventKind::stop, 0, "optional stop");
+  }
+  EventRecord operator()(const gcode::ProgramEnd& end) const {
+    return record(EventKind::stop, end.by_percent ? 1 : 0, "program end");
+  }
+  EventRecord operator()(const gcode::FeedOverride& feed) const {
+    return record(EventKind::lock, feed.enabled ? 1 : 0,
+                  feed.enabled ? "feed override enabled" : "feed override locked");
+  }
+  EventRecord operator()(const gcode::SpeedOverride& speed) const {
+    return record(EventKind::lock, speed.enabled ? 1 : 0,
+                  speed.enabled ? "spindle override enabled" : "spindle override locked");
+  }
+
+  EventRecord operator()(const OneOf<gcode::Traverse, gcode::Feed, gcode::Arc, gcode::Spline, gcode::RigidTap,
+                                     gcode::SetFeedRate, gcode::SetFeedMode, gcode::SetPathMode,
+                                     gcode::SpeedPoint, gcode::Comment> auto&) const {
+    require(false, "moves and settings are no events");
+    return {};
+  }
+};
 
 }  // namespace
 
-bool waits_for_motion(const Block& block) {
-  return (block.kind == BlockKind::digital_output || block.kind == BlockKind::analog_output) &&
-         block.with_motion;
-}
+bool waits_for_motion(const Block& block) { return role_of(block) == Role::with_motion; }
 
-bool needs_rest(const Block& block) {
-  switch (block.kind) {
-    case BlockKind::dwell:
-    case BlockKind::spindle_clockwise:
-    case BlockKind::spindle_counterclockwise:
-    case BlockKind::spindle_stop:
-    case BlockKind::mist_on:
-    case BlockKind::mist_off:
-    case BlockKind::flood_on:
-    case BlockKind::flood_off:
-    case BlockKind::change_tool:
-    case BlockKind::wait_input:
-    case BlockKind::program_stop:
-    case BlockKind::optional_stop:
-    case BlockKind::program_end:
+bool needs_rest(const Block& block) { return role_of(block) == Role::at_rest; }
+
+bool is_event(const Block& block) {
+  switch (role_of(block)) {
+    case Role::move:
+    case Role::setting:
+      return false;
+    case Role::on_the_move:
+    case Role::with_motion:
+    case Role::at_rest:
       return true;
-    case BlockKind::digital_output:
-    case BlockKind::analog_output:
-      return !block.with_motion;
-    case BlockKind::traverse:
-    case BlockKind::feed:
-    case BlockKind::arc:
-    case BlockKind::spline:
-    case BlockKind::probe:
-    case BlockKind::rigid_tap:
-    case BlockKind::set_feed_rate:
-    case BlockKind::set_feed_mode:
-    case BlockKind::set_path_mode:
-    case BlockKind::spindle_speed:
-    case BlockKind::sync_start:
-    case BlockKind::sync_stop:
-    case BlockKind::spindle_mode:
-    case BlockKind::select_tool:
-    case BlockKind::set_tool_number:
-    case BlockKind::message:
-    case BlockKind::feed_override:
-    case BlockKind::speed_override:
-    case BlockKind::speed_point:
-    case BlockKind::comment:
-      break;
   }
   return false;
 }
 
-bool is_event(const Block& block) {
-  switch (block.kind) {
-    case BlockKind::spindle_speed:
-    case BlockKind::spindle_mode:
-    case BlockKind::sync_start:
-    case BlockKind::sync_stop:
-    case BlockKind::select_tool:
-    case BlockKind::set_tool_number:
-    case BlockKind::digital_output:
-    case BlockKind::analog_output:
-    case BlockKind::message:
-    case BlockKind::feed_override:
-    case BlockKind::speed_override:
-      return true;
-    case BlockKind::traverse:
-    case BlockKind::feed:
-    case BlockKind::arc:
-    case BlockKind::spline:
-    case BlockKind::probe:
-    case BlockKind::rigid_tap:
-    case BlockKind::dwell:
-    case BlockKind::set_feed_rate:
-    case BlockKind::set_feed_mode:
-    case BlockKind::set_path_mode:
-    case BlockKind::spindle_clockwise:
-    case BlockKind::spindle_counterclockwise:
-    case BlockKind::spindle_stop:
-    case BlockKind::mist_on:
-    case BlockKind::mist_off:
-    case BlockKind::flood_on:
-    case BlockKind::flood_off:
-    case BlockKind::change_tool:
-    case BlockKind::wait_input:
-    case BlockKind::program_stop:
-    case BlockKind::optional_stop:
-    case BlockKind::program_end:
-    case BlockKind::speed_point:
-    case BlockKind::comment:
-      break;
-  }
-  return needs_rest(block);
-}
-
-EventRecord event_record(const Block& block) {
-  EventRecord e;
-  e.kind = event_kind(block.kind);
-  e.value = event_value(block);
-  e.text = event_text(block);
-  return e;
+EventRecord event_record(const ProgramEvent& event) {
+  return std::visit(RecordOf{event.wait}, event.block.action);
 }
 
 }  // namespace kadr::emulator

@@ -1,8 +1,6 @@
 #pragma once
-#include <string>
-
+#include "emulator/emulator.h"
 #include "emulator/log/records.h"
-#include "gcode/gcode.h"
 
 namespace kadr::emulator {
 
@@ -15,6 +13,7 @@ bool is_event(const gcode::Block& block);
 bool waits_for_motion(const gcode::Block& block);
 
 /// Kind, value and text of the log's record; tick, block and place are left to the caller.
-EventRecord event_record(const gcode::Block& block);
+/// @pre is_event(event.block), or a probing move
+EventRecord event_record(const ProgramEvent& event);
 
 }  // namespace kadr::emulator

@@ -12,11 +12,16 @@ namespace kadr::emulator {
 namespace {
 
 using gcode::Block;
-using gcode::BlockKind;
 
 Diagnostic warning(Code code, const Block& block, std::string label, std::string help) {
   return {code, Severity::warning, block.span, std::string(code_entry(code).title), std::move(label),
           {},   std::move(help)};
+}
+
+/// @pre waits_for_motion(block)
+int output_number(const Block& block) {
+  const auto* digital = std::get_if<gcode::DigitalOutput>(&block.action);
+  return digital != nullptr ? digital->number : std::get<gcode::AnalogOutput>(block.action).number;
 }
 
 }  // namespace
@@ -29,10 +34,10 @@ ProgramReader::ProgramReader(Job& job, Diagnostics& diagnostics, const AxisValue
 }
 
 void ProgramReader::take(const Block& block) {
-  if (planner::is_motion(block.kind))
+  if (gcode::is_move(block))
     take_motion(block);
-  else if (block.kind == BlockKind::speed_point)
-    builder_.limit_speed(block.value);
+  else if (const auto* point = std::get_if<gcode::SpeedPoint>(&block.action))
+    builder_.limit_speed(point->max_u_s);
   else if (is_event(block))
     take_event(block);
 }
@@ -51,44 +56,41 @@ void ProgramReader::take_motion(const Block& block) {
     for (const Block& output : outputs_) job_.events.push_back({output, number});
     outputs_.clear();
   }
-  if (block.kind == BlockKind::probe) add_event(block);
+  if (gcode::is<gcode::Probe>(block)) add_event(block);
 }
 
 void ProgramReader::take_event(const Block& block) {
   if (waits_for_motion(block)) return keep_output(block);
-  if (block.kind == BlockKind::wait_input) return take_wait(block);
-  if (block.kind == BlockKind::sync_start) {
+  if (const auto* wait = std::get_if<gcode::InputWait>(&block.action)) return take_wait(block, *wait);
+  if (gcode::is<gcode::SyncStart>(block)) {
     sync_by_angle_ = true;
     // a thread begins at rest, where the spindle's index is waited for; one that goes on does not stop
     if (!moved_by_angle_) builder_.stop();
   }
-  if (block.kind == BlockKind::sync_stop) sync_by_angle_ = false;
+  if (gcode::is<gcode::SyncStop>(block)) sync_by_angle_ = false;
   builder_.follow_spindle(sync_by_angle_);
   if (needs_rest(block)) builder_.stop();
   add_event(block);
 }
 
-void ProgramReader::take_wait(Block block) {
+void ProgramReader::take_wait(const Block& block, const gcode::InputWait& wait) {
   WaitOutcome outcome;
   if (for_block_) {
     outcome = *for_block_;
     for_block_.reset();
   } else {
-    outcome = begin_wait(block.wait);
+    outcome = begin_wait(wait);
     for_program_ = outcome;
   }
-  block.value = outcome.value;
-  block.on = outcome.reached;
-  block.dwell_s = outcome.waited_s;
-  add_event(block);
+  job_.events.push_back({block, builder_.blocks(), outcome});
   if (outcome.reached) return;
   const std::string input =
-      fmt::format("{} input {}", block.wait.analog ? "analog" : "digital", block.wait.number);
+      fmt::format("{} input {}", wait.analog ? "analog" : "digital", wait.number);
   diagnostics_.add(warning(
       Code::wait_timed_out, block,
-      fmt::format("{} read {:.6g} for {:.6g} s; #5399 is -1", input, outcome.value, block.wait.timeout_s),
+      fmt::format("{} read {:.6g} for {:.6g} s; #5399 is -1", input, outcome.value, wait.timeout_s),
       fmt::format("a scenario sets it: [[step]] at_s = 1.5 {} = {} value = 1",
-                  block.wait.analog ? "analog_input" : "input", block.wait.number)));
+                  wait.analog ? "analog_input" : "input", wait.number)));
 }
 
 gcode::InputReading ProgramReader::read_input(const gcode::InputWait& wait) {
@@ -116,18 +118,19 @@ double ProgramReader::time_so_far_s() {
   time_s_ += planner::motion_time_s(builder_.path(), machine, timed_segments_).value_or(0.0);
   timed_segments_ = builder_.path().size();
   for (; timed_events_ < job_.events.size(); ++timed_events_)
-    time_s_ += hold_time_s(job_.events[timed_events_].block, machine);
+    time_s_ += hold_time_s(job_.events[timed_events_], machine);
   return time_s_;
 }
 
 void ProgramReader::keep_output(const Block& block) {
-  const bool analog = block.kind == BlockKind::analog_output;
+  const auto* digital = std::get_if<gcode::DigitalOutput>(&block.action);
+  const int number = output_number(block);
   for (const machine::TechnologyRule& rule : job_.machine.model.technology)
-    if (rule.analog == analog && rule.number == block.number && (analog || rule.on == block.on))
+    if (rule.number == number && rule.analog == (digital == nullptr) && (!digital || rule.on == digital->on))
       builder_.limit_speed(rule.max_u_s);
   // the last setting of an output is the one that the next motion takes along
   const auto same = [&](const Block& other) {
-    return other.kind == block.kind && other.number == block.number;
+    return other.kind() == block.kind() && output_number(other) == number;
   };
   outputs_.erase(std::remove_if(outputs_.begin(), outputs_.end(), same), outputs_.end());
   outputs_.push_back(block);

@@ -24,7 +24,7 @@ class ProgramReader {
  private:
   void take_motion(const gcode::Block& block);
   void take_event(const gcode::Block& block);
-  void take_wait(gcode::Block block);
+  void take_wait(const gcode::Block& block, const gcode::InputWait& wait);
   void keep_output(const gcode::Block& block);
   void add_event(const gcode::Block& block);
   void place_events();

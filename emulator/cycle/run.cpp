@@ -249,12 +249,12 @@ class Cycle {
   }
 
   void add_program_event(const ProgramEvent& event) {
-    EventRecord e = event_record(event.block);
+    EventRecord e = event_record(event);
     e.tick = ready_at_;
     e.block = event.after_segment == 0 ? 0 : job_.path.segments[event.after_segment - 1].block;
     e.span = event.block.span;
     events_.push_back(std::move(e));
-    const double hold_s = hold_time_s(event.block, machine_);
+    const double hold_s = hold_time_s(event, machine_);
     ready_at_ += Ticks{
         static_cast<std::int64_t>(std::floor(hold_s * static_cast<double>(machine_.clock.base_hz) + 0.5))};
   }

@@ -7,8 +7,9 @@
 
 namespace kadr::gcode {
 
-/// True for blocks that move to `end`.
-bool is_move(const Block& block);
+PlanePoint center_of(const Arc& arc);
+/// Angle travelled, > 0.
+double sweep_rad(const Arc& arc, PlanePoint start, PlanePoint end);
 
 /// What G41 or G42 fixes until G40.
 struct CompensationTool {
@@ -102,13 +103,14 @@ class Compensation {
     double sweep_rad = 0;   ///< arcs: as programmed; 0: not checked
   };
 
-  CompensationFault move(const Block& block, const FeedRates& feeds);
-  CompensationFault enter_line(const Block& block, const FeedRates& feeds);
-  CompensationFault enter_arc(const Block& block, const FeedRates& feeds);
-  CompensationFault follow_line(const Block& block, const FeedRates& feeds);
-  CompensationFault follow_arc(const Block& block, const FeedRates& feeds);
+  CompensationFault move(const Block& block, PlanePoint end, const FeedRates& feeds);
+  CompensationFault enter_line(const Block& block, PlanePoint end, const FeedRates& feeds);
+  CompensationFault enter_arc(const Block& block, const Arc& arc, const FeedRates& feeds);
+  CompensationFault follow_line(const Block& block, PlanePoint end, const FeedRates& feeds);
+  CompensationFault follow_arc(const Block& block, const Arc& arc, const FeedRates& feeds);
+  void lead_to_entry_arc(const Block& block, const Arc& arc, const FeedRates& feeds);
   CompensationFault meet_line(PlaneVector next, PlanePoint& meeting);
-  CompensationFault meet_arc(const Block& arc, PlanePoint& meeting);
+  CompensationFault meet_arc(const Arc& arc, PlanePoint& meeting);
   void round_corner(const Block& block, const FeedRates& feeds, PlanePoint corner_end);
   void hold(const Block& block, const FeedRates& feeds, PlanePoint tool, PlaneVector direction,
             double sweep_rad);
@@ -116,7 +118,7 @@ class Compensation {
   CompensationFault check_trimmed(const Held& held, PlanePoint end) const;
   void release();
   void hand_out(const Held& held);
-  void measure(Block& block, const FeedRates& feeds);
+  void measure(Block& block, Move& move, const FeedRates& feeds);
 
   PlanePoint in_plane(const AxisValues& values) const {
     return {values[static_cast<std::size_t>(axes_.first)], values[static_cast<std::size_t>(axes_.second)]};
@@ -125,8 +127,9 @@ class Compensation {
     values[static_cast<std::size_t>(axes_.first)] = point.first_mm;
     values[static_cast<std::size_t>(axes_.second)] = point.second_mm;
   }
-  bool inside(const Block& arc) const { return (arc.turns > 0) == tool_.left; }
-  OffsetCircle circle_of(const Block& offset_arc) const;
+  bool inside(const Arc& arc) const { return (arc.turns > 0) == tool_.left; }
+  OffsetCircle circle_of(const Arc& offset_arc) const;
+  const Arc* first_held_arc() const { return std::get_if<Arc>(&first_held_.action); }
   PlaneVector normal() const { return unit(tool_at_ - in_plane(programmed_)); }
 
   Receiver receiver_;

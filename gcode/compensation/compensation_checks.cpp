@@ -9,14 +9,14 @@ namespace {
 /// What a tool-independent code does that compensation can't stand; empty: nothing.
 std::string_view conflict_of_nonmodal(int code) {
   switch (code) {
-    case 280:
-    case 300:
+    case code::g28:
+    case code::g30:
       return "moves to a reference point";
-    case 281:
-    case 301:
+    case code::g28_1:
+    case code::g30_1:
       return "stores the position, which is off the contour";
-    case 520:
-    case 920:
+    case code::g52:
+    case code::g92:
       return "moves the origin";
     default:
       return {};
@@ -52,16 +52,13 @@ std::string_view conflict_of_motion(Motion motion) {
 void Interpreter::check_compensation() {
   const int code = words_.g(GGroup::compensation);
   const bool until_now = state_.compensating();
-  if (code != kNoCode && code != 400) check_compensation_words();
-  check_while_compensating(until_now, code == kNoCode ? until_now : code != 400);
+  if (code != kNoCode && code != code::g40) check_compensation_words();
+  check_while_compensating(until_now, code == kNoCode ? until_now : code != code::g40);
 }
 
 void Interpreter::check_compensation_words() {
   const int code = words_.g(GGroup::compensation);
   const Span span = g_span(GGroup::compensation);
-  const int plane_code = words_.g(GGroup::plane);
-  const bool yz = plane_code != kNoCode ? plane_code == 190 : state_.plane == Plane::yz;
-  const bool zx = plane_code != kNoCode ? plane_code == 180 : state_.plane == Plane::zx;
   if (state_.compensating()) {
     Diagnostic d =
         problem(Code::compensation_twice, span,
@@ -69,13 +66,13 @@ void Interpreter::check_compensation_words() {
     d.notes.push_back(fmt::format("it has been on since line {}", compensation_span_.line));
     error(std::move(d));
   }
-  if (yz) {
+  if (plane_of_line() == Plane::yz) {
     error(problem(Code::compensation_plane, span, "the plane in force is YZ (G19)",
                   "choose the plane with G17 or G18 first"));
   }
-  if (code == 411 || code == 421) {
+  if (code == code::g41_1 || code == code::g42_1) {
     require_word('D', GGroup::compensation, "the diameter of the tool");
-    if (words_.has('L') && !zx) {
+    if (words_.has('L') && plane_of_line() != Plane::zx) {
       error(problem(Code::compensation_lathe_tool, words_.span(*line_, 'L'),
                     "L is the orientation of a lathe tool", "write G18 first, or leave L out"));
     } else {
@@ -97,9 +94,7 @@ void Interpreter::check_while_compensating(bool until_now, bool from_now) {
     const int tool = words_.m(MGroup::tool_change);
     const int override_code = words_.m(MGroup::overrides);
     const int input = words_.m(MGroup::inputs);
-    const int plane_code = words_.g(GGroup::plane);
-    const int plane_now = state_.plane == Plane::xy ? 170 : state_.plane == Plane::zx ? 180 : 190;
-    if (tool == 6)
+    if (tool == code::m6)
       refuse_while_compensating(words_.span(*line_, MGroup::tool_change), "M6", "changes the tool");
     if (override_code != kNoCode) {
       refuse_while_compensating(words_.span(*line_, MGroup::overrides), fmt::format("M{}", override_code),
@@ -107,10 +102,10 @@ void Interpreter::check_while_compensating(bool until_now, bool from_now) {
     }
     if (input != kNoCode) {
       refuse_while_compensating(words_.span(*line_, MGroup::inputs), fmt::format("M{}", input),
-                                input == 66 ? "waits for an input" : "switches an output");
+                                input == code::m66 ? "waits for an input" : "switches an output");
     }
-    if (plane_code != kNoCode && plane_code != plane_now) {
-      refuse_while_compensating(g_span(GGroup::plane), g_name(plane_code), "changes the plane");
+    if (plane_of_line() != state_.plane) {
+      refuse_while_compensating(g_span(GGroup::plane), g_name(words_.g(GGroup::plane)), "changes the plane");
     }
   }
   if (!from_now) return;
@@ -128,13 +123,13 @@ void Interpreter::check_while_compensating(bool until_now, bool from_now) {
   }
   const int nonmodal_code = words_.g(GGroup::nonmodal);
   std::string_view what = conflict_of_nonmodal(nonmodal_code);
-  if (nonmodal_code == 100 && (words_.value('L') == 2 || words_.value('L') == 20)) {
+  if (nonmodal_code == code::g10 && (words_.value('L') == 2 || words_.value('L') == 20)) {
     int system = 0;
     near_integer(words_.value('P'), system);
     if (system == 0 || system == state_.work_system) what = "moves the work system in force";
   }
   const bool offset = !until_now || compensation_.active();  // a radius of 0 moves nothing
-  if (nonmodal_code == 530 && offset) what = "moves in machine coordinates";
+  if (nonmodal_code == code::g53 && offset) what = "moves in machine coordinates";
   if (!what.empty()) refuse_while_compensating(g_span(GGroup::nonmodal), g_name(nonmodal_code), what);
   if (state_.uncertain.motion || !moves()) return;
   const Motion motion = motion_of_line();

@@ -46,13 +46,13 @@ AxisValues nose_origin(int orientation, double radius_mm) {
 void Interpreter::compensation() {
   const int code = words_.g(GGroup::compensation);
   if (code == kNoCode) return;
-  if (code == 400) return compensation_off();
+  if (code == code::g40) return compensation_off();
   if (state_.compensating()) return;
   compensation_span_ = g_span(GGroup::compensation);
   CompensationTool tool;
-  tool.left = is_one_of(code, {410, 411});
+  tool.left = is_one_of(code, {code::g41, code::g41_1});
   const bool found = !silent_ && find_compensation_tool(tool);
-  state_.compensation_code = tool.left ? 410 : 420;
+  state_.compensation_code = tool.left ? code::g41 : code::g42;
   if (found && tool.radius_mm == 0) return;
   compensation_tilted_ = state_.rotation_deg != 0 && state_.plane != Plane::xy;
   if (compensation_tilted_) compensation_.set_last_end(state_.to_program(compensation_.last_end()));
@@ -67,7 +67,7 @@ void Interpreter::compensation_off() {
     if (compensation_.entered()) state_.straight_move_due = true;
     end_compensation(g_span(GGroup::compensation));
   }
-  state_.compensation_code = 400;
+  state_.compensation_code = code::g40;
 }
 
 bool Interpreter::find_compensation_tool(CompensationTool& tool) {
@@ -75,7 +75,7 @@ bool Interpreter::find_compensation_tool(CompensationTool& tool) {
   const Span span = g_span(GGroup::compensation);
   double diameter_mm = 0;
   int orientation = 0;
-  if (is_one_of(code, {411, 421})) {
+  if (is_one_of(code, {code::g41_1, code::g42_1})) {
     diameter_mm = words_.value('D') * state_.length_factor();
     if (words_.has('L')) near_integer(words_.value('L'), orientation);
   } else {
@@ -135,7 +135,8 @@ void Interpreter::compensate(const Block& block) {
   CompensationFault fault;
   if (compensation_tilted_ && is_move(block)) {
     Block programmed = block;
-    programmed.end = near(compensation_.programmed(), state_.to_program(block.end));
+    AxisValues& end = move_of(programmed)->end;
+    end = near(compensation_.programmed(), state_.to_program(end));
     fault = compensation_.take(programmed, feeds);
   } else {
     fault = compensation_.take(block, feeds);
@@ -145,20 +146,20 @@ void Interpreter::compensate(const Block& block) {
 }
 
 void Interpreter::hand_out_compensated(Block& block) {
-  if (compensation_tilted_ && is_move(block)) {
-    block.plane_rotation_deg = 0;
-    if (block.kind == BlockKind::arc) {
-      const PlaneAxes axes = plane_axes(block.plane);
+  Move* move = compensation_tilted_ ? move_of(block) : nullptr;
+  if (move != nullptr) {
+    if (Arc* arc = std::get_if<Arc>(&block.action)) {
+      const PlaneAxes axes = plane_axes(arc->plane);
       const auto first = static_cast<std::size_t>(axes.first), second = static_cast<std::size_t>(axes.second);
-      AxisValues center = block.end;
-      center[first] = block.center_first_mm;
-      center[second] = block.center_second_mm;
+      AxisValues center = arc->end;
+      center[first] = arc->center_first_mm;
+      center[second] = arc->center_second_mm;
       center = state_.to_machine(center);
-      block.center_first_mm = center[first];
-      block.center_second_mm = center[second];
-      block.plane_rotation_deg = state_.rotation_deg;
+      arc->center_first_mm = center[first];
+      arc->center_second_mm = center[second];
+      arc->plane_rotation_deg = state_.rotation_deg;
     }
-    block.end = state_.to_machine(block.end);
+    move->end = state_.to_machine(move->end);
   }
   hand_out(block);
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <iterator>
 
 namespace kadr::gcode {
 namespace {
@@ -13,82 +14,82 @@ struct GEntry {
   int tenths;
   GGroup group;
 };
-constexpr GEntry kRunG[] = {{0, GGroup::motion},
-                            {10, GGroup::motion},
-                            {20, GGroup::motion},
-                            {30, GGroup::motion},
-                            {50, GGroup::motion},
-                            {51, GGroup::motion},
-                            {52, GGroup::motion},
-                            {53, GGroup::motion},
-                            {330, GGroup::motion},
-                            {331, GGroup::motion},
-                            {382, GGroup::motion},
-                            {383, GGroup::motion},
-                            {384, GGroup::motion},
-                            {385, GGroup::motion},
-                            {730, GGroup::motion},
-                            {740, GGroup::motion},
-                            {760, GGroup::motion},
-                            {800, GGroup::motion},
-                            {810, GGroup::motion},
-                            {820, GGroup::motion},
-                            {830, GGroup::motion},
-                            {840, GGroup::motion},
-                            {850, GGroup::motion},
-                            {860, GGroup::motion},
-                            {890, GGroup::motion},
-                            {40, GGroup::nonmodal},
-                            {100, GGroup::nonmodal},
-                            {280, GGroup::nonmodal},
-                            {281, GGroup::nonmodal},
-                            {300, GGroup::nonmodal},
-                            {301, GGroup::nonmodal},
-                            {520, GGroup::nonmodal},
-                            {530, GGroup::nonmodal},
-                            {920, GGroup::nonmodal},
-                            {921, GGroup::g92_state},
-                            {922, GGroup::g92_state},
-                            {923, GGroup::g92_state},
-                            {170, GGroup::plane},
-                            {180, GGroup::plane},
-                            {190, GGroup::plane},
-                            {200, GGroup::units},
-                            {210, GGroup::units},
-                            {400, GGroup::compensation},
-                            {410, GGroup::compensation},
-                            {411, GGroup::compensation},
-                            {420, GGroup::compensation},
-                            {421, GGroup::compensation},
-                            {430, GGroup::tool_length},
-                            {431, GGroup::tool_length},
-                            {432, GGroup::tool_length},
-                            {490, GGroup::tool_length},
-                            {540, GGroup::coordinate_system},
-                            {550, GGroup::coordinate_system},
-                            {560, GGroup::coordinate_system},
-                            {570, GGroup::coordinate_system},
-                            {580, GGroup::coordinate_system},
-                            {590, GGroup::coordinate_system},
-                            {591, GGroup::coordinate_system},
-                            {592, GGroup::coordinate_system},
-                            {593, GGroup::coordinate_system},
-                            {610, GGroup::path},
-                            {611, GGroup::path},
-                            {640, GGroup::path},
-                            {900, GGroup::distance},
-                            {910, GGroup::distance},
-                            {901, GGroup::arc_distance},
-                            {911, GGroup::arc_distance},
-                            {930, GGroup::feed_mode},
-                            {940, GGroup::feed_mode},
-                            {950, GGroup::feed_mode},
-                            {960, GGroup::spindle_mode},
-                            {970, GGroup::spindle_mode},
-                            {980, GGroup::retract},
-                            {990, GGroup::retract},
-                            {70, GGroup::diameter},
-                            {80, GGroup::diameter}};
+constexpr GEntry kRunG[] = {{code::g0, GGroup::motion},
+                            {code::g1, GGroup::motion},
+                            {code::g2, GGroup::motion},
+                            {code::g3, GGroup::motion},
+                            {code::g5, GGroup::motion},
+                            {code::g5_1, GGroup::motion},
+                            {code::g5_2, GGroup::motion},
+                            {code::g5_3, GGroup::motion},
+                            {code::g33, GGroup::motion},
+                            {code::g33_1, GGroup::motion},
+                            {code::g38_2, GGroup::motion},
+                            {code::g38_3, GGroup::motion},
+                            {code::g38_4, GGroup::motion},
+                            {code::g38_5, GGroup::motion},
+                            {code::g73, GGroup::motion},
+                            {code::g74, GGroup::motion},
+                            {code::g76, GGroup::motion},
+                            {code::g80, GGroup::motion},
+                            {code::g81, GGroup::motion},
+                            {code::g82, GGroup::motion},
+                            {code::g83, GGroup::motion},
+                            {code::g84, GGroup::motion},
+                            {code::g85, GGroup::motion},
+                            {code::g86, GGroup::motion},
+                            {code::g89, GGroup::motion},
+                            {code::g4, GGroup::nonmodal},
+                            {code::g10, GGroup::nonmodal},
+                            {code::g28, GGroup::nonmodal},
+                            {code::g28_1, GGroup::nonmodal},
+                            {code::g30, GGroup::nonmodal},
+                            {code::g30_1, GGroup::nonmodal},
+                            {code::g52, GGroup::nonmodal},
+                            {code::g53, GGroup::nonmodal},
+                            {code::g92, GGroup::nonmodal},
+                            {code::g92_1, GGroup::g92_state},
+                            {code::g92_2, GGroup::g92_state},
+                            {code::g92_3, GGroup::g92_state},
+                            {code::g17, GGroup::plane},
+                            {code::g18, GGroup::plane},
+                            {code::g19, GGroup::plane},
+                            {code::g20, GGroup::units},
+                            {code::g21, GGroup::units},
+                            {code::g40, GGroup::compensation},
+                            {code::g41, GGroup::compensation},
+                            {code::g41_1, GGroup::compensation},
+                            {code::g42, GGroup::compensation},
+                            {code::g42_1, GGroup::compensation},
+                            {code::g43, GGroup::tool_length},
+                            {code::g43_1, GGroup::tool_length},
+                            {code::g43_2, GGroup::tool_length},
+                            {code::g49, GGroup::tool_length},
+                            {code::g54, GGroup::coordinate_system},
+                            {code::g55, GGroup::coordinate_system},
+                            {code::g56, GGroup::coordinate_system},
+                            {code::g57, GGroup::coordinate_system},
+                            {code::g58, GGroup::coordinate_system},
+                            {code::g59, GGroup::coordinate_system},
+                            {code::g59_1, GGroup::coordinate_system},
+                            {code::g59_2, GGroup::coordinate_system},
+                            {code::g59_3, GGroup::coordinate_system},
+                            {code::g61, GGroup::path},
+                            {code::g61_1, GGroup::path},
+                            {code::g64, GGroup::path},
+                            {code::g90, GGroup::distance},
+                            {code::g91, GGroup::distance},
+                            {code::g90_1, GGroup::arc_distance},
+                            {code::g91_1, GGroup::arc_distance},
+                            {code::g93, GGroup::feed_mode},
+                            {code::g94, GGroup::feed_mode},
+                            {code::g95, GGroup::feed_mode},
+                            {code::g96, GGroup::spindle_mode},
+                            {code::g97, GGroup::spindle_mode},
+                            {code::g98, GGroup::retract},
+                            {code::g99, GGroup::retract},
+                            {code::g7, GGroup::diameter},
+                            {code::g8, GGroup::diameter}};
 
 constexpr int kKnownG[] = {171, 181, 191, 332, 500, 510, 700, 710, 711, 712, 720, 721, 722, 870, 880};
 
@@ -96,17 +97,17 @@ struct MEntry {
   int number;
   MGroup group;
 };
-constexpr MEntry kRunM[] = {{0, MGroup::stop},         {1, MGroup::stop},         {2, MGroup::stop},
-                            {30, MGroup::stop},        {60, MGroup::stop},        {6, MGroup::tool_change},
-                            {61, MGroup::tool_change}, {3, MGroup::spindle},      {4, MGroup::spindle},
-                            {5, MGroup::spindle},      {19, MGroup::spindle},     {52, MGroup::overrides},
-                            {7, MGroup::coolant},      {8, MGroup::coolant},      {9, MGroup::coolant},
-                            {48, MGroup::overrides},   {49, MGroup::overrides},   {50, MGroup::overrides},
-                            {51, MGroup::overrides},   {53, MGroup::overrides},   {62, MGroup::inputs},
-                            {63, MGroup::inputs},      {64, MGroup::inputs},      {65, MGroup::inputs},
-                            {66, MGroup::inputs},      {67, MGroup::inputs},      {68, MGroup::inputs},
-                            {70, MGroup::modal_state}, {71, MGroup::modal_state}, {72, MGroup::modal_state},
-                            {73, MGroup::modal_state}, {98, MGroup::call},        {99, MGroup::call}};
+constexpr MEntry kRunM[] = {{code::m0, MGroup::stop},         {code::m1, MGroup::stop},         {code::m2, MGroup::stop},
+                            {code::m30, MGroup::stop},        {code::m60, MGroup::stop},        {code::m6, MGroup::tool_change},
+                            {code::m61, MGroup::tool_change}, {code::m3, MGroup::spindle},      {code::m4, MGroup::spindle},
+                            {code::m5, MGroup::spindle},      {code::m19, MGroup::spindle},     {code::m52, MGroup::overrides},
+                            {code::m7, MGroup::coolant},      {code::m8, MGroup::coolant},      {code::m9, MGroup::coolant},
+                            {code::m48, MGroup::overrides},   {code::m49, MGroup::overrides},   {code::m50, MGroup::overrides},
+                            {code::m51, MGroup::overrides},   {code::m53, MGroup::overrides},   {code::m62, MGroup::inputs},
+                            {code::m63, MGroup::inputs},      {code::m64, MGroup::inputs},      {code::m65, MGroup::inputs},
+                            {code::m66, MGroup::inputs},      {code::m67, MGroup::inputs},      {code::m68, MGroup::inputs},
+                            {code::m70, MGroup::modal_state}, {code::m71, MGroup::modal_state}, {code::m72, MGroup::modal_state},
+                            {code::m73, MGroup::modal_state}, {code::m98, MGroup::call},        {code::m99, MGroup::call}};
 constexpr int kFirstUserM = 100;  // M100 .. M199 are the user's own
 
 constexpr std::array<GCode, kGTableSize> make_g_table() {
@@ -122,6 +123,20 @@ constexpr std::array<MCode, kMTableSize> make_m_table() {
   for (const MEntry& e : kRunM) table[static_cast<std::size_t>(e.number)] = {Standing::runs, e.group};
   return table;
 }
+/// Each code of the group `inputs` except M66 says what it switches, and the other way round.
+constexpr bool outputs_complete() {
+  std::size_t outputs = 0;
+  for (const MEntry& e : kRunM) {
+    if (e.group != MGroup::inputs || e.number == code::m66) continue;
+    std::size_t named = 0;
+    for (const OutputCode& output : kOutputCodes) named += output.number == e.number ? 1 : 0;
+    if (named != 1) return false;
+    ++outputs;
+  }
+  return outputs == std::size(kOutputCodes);
+}
+static_assert(outputs_complete(), "kOutputCodes (codes.h) has one line per output code of kRunM");
+
 constexpr auto kGTable = make_g_table();
 constexpr auto kMTable = make_m_table();
 
@@ -136,7 +151,14 @@ MCode m_code(int number) {
 }
 
 bool takes_axis_words(int tenths) {
-  return tenths == 100 || tenths == 280 || tenths == 300 || tenths == 520 || tenths == 920;
+  return tenths == code::g10 || tenths == code::g28 || tenths == code::g30 || tenths == code::g52 ||
+         tenths == code::g92;
+}
+
+const OutputCode* output_code(int number) {
+  for (const OutputCode& output : kOutputCodes)
+    if (output.number == number) return &output;
+  return nullptr;
 }
 
 }  // namespace kadr::gcode

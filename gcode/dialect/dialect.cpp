@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "gcode/dialect/codes.h"
+
 namespace kadr::gcode {
 namespace {
 
@@ -9,6 +11,7 @@ constexpr double kMillisecond_s = 1e-3;
 constexpr std::array<DwellWord, 1> kSeconds = {{{'P', 1}}};
 constexpr std::array<DwellWord, 2> kMarlin = {{{'S', 1}, {'P', kMillisecond_s}}};
 constexpr std::array<DwellWord, 3> kFanuc = {{{'X', 1}, {'U', 1}, {'P', kMillisecond_s}}};
+constexpr int kFanucInches = 700, kFanucMillimetres = 710;  // G70 and G71
 constexpr std::int64_t kProgramNumbers = 10'000;  // four digits
 
 }  // namespace
@@ -28,7 +31,7 @@ std::span<const DwellWord> dwell_words(Dialect dialect) {
 
 int meant_g_code(Dialect dialect, int tenths) {
   if (dialect != Dialect::fanuc) return tenths;
-  return tenths == 700 ? 200 : tenths == 710 ? 210 : tenths;
+  return tenths == kFanucInches ? code::g20 : tenths == kFanucMillimetres ? code::g21 : tenths;
 }
 
 SubprogramCall subprogram_call(Dialect dialect, std::int64_t p) {

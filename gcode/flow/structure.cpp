@@ -315,7 +315,7 @@ bool begins_subroutine(const Line& line) {
 bool ends_program(const Line& line) {
   return std::any_of(line.items.begin(), line.items.end(), [](const Item& item) {
     return item.kind == ItemKind::word && item.letter == 'M' && item.value < 0 &&
-           (item.number == 2 || item.number == 30);
+           (item.number == code::m2 || item.number == code::m30);
   });
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "gcode/gcode.h"
+#include "machine/base/variants.h"
 
 namespace kadr::gcode {
 namespace {
@@ -86,11 +87,6 @@ void coordinates(LineWriter& line, const AxisValues& v) {
   for (std::size_t axis = 3; axis < v.size(); ++axis) line.fixed(v[axis]);
 }
 
-void spindle(LineWriter& line, std::string_view name) {
-  line.text(name);
-  line.text(" 0");  // the number of the spindle
-}
-
 std::string_view plane_word(Plane plane) {
   return plane == Plane::xy ? "XY" : plane == Plane::zx ? "XZ" : "YZ";
 }
@@ -114,175 +110,140 @@ void append_place(std::string& out, const Block& block, std::string_view called_
   out.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
 }
 
-std::string_view wait_name(WaitMode mode) {
-  constexpr std::array<std::string_view, 5> kNames = {" immediate", " rise", " fall", " high", " low"};
-  return kNames[static_cast<std::size_t>(mode)];
-}
+/// The canonical call of each action, without its place. False: the action has none; texts are written elsewhere.
+class CallWriter {
+ public:
+  explicit CallWriter(LineWriter& line) : line_(line) {}
 
-void numbered(LineWriter& line, std::string_view name, int number) {
-  line.text(name);
-  line.text(" ");
-  line.integer(number);
-}
-
-/// Everything but texts. @return false if the block has no line
-bool write(LineWriter& line, const Block& block) {
-  switch (block.kind) {
-    case BlockKind::traverse:
-      line.text("STRAIGHT_TRAVERSE");
-      coordinates(line, block.end);
-      break;
-    case BlockKind::feed:
-      line.text("STRAIGHT_FEED");
-      coordinates(line, block.end);
-      break;
-    case BlockKind::arc:
-      line.text("ARC_FEED");
-      coordinates(line, block.end);
-      line.text(" ");
-      line.text(plane_word(block.plane));
-      line.fixed(block.center_first_mm);
-      line.fixed(block.center_second_mm);
-      line.text(" ");
-      line.integer(block.turns);
-      break;
-    case BlockKind::spline:
-      line.text("NURBS_FEED");
-      coordinates(line, block.end);
-      break;
-    case BlockKind::probe:
-      line.text("STRAIGHT_PROBE");
-      coordinates(line, block.end);
-      break;
-    case BlockKind::rigid_tap:
-      line.text("RIGID_TAP");
-      coordinates(line, block.end);
-      break;
-    case BlockKind::sync_start:
-      line.text("START_SPEED_FEED_SYNC");
-      line.fixed(block.value);
-      line.text(" ");
-      line.integer(block.number);
-      break;
-    case BlockKind::sync_stop:
-      line.text("STOP_SPEED_FEED_SYNC");
-      break;
-    case BlockKind::dwell:
-      line.text("DWELL");
-      line.fixed(block.dwell_s);
-      break;
-    case BlockKind::set_feed_rate:
-      line.text("SET_FEED_RATE");
-      line.fixed(block.value);
-      break;
-    case BlockKind::set_feed_mode:
-      line.text(block.feed_mode == FeedMode::inverse_time           ? "SET_FEED_MODE G93"
-                : block.feed_mode == FeedMode::units_per_revolution ? "SET_FEED_MODE G95"
-                                                                    : "SET_FEED_MODE G94");
-      break;
-    case BlockKind::set_path_mode:
-      line.text("SET_MOTION_CONTROL_MODE ");
-      if (block.path_mode == PathMode::continuous) {
-        line.text("CONTINUOUS");
-        line.fixed(block.path_tolerance_mm);
-      } else {
-        line.text(block.path_mode == PathMode::exact_stop ? "EXACT_STOP" : "EXACT_PATH");
-      }
-      break;
-    case BlockKind::spindle_speed:
-      spindle(line, "SET_SPINDLE_SPEED");
-      line.fixed(block.value);
-      break;
-    case BlockKind::spindle_clockwise:
-      spindle(line, "START_SPINDLE_CLOCKWISE");
-      break;
-    case BlockKind::spindle_counterclockwise:
-      spindle(line, "START_SPINDLE_COUNTERCLOCKWISE");
-      break;
-    case BlockKind::spindle_stop:
-      if (block.on) {
-        if (block.number < 0) return false;
-        spindle(line, "ORIENT_SPINDLE");
-        line.fixed(block.value);
-        line.text(" ");
-        line.integer(block.number);
-        break;
-      }
-      spindle(line, "STOP_SPINDLE_TURNING");
-      break;
-    case BlockKind::mist_on:
-      line.text("MIST_ON");
-      break;
-    case BlockKind::mist_off:
-      line.text("MIST_OFF");
-      break;
-    case BlockKind::flood_on:
-      line.text("FLOOD_ON");
-      break;
-    case BlockKind::flood_off:
-      line.text("FLOOD_OFF");
-      break;
-    case BlockKind::select_tool:
-      numbered(line, "SELECT_TOOL", block.number);
-      break;
-    case BlockKind::change_tool:
-      numbered(line, "CHANGE_TOOL", block.number);
-      break;
-    case BlockKind::set_tool_number:
-      numbered(line, "CHANGE_TOOL_NUMBER", block.number);
-      break;
-    case BlockKind::digital_output:
-      numbered(line, "SET_DIGITAL", block.number);
-      line.text(block.on ? " on" : " off");
-      line.text(block.with_motion ? " @motion" : " @now");
-      break;
-    case BlockKind::analog_output:
-      numbered(line, "SET_ANALOG", block.number);
-      line.fixed(block.value);
-      line.text(block.with_motion ? " @motion" : " @now");
-      break;
-    case BlockKind::wait_input:
-      numbered(line, "WAIT_INPUT", block.wait.number);
-      line.text(block.wait.analog ? " analog" : " digital");
-      line.text(wait_name(block.wait.mode));
-      line.fixed(block.wait.timeout_s);
-      break;
-    case BlockKind::program_stop:
-      line.text("PROGRAM_STOP");
-      break;
-    case BlockKind::optional_stop:
-      line.text("OPTIONAL_PROGRAM_STOP");
-      break;
-    case BlockKind::program_end:
-      if (block.number == 1) return false;
-      line.text("PROGRAM_END");
-      break;
-    case BlockKind::message:
-    case BlockKind::speed_point:
-    case BlockKind::comment:
-    case BlockKind::feed_override:
-    case BlockKind::speed_override:
-    case BlockKind::spindle_mode:
-      return false;
+  bool operator()(const Traverse& move) const { return moves("STRAIGHT_TRAVERSE", move); }
+  bool operator()(const Feed& move) const { return moves("STRAIGHT_FEED", move); }
+  bool operator()(const Spline& move) const { return moves("NURBS_FEED", move); }
+  bool operator()(const Probe& move) const { return moves("STRAIGHT_PROBE", move); }
+  bool operator()(const RigidTap& move) const { return moves("RIGID_TAP", move); }
+  bool operator()(const Arc& arc) const {
+    moves("ARC_FEED", arc);
+    line_.text(" ");
+    line_.text(plane_word(arc.plane));
+    line_.fixed(arc.center_first_mm);
+    line_.fixed(arc.center_second_mm);
+    line_.text(" ");
+    line_.integer(arc.turns);
+    return true;
   }
-  return true;
-}
+
+  bool operator()(const Dwell& dwell) const { return measured("DWELL", dwell.time_s); }
+  bool operator()(const SetFeedRate& feed) const { return measured("SET_FEED_RATE", feed.rate); }
+  bool operator()(const SetFeedMode& feed) const {
+    return named(feed.mode == FeedMode::inverse_time           ? "SET_FEED_MODE G93"
+                 : feed.mode == FeedMode::units_per_revolution ? "SET_FEED_MODE G95"
+                                                               : "SET_FEED_MODE G94");
+  }
+  bool operator()(const SetPathMode& path) const {
+    line_.text("SET_MOTION_CONTROL_MODE ");
+    if (path.mode == PathMode::continuous) return measured("CONTINUOUS", path.tolerance_mm);
+    return named(path.mode == PathMode::exact_stop ? "EXACT_STOP" : "EXACT_PATH");
+  }
+
+  bool operator()(const SpindleSpeed& speed) const {
+    spindle("SET_SPINDLE_SPEED");
+    line_.fixed(speed.s_word);
+    return true;
+  }
+  bool operator()(const SpindleClockwise&) const { return spindle("START_SPINDLE_CLOCKWISE"); }
+  bool operator()(const SpindleCounterclockwise&) const { return spindle("START_SPINDLE_COUNTERCLOCKWISE"); }
+  bool operator()(const SpindleStop& stop) const {
+    if (!stop.orientation) return spindle("STOP_SPINDLE_TURNING");
+    if (stop.orientation->direction < 0) return false;
+    spindle("ORIENT_SPINDLE");
+    line_.fixed(stop.orientation->angle_deg);
+    line_.text(" ");
+    line_.integer(stop.orientation->direction);
+    return true;
+  }
+  bool operator()(const SyncStart& sync) const {
+    measured("START_SPEED_FEED_SYNC", sync.pitch_mm_rev);
+    line_.text(" 0");  // no velocity mode
+    return true;
+  }
+  bool operator()(const SyncStop&) const { return named("STOP_SPEED_FEED_SYNC"); }
+
+  bool operator()(const MistOn&) const { return named("MIST_ON"); }
+  bool operator()(const MistOff&) const { return named("MIST_OFF"); }
+  bool operator()(const FloodOn&) const { return named("FLOOD_ON"); }
+  bool operator()(const FloodOff&) const { return named("FLOOD_OFF"); }
+  bool operator()(const SelectTool& select) const { return numbered("SELECT_TOOL", select.tool); }
+  bool operator()(const ChangeTool& change) const { return numbered("CHANGE_TOOL", change.tool); }
+  bool operator()(const SetToolNumber& set) const { return numbered("CHANGE_TOOL_NUMBER", set.tool); }
+
+  bool operator()(const DigitalOutput& output) const {
+    numbered("SET_DIGITAL", output.number);
+    line_.text(output.on ? " on" : " off");
+    return named(output.with_motion ? " @motion" : " @now");
+  }
+  bool operator()(const AnalogOutput& output) const {
+    numbered("SET_ANALOG", output.number);
+    line_.fixed(output.value);
+    return named(output.with_motion ? " @motion" : " @now");
+  }
+  bool operator()(const InputWait& wait) const {
+    numbered("WAIT_INPUT", wait.number);
+    line_.text(wait.analog ? " analog " : " digital ");
+    return measured(kWaitModes.word(wait.mode), wait.timeout_s);
+  }
+
+  bool operator()(const ProgramStop&) const { return named("PROGRAM_STOP"); }
+  bool operator()(const OptionalStop&) const { return named("OPTIONAL_PROGRAM_STOP"); }
+  bool operator()(const ProgramEnd& end) const { return !end.by_percent && named("PROGRAM_END"); }
+
+  bool operator()(const OneOf<SpindleMode, FeedOverride, SpeedOverride, SpeedPoint> auto&) const { return false; }
+  bool operator()(const OneOf<Message, Comment> auto&) const { return false; }
+
+ private:
+  bool named(std::string_view name) const {
+    line_.text(name);
+    return true;
+  }
+  bool measured(std::string_view name, double value) const {
+    line_.text(name);
+    line_.fixed(value);
+    return true;
+  }
+  bool numbered(std::string_view name, int number) const {
+    line_.text(name);
+    line_.text(" ");
+    line_.integer(number);
+    return true;
+  }
+  bool moves(std::string_view name, const Move& move) const {
+    line_.text(name);
+    coordinates(line_, move.end);
+    return true;
+  }
+  /// With the number of the spindle: there is one.
+  bool spindle(std::string_view name) const {
+    line_.text(name);
+    line_.text(" 0");
+    return true;
+  }
+
+  LineWriter& line_;
+};
 
 }  // namespace
 
 void append_canon(std::string& out, const Block& block, std::string_view called_file) {
-  if (block.kind == BlockKind::message) {
+  if (const auto* message = std::get_if<Message>(&block.action)) {
     out += "MESSAGE \"";
-    append_quoted(out, block.text);
+    append_quoted(out, message->text);
     out += '"';
     append_place(out, block, called_file);
-  } else if (block.kind == BlockKind::comment) {
+  } else if (const auto* comment = std::get_if<Comment>(&block.action)) {
     out += "# ";
-    append_quoted(out, block.text);
+    append_quoted(out, comment->text);
     append_place(out, block, called_file);
   } else {
     LineWriter line;
-    if (!write(line, block)) return;
+    if (!std::visit(CallWriter(line), block.action)) return;
     if (called_file.empty()) line.place(block.span.line);
     line.finish(out);
     if (!called_file.empty()) append_place(out, block, called_file);

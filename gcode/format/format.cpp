@@ -183,7 +183,7 @@ void Formatter::sort_items(const Line& line) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const Item& item = line.items[i];
     order_[i] = i;
-    const bool calls = item.letter == 'M' && item.value < 0 && item.number == 98;
+    const bool calls = item.letter == 'M' && item.value < 0 && item.number == code::m98;
     const bool names = item.kind == ItemKind::setting && item.name >= 0;
     ranks_[i] = item.letter == 'N' && !first ? kMisplacedRank
                 : first && (calls || names)  ? kFirstRank

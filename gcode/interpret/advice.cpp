@@ -14,12 +14,13 @@ constexpr double kLongDwell_s = 100;     // P of another control's program is in
 
 constexpr std::uint64_t bit(BlockKind kind) { return std::uint64_t{1} << static_cast<unsigned>(kind); }
 
-constexpr std::uint64_t kAlways = bit(BlockKind::spindle_clockwise) |
-                                  bit(BlockKind::spindle_counterclockwise) | bit(BlockKind::spindle_stop) |
-                                  bit(BlockKind::change_tool) | bit(BlockKind::dwell) |
-                                  bit(BlockKind::probe) | bit(BlockKind::program_end);
-constexpr std::uint64_t kMoves =
-    bit(BlockKind::traverse) | bit(BlockKind::feed) | bit(BlockKind::arc) | bit(BlockKind::spline);
+template <class... Actions>
+constexpr std::uint64_t kinds() {
+  return (bit(Actions::kKind) | ...);
+}
+constexpr std::uint64_t kAlways =
+    kinds<SpindleClockwise, SpindleCounterclockwise, SpindleStop, ChangeTool, Dwell, Probe, ProgramEnd>();
+constexpr std::uint64_t kMoves = kinds<Traverse, Feed, Arc, Spline>();
 
 }  // namespace
 
@@ -38,94 +39,70 @@ void Advice::watch_moves() {
 }
 
 void Advice::look(const Block& block) {
-  switch (block.kind) {
-    case BlockKind::spindle_clockwise:
-    case BlockKind::spindle_counterclockwise:
-    case BlockKind::spindle_stop:
-      spindle_block(block);
-      break;
-    case BlockKind::change_tool:
-      tool_changed(block);
-      break;
-    case BlockKind::probe:
-      probing_ = true;
-      cut_ = {};
-      break;
-    case BlockKind::dwell:
-      if (!seconds_ || block.dwell_s < kLongDwell_s) break;
-      report_.warning(
-          problem(Code::long_dwell, block.span, fmt::format("waits {} s", figure(block.dwell_s)),
-                  fmt::format("if milliseconds were meant, write P{}", figure(block.dwell_s / 1000, 6))));
-      break;
-    case BlockKind::program_end:
-      tell_cut_without_spindle();
-      if (spindle_runs_) {
-        report_.warning(problem(Code::spindle_left_running, spindle_began_,
-                                fmt::format("started here, still running on line {}", block.span.line),
-                                "end the program with M2 or M30, or stop the spindle with M5"));
-      }
-      break;
-    case BlockKind::traverse:
-    case BlockKind::feed:
-    case BlockKind::arc:
-    case BlockKind::spline:
-    case BlockKind::rigid_tap:
-    case BlockKind::set_feed_rate:
-    case BlockKind::set_feed_mode:
-    case BlockKind::set_path_mode:
-    case BlockKind::spindle_speed:
-    case BlockKind::mist_on:
-    case BlockKind::mist_off:
-    case BlockKind::flood_on:
-    case BlockKind::flood_off:
-    case BlockKind::sync_start:
-    case BlockKind::sync_stop:
-    case BlockKind::spindle_mode:
-    case BlockKind::select_tool:
-    case BlockKind::set_tool_number:
-    case BlockKind::digital_output:
-    case BlockKind::analog_output:
-    case BlockKind::wait_input:
-    case BlockKind::message:
-    case BlockKind::program_stop:
-    case BlockKind::optional_stop:
-    case BlockKind::feed_override:
-    case BlockKind::speed_override:
-    case BlockKind::speed_point:
-    case BlockKind::comment:
-      move_block(block);
-      break;
+  if (const auto* change = std::get_if<ChangeTool>(&block.action)) {
+    tool_changed(*change);
+  } else if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
+    check_dwell(*dwell, block.span);
+  } else if (is<SpindleStop>(block)) {
+    if (spindle_runs_) spindle_stopped_ = block.span;
+    spindle_runs_ = false;
+  } else if (is<SpindleClockwise, SpindleCounterclockwise>(block)) {
+    spindle_started(block.span);
+  } else if (is<Probe>(block)) {
+    probing_ = true;
+    cut_ = {};
+  } else if (is<ProgramEnd>(block)) {
+    program_ended(block.span);
+  } else if (const Move* move = move_of(block)) {
+    check_move(*move, block);
   }
-  z_mm_ = block.end[kZ];
   watch_moves();
 }
 
-void Advice::spindle_block(const Block& block) {
-  const bool runs = block.kind != BlockKind::spindle_stop;
-  if (runs) {
-    spindle_ran_ = true;
-    spindle_began_ = block.span;
-    tell_cut_without_spindle();
-    probing_ = false;
-  } else if (spindle_runs_) {
-    spindle_stopped_ = block.span;
+/// Keeps the height of the tool: a probe stops at its contact, a tap comes back to where it began.
+void Advice::follow(const Block& block) {
+  if (const auto* probe = std::get_if<Probe>(&block.action)) {
+    z_mm_ = probe->contact[kZ];
+  } else if (const Move* move = move_of(block); move != nullptr && block.kind() != BlockKind::rigid_tap) {
+    z_mm_ = move->end[kZ];
   }
-  spindle_runs_ = runs;
 }
 
-void Advice::tool_changed(const Block& block) {
+void Advice::check_dwell(const Dwell& dwell, Span span) {
+  if (!seconds_ || dwell.time_s < kLongDwell_s) return;
+  report_.warning(problem(Code::long_dwell, span, fmt::format("waits {} s", figure(dwell.time_s)),
+                          fmt::format("if milliseconds were meant, write P{}", figure(dwell.time_s / 1000, 6))));
+}
+
+void Advice::program_ended(Span span) {
+  tell_cut_without_spindle();
+  if (!spindle_runs_) return;
+  report_.warning(problem(Code::spindle_left_running, spindle_began_,
+                          fmt::format("started here, still running on line {}", span.line),
+                          "end the program with M2 or M30, or stop the spindle with M5"));
+}
+
+void Advice::spindle_started(Span span) {
+  spindle_ran_ = spindle_runs_ = true;
+  spindle_began_ = span;
+  tell_cut_without_spindle();
+  probing_ = false;
+}
+
+void Advice::tool_changed(const ChangeTool& change) {
   // before the first start of the spindle nothing says yet that the program needs one
   if (spindle_ran_) tell_cut_without_spindle();
   probing_ = false;
-  length_doubtful_ = state_.tools.find(block.number) != nullptr;
+  length_doubtful_ = state_.tools.find(change.tool) != nullptr;
   length_in_force_ = state_.tool_offset;
 }
 
-void Advice::move_block(const Block& block) {
-  const bool down = block.end[kZ] < z_mm_ - kLevel_mm;
+void Advice::check_move(const Move& move, const Block& block) {
+  const bool down = move.end[kZ] < z_mm_ - kLevel_mm;
   if (!down || (state_.uncertain.axes & (1U << kZ)) != 0) return;
-  if (!spindle_runs_ && !probing_ && cut_.line == 0 && block.kind != BlockKind::traverse) cut_ = block.span;
-  if (length_doubtful_) check_length(block);
+  const bool rapid = is<Traverse>(block);
+  if (!spindle_runs_ && !probing_ && cut_.line == 0 && !rapid) cut_ = block.span;
+  if (length_doubtful_) check_length(block.span);
 }
 
 void Advice::tell_cut_without_spindle() {
@@ -141,14 +118,14 @@ void Advice::tell_cut_without_spindle() {
 }
 
 /// The first move down after a tool change: whose length is in force?
-void Advice::check_length(const Block& block) {
+void Advice::check_length(Span span) {
   length_doubtful_ = false;
   const Tool* tool = state_.tools.find(state_.tool_in_spindle);
   if (tool == nullptr || state_.tool_offset != length_in_force_) return;
   const double in_force_mm = length_in_force_[kZ];
   const double length_mm = tool->offset[kZ];
   if (std::fabs(length_mm - in_force_mm) < kSameLength_mm) return;
-  Diagnostic d = problem(Code::length_of_other_tool, block.span,
+  Diagnostic d = problem(Code::length_of_other_tool, span,
                          fmt::format("goes down with length {} mm in force", figure(in_force_mm)),
                          "write G43 after the tool change, G49 if no length is intended");
   d.notes.push_back(

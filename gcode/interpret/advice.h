@@ -16,7 +16,8 @@ class Advice {
 
   /// A block is about to be handed out.
   void watch(const Block& block) {
-    if ((wanted_ & (std::uint64_t{1} << static_cast<unsigned>(block.kind))) != 0) look(block);
+    if ((wanted_ & (std::uint64_t{1} << static_cast<unsigned>(block.kind()))) != 0) look(block);
+    follow(block);
   }
   /// G43, G43.1, G43.2 or G49 was read: the length in force is meant.
   void length_named() { length_doubtful_ = false; }
@@ -25,10 +26,13 @@ class Advice {
 
  private:
   void look(const Block& block);
-  void spindle_block(const Block& block);
-  void move_block(const Block& block);
-  void tool_changed(const Block& block);
-  void check_length(const Block& block);
+  void follow(const Block& block);
+  void spindle_started(Span span);
+  void program_ended(Span span);
+  void tool_changed(const ChangeTool& change);
+  void check_dwell(const Dwell& dwell, Span span);
+  void check_move(const Move& move, const Block& block);
+  void check_length(Span span);
   void tell_cut_without_spindle();
   void watch_moves();
 
@@ -42,7 +46,7 @@ class Advice {
   Span spindle_stopped_;  ///< what stopped it
   bool probing_ = false;  ///< a probe stands in the spindle: it moves without turning
   Span cut_;              ///< first feed move downward while the spindle stands; line 0: none
-  double z_mm_ = 0;       ///< where the last block watched ended
+  double z_mm_ = 0;       ///< where the last move ended
   bool length_doubtful_ = false;
   AxisValues length_in_force_{};  ///< as the tool was changed
 };

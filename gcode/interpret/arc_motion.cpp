@@ -45,38 +45,34 @@ void Interpreter::arc(Motion motion) {
   const std::uint32_t words_in_doubt = words_.doubtful & (kAxisBits | letter_bits("IJKR"));
   const AxisValues from = arc_frame(state_.position);
   const AxisValues to = arc_frame(end);
-  Arc found;
+  ArcGeometry found;
   const bool known = (state_.uncertain.axes & plane_bits) == 0 && words_in_doubt == 0;
   if (!known || !find_arc(from, to, clockwise, found) || !feed_is_ready) return move_to(end);
 
-  Block& block = motion_block_;
   int turns = 1;
   if (words_.has('P')) near_integer(words_.value('P'), turns);
-  block.kind = BlockKind::arc;
-  block.span = action_span();
-  block.end = end;
+  Arc arc{make_move(end)};
+  arc.plane = state_.plane;
   AxisValues center = to;
   center[static_cast<std::size_t>(axes.first)] = found.center.first_mm;
   center[static_cast<std::size_t>(axes.second)] = found.center.second_mm;
   const PlanePoint handed_center =
       compensation_tilted_ ? found.center : in_plane(arc_frame_to_machine(center), axes);
-  block.center_first_mm = handed_center.first_mm;
-  block.center_second_mm = handed_center.second_mm;
-  block.plane_rotation_deg = state_.plane == Plane::xy ? 0 : state_.rotation_deg;
-  block.turns = clockwise ? -turns : turns;
+  arc.center_first_mm = handed_center.first_mm;
+  arc.center_second_mm = handed_center.second_mm;
+  arc.plane_rotation_deg = state_.plane == Plane::xy ? 0 : state_.rotation_deg;
+  arc.turns = clockwise ? -turns : turns;
   const double sweep =
       arc_sweep_rad(in_plane(from, axes), in_plane(to, axes), found.center, clockwise, turns);
   const auto normal = static_cast<std::size_t>(axes.normal);
-  measure_arc(sweep, (found.radius_start_mm + found.radius_end_mm) / 2, to[normal] - from[normal], block);
-  set_feed(block);
+  measure_arc(sweep, (found.radius_start_mm + found.radius_end_mm) / 2, to[normal] - from[normal], arc);
+  set_feed(arc);
+  last_move_end_ = end;
   move_to(end);
-  emit(block);
-  block.center_first_mm = block.center_second_mm = 0;
-  block.turns = 0;
-  block.plane_rotation_deg = 0;
+  emit(action_span(), arc);
 }
 
-bool Interpreter::find_arc(const AxisValues& start, const AxisValues& end, bool clockwise, Arc& result) {
+bool Interpreter::find_arc(const AxisValues& start, const AxisValues& end, bool clockwise, ArcGeometry& result) {
   const PlaneAxes axes = plane_axes(state_.plane);
   const PlanePoint from = in_plane(start, axes);
   const PlanePoint to = in_plane(end, axes);
@@ -132,7 +128,7 @@ ArcLimits Interpreter::limits_of_arc() const {
   return arc_limits(state_.inches, options_.arc_end_tolerance_mm, options_.arc_end_tolerance_relative);
 }
 
-bool Interpreter::refuse_arc(const Arc& arc, PlanePoint end) {
+bool Interpreter::refuse_arc(const ArcGeometry& arc, PlanePoint end) {
   const PlaneAxes axes = plane_axes(state_.plane);
   const char first = kAxisLetters[static_cast<std::size_t>(axes.first)];
   const char second = kAxisLetters[static_cast<std::size_t>(axes.second)];
@@ -196,7 +192,7 @@ bool Interpreter::refuse_arc(const Arc& arc, PlanePoint end) {
   return error(std::move(d));
 }
 
-void Interpreter::warn_arc(const Arc& arc) {
+void Interpreter::warn_arc(const ArcGeometry& arc) {
   const double apart = std::fabs(arc.radius_start_mm - arc.radius_end_mm);
   if (arc.half_circle_taken &&
       arc.half_chord_mm - std::fabs(words_.value('R')) * state_.length_factor() > kHalfCircleNoise_mm) {

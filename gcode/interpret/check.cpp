@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gcode/interpret/interpreter.h"
+#include "gcode/interpret/letters.h"
 
 namespace kadr::gcode {
 namespace {
@@ -10,64 +11,6 @@ namespace {
 constexpr double kLargestTurns = 1e6;
 constexpr double kLargestOrder = 1e6;
 constexpr double kLargestCall = 1e9;
-
-/// Codes that read a letter, for the message about a letter that nobody reads.
-std::string_view users_of(char letter) {
-  switch (letter) {
-    case 'D':
-      return "D belongs to G41 G42 G41.1 G42.1 G96";
-    case 'E':
-      return "E belongs to G76 M66 M67 M68";
-    case 'H':
-      return "H belongs to G43 G43.2 G76";
-    case 'I':
-    case 'J':
-      return "I and J belong to G2 G3 G5 G5.1 G10 G33.1 G76";
-    case 'K':
-      return "K belongs to G2 G3 G33 G33.1 G76";
-    case 'L':
-      return "L belongs to G5.2 G10 G41.1 G42.1, cycles, M66 and M98";
-    case 'P':
-      return "P belongs to G2 G3 G4 G5 G5.2 G10 G64 G76, cycles, M19 M50 to M53 M62 to M66 and M98";
-    case 'Q':
-      return "Q belongs to G5 G10 G64 G73 G76 G83 M19 M61 M66 M67 M68";
-    case 'R':
-      return "R belongs to G2 G3 G10 G76 M19 and cycles";
-    case '$':
-      return "$ names a spindle: it belongs to S, M3 M4 M5 M51, G33 G33.1 G76 G96 G97";
-    default:
-      return "no code that kadr runs reads this letter";
-  }
-}
-
-/// Letters besides axes, F, S and T that a motion reads. `code`: of the line, of a cycle the one in force.
-std::uint32_t letters_of_motion(Motion motion, int code) {
-  switch (motion) {
-    case Motion::arc_clockwise:
-    case Motion::arc_counterclockwise:
-      return letter_bits("IJKRP");
-    case Motion::cubic_spline:
-      return letter_bits("IJPQ");
-    case Motion::quadratic_spline:
-      return letter_bits("IJ");
-    case Motion::nurbs:
-      return letter_bits("PL");
-    case Motion::thread:
-      return letter_bits("KE$");
-    case Motion::rigid_tap:
-      return letter_bits("KIE$");
-    case Motion::thread_cycle:
-      return letter_bits("PIJRKQHEL$");
-    case Motion::cycle:
-      return letters_of_cycle(code);
-    case Motion::none:
-    case Motion::traverse:
-    case Motion::feed:
-    case Motion::probe:
-      break;
-  }
-  return 0;
-}
 
 }  // namespace
 
@@ -98,25 +41,25 @@ void Interpreter::check_axes() {
 }
 
 void Interpreter::check_codes() {
-  if (words_.m(MGroup::call) == 98) check_call();
+  if (words_.m(MGroup::call) == code::m98) check_call();
   const int nonmodal_code = words_.g(GGroup::nonmodal);
   const int motion_code = words_.g(GGroup::motion);
   const bool takes_axes = axis_words_taken();
-  const bool names_motion = motion_code != kNoCode && motion_code != 800;
+  const bool names_motion = motion_code != kNoCode && motion_code != code::g80;
   if (takes_axes) check_axis_words();
   if (words_.has_axis() && !takes_axes && !names_motion && !state_.uncertain.motion &&
-      (motion_code == 800 || state_.motion == Motion::none)) {
+      (motion_code == code::g80 || state_.motion == Motion::none)) {
     error(problem(
         Code::axis_words_without_motion, words_.motion_span(*line_),
-        motion_code == 800 ? "G80 on this line has ended every motion" : "no motion code is in force here",
+        motion_code == code::g80 ? "G80 on this line has ended every motion" : "no motion code is in force here",
         "write G0, G1, G2 or G3 before the first axis words"));
     state_.uncertain.motion = true;
   }
-  if (nonmodal_code == 530) {
+  if (nonmodal_code == code::g53) {
     const Motion motion = motion_of_line();
     const bool line_motion = moves() && (motion == Motion::traverse || motion == Motion::feed);
     const bool incremental =
-        words_.g(GGroup::distance) != kNoCode ? words_.g(GGroup::distance) == 910 : state_.incremental;
+        words_.g(GGroup::distance) != kNoCode ? words_.g(GGroup::distance) == code::g91 : state_.incremental;
     if (!state_.uncertain.motion && (!line_motion || incremental)) {
       error(problem(
           Code::g53_misplaced, g_span(GGroup::nonmodal),
@@ -154,9 +97,9 @@ void Interpreter::check_motion_words() {
     case Motion::cycle:
       return check_cycle(code == kNoCode ? state_.cycle.code : code);
     case Motion::thread:
-      return check_thread(330);
+      return check_thread(code::g33);
     case Motion::rigid_tap:
-      return check_thread(331);
+      return check_thread(code::g33_1);
     case Motion::thread_cycle:
       return check_thread_cycle();
     case Motion::none:
@@ -174,57 +117,10 @@ void Interpreter::check_motion_words() {
 
 std::uint32_t Interpreter::usable_letters() const {
   std::uint32_t letters = kAxisBits | letter_bits("FST@^");
-  const int motion_code = words_.g(GGroup::motion);
-  if (moves()) {
-    const bool cycle_goes_on = motion_code == kNoCode && state_.motion == Motion::cycle;
-    letters |= letters_of_motion(motion_of_line(), cycle_goes_on ? state_.cycle.code : motion_code);
-  }
-  switch (words_.g(GGroup::nonmodal)) {
-    case 40:
-      letters |= letter_bit('P');
-      break;
-    case 100:
-      letters |= letter_bits("LPRQIJ");
-      break;
-    default:
-      break;
-  }
-  if (words_.g(GGroup::path) == 640) letters |= letter_bits("PQ");
-  const int length = words_.g(GGroup::tool_length);
-  if (length == 430 || length == 432) letters |= letter_bit('H');
-  switch (words_.g(GGroup::compensation)) {
-    case 410:
-    case 420:
-    case 411:
-    case 421:
-      letters |= letter_bits("DL");
-      break;
-    default:
-      break;
-  }
-  const int mode = words_.g(GGroup::spindle_mode);
-  if (mode == 960) letters |= letter_bit('D');
-  if (mode != kNoCode || words_.has('S') || words_.m(MGroup::spindle) != kNoCode) letters |= letter_bit('$');
-  if (words_.m(MGroup::spindle) == 19) letters |= letter_bits("RPQ");
-  const int override_code = words_.m(MGroup::overrides);
-  if (override_code >= 50) letters |= letter_bit('P');
-  if (override_code == 51) letters |= letter_bit('$');
-  switch (words_.m(MGroup::inputs)) {
-    case kNoCode:
-      break;
-    case 66:
-      letters |= letter_bits("PELQ");
-      break;
-    case 67:
-    case 68:
-      letters |= letter_bits("EQ");
-      break;
-    default:
-      letters |= letter_bit('P');
-      break;
-  }
-  if (words_.m(MGroup::tool_change) == 61) letters |= letter_bit('Q');
-  if (words_.m(MGroup::call) == 98) letters |= letter_bits("PL");
+  for (const int code : words_.g_codes()) letters |= letters_of_g(code);
+  for (const int code : words_.m_codes()) letters |= letters_of_m(code);
+  if (moves() && words_.g(GGroup::motion) == kNoCode) letters |= letters_of_g(motion_code(state_));
+  if (words_.has('S')) letters |= letter_bit('$');
   return letters;
 }
 
@@ -252,27 +148,27 @@ void Interpreter::check_values() {
                   fmt::format("{} is {}, allowed 0 and above", letter, figure(words_.value(letter)))));
   }
   switch (words_.g(GGroup::nonmodal)) {
-    case 40:
+    case code::g4:
       if (!require_word('P', GGroup::nonmodal, "the seconds to wait")) break;
       if (words_.value('P') < 0) {
         error(problem(Code::word_out_of_range, words_.span(*line_, 'P'),
                       fmt::format("dwell of {} s, allowed 0 and above", figure(words_.value('P')))));
       }
       break;
-    case 100:
+    case code::g10:
       check_g10();
       break;
     default:
       break;
   }
   if (moves() && is_arc(motion_of_line())) check_whole('P', 1, kLargestTurns);
-  if (words_.g(GGroup::spindle_mode) == 960) require_word('S', GGroup::spindle_mode, "the surface speed");
+  if (words_.g(GGroup::spindle_mode) == code::g96) require_word('S', GGroup::spindle_mode, "the surface speed");
   if (words_.g(GGroup::spindle_mode) != kNoCode) check_whole('$', 0, 0);
   if (moves() && motion_of_line() == Motion::nurbs) check_whole('L', 0, kLargestOrder);
-  if (words_.g(GGroup::path) == 640 && words_.has('P') && words_.value('P') < 0) {
+  if (words_.g(GGroup::path) == code::g64 && words_.has('P') && words_.value('P') < 0) {
     error(problem(Code::word_out_of_range, words_.span(*line_, 'P'), "a tolerance below 0"));
   }
-  if (words_.m(MGroup::call) == 98) {
+  if (words_.m(MGroup::call) == code::m98) {
     check_whole('P', 0, kLargestCall);
     check_whole('L', 0, kLargestCall);
   }
@@ -311,9 +207,9 @@ void Interpreter::check_shared_p() {
   const int code = words_.g(GGroup::nonmodal);
   const int override_code = words_.m(MGroup::overrides);
   const int motion_code = words_.g(GGroup::motion);
-  const int users = (code == 40 || code == 100 ? 1 : 0) + (words_.g(GGroup::path) == 640 ? 1 : 0) +
-                    (override_code == 50 || override_code == 51 ? 1 : 0) +
-                    (motion_code == 20 || motion_code == 30 ? 1 : 0);
+  const int users = (code == code::g4 || code == code::g10 ? 1 : 0) + (words_.g(GGroup::path) == code::g64 ? 1 : 0) +
+                    (override_code == code::m50 || override_code == code::m51 ? 1 : 0) +
+                    (motion_code == code::g2 || motion_code == code::g3 ? 1 : 0);
   if (users < 2) return;
   report_.warning(problem(Code::word_shared, words_.span(*line_, 'P'),
                           fmt::format("{} codes on this line read this P", users),

@@ -17,7 +17,7 @@ void Interpreter::check_functions() {
   if (words_.m(MGroup::inputs) != kNoCode) check_inputs();
   // one spindle: $0, and $-1, which means all
   if (words_.has('$') && (words_.has('S') || words_.m(MGroup::spindle) != kNoCode)) check_whole('$', -1, 0);
-  if (words_.m(MGroup::spindle) == 19) check_orientation();
+  if (words_.m(MGroup::spindle) == code::m19) check_orientation();
   const int spindle_code = words_.m(MGroup::spindle);
   const int state_code = words_.m(MGroup::modal_state);
   if (spindle_code == kNoCode || state_code == kNoCode) return;
@@ -40,10 +40,9 @@ void Interpreter::check_orientation() {
 void Interpreter::check_inputs() {
   const int code = words_.m(MGroup::inputs);
   const Span span = words_.span(*line_, MGroup::inputs);
-  if (code == 66) return check_wait();
-  const bool analog = code >= 67;
+  if (code == code::m66) return check_wait();
   const std::string name = fmt::format("M{}", code);
-  if (analog) {
+  if (output_code(code)->analog) {
     require_words({{'E', "the number of the output"}, {'Q', "its value"}}, span, name);
     check_whole('E', 0, kLargestChannel);
   } else {

@@ -27,9 +27,9 @@ void Interpreter::check_axis_words() {
   const int nonmodal_code = words_.g(GGroup::nonmodal);
   const int motion_code = words_.g(GGroup::motion);
   const int tool_code = words_.g(GGroup::tool_length);
-  const bool names_motion = motion_code != kNoCode && motion_code != 800;
+  const bool names_motion = motion_code != kNoCode && motion_code != code::g80;
   const bool nonmodal_takes = takes_axis_words(nonmodal_code);
-  const bool tool_takes = tool_code == 431 || (tool_code == 432 && !words_.has('H'));
+  const bool tool_takes = tool_code == code::g43_1 || (tool_code == code::g43_2 && !words_.has('H'));
   if (nonmodal_takes && names_motion) {
     error(
         problem(Code::axis_words_wanted_twice, g_span(GGroup::nonmodal),
@@ -41,7 +41,7 @@ void Interpreter::check_axis_words() {
                                         g_name(nonmodal_takes ? nonmodal_code : motion_code)),
                             "write them on two lines"));
   }
-  if ((nonmodal_code == 920 || nonmodal_code == 520) && !words_.has_axis()) {
+  if ((nonmodal_code == code::g92 || nonmodal_code == code::g52) && !words_.has_axis()) {
     error(problem(Code::word_missing, g_span(GGroup::nonmodal),
                   fmt::format("{} needs at least one axis word", g_name(nonmodal_code))));
   }
@@ -64,16 +64,16 @@ bool Interpreter::check_tool(char letter, double least) {
 void Interpreter::check_tools() {
   check_tool('T', 0);
   const int length = words_.g(GGroup::tool_length);
-  if (length == 430 || length == 432) check_tool('H', 0);
-  if (length == 432 && words_.has('H') == words_.has_axis()) {
+  if (length == code::g43 || length == code::g43_2) check_tool('H', 0);
+  if (length == code::g43_2 && words_.has('H') == words_.has_axis()) {
     error(problem(Code::tool_offset_unclear, g_span(GGroup::tool_length),
                   words_.has_axis() ? "both a tool (H) and axis words say what to add"
                                     : "neither a tool (H) nor an axis word says what to add"));
   }
-  if (words_.m(MGroup::tool_change) == 61 && !words_.has('Q')) {
+  if (words_.m(MGroup::tool_change) == code::m61 && !words_.has('Q')) {
     error(problem(Code::word_missing, words_.span(*line_, MGroup::tool_change),
                   "M61 needs Q: the number of the tool in the spindle"));
-  } else if (words_.m(MGroup::tool_change) == 61) {
+  } else if (words_.m(MGroup::tool_change) == code::m61) {
     check_tool('Q', 0);
   }
 }

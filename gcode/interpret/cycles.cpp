@@ -13,12 +13,13 @@ constexpr double kPeckClearance_in = 0.010;
 constexpr double kLargestRepeats = 1e6;
 constexpr double kMostPecks = 1e6;
 /// A level read back through offsets carries their rounding; a program has fewer decimals than this. Levels
-/// are compared, and the number of pecks hangs on it, so they must be what the program made them.
+/// decide the number of pecks, so undo that rounding.
 constexpr double kLevelDecimals = 1e10;
 constexpr double kSameLevel = 1e-9;
 
-constexpr int kTapLeft = 740, kTapRight = 840, kDrill = 810, kDrillDwell = 820, kBore = 850, kBoreStop = 860,
-              kBoreDwell = 890, kChipBreak = 730, kPeck = 830;
+constexpr int kTapLeft = code::g74, kTapRight = code::g84, kDrill = code::g81, kDrillDwell = code::g82,
+              kBore = code::g85, kBoreStop = code::g86, kBoreDwell = code::g89, kChipBreak = code::g73,
+              kPeck = code::g83;
 
 bool dwells(int code) {
   return code == kDrillDwell || code == kBoreStop || code == kBoreDwell || code == kTapLeft ||
@@ -39,14 +40,6 @@ struct Interpreter::Hole {
   double bottom = 0;
 };
 
-std::uint32_t letters_of_cycle(int code) {
-  std::uint32_t letters = letter_bit('R');
-  if (code != kTapLeft) letters |= letter_bit('L');
-  if (dwells(code)) letters |= letter_bit('P');
-  if (pecks(code)) letters |= letter_bit('Q');
-  return letters;
-}
-
 void Interpreter::check_cycle(int code) {
   const bool named = words_.g(GGroup::motion) != kNoCode;
   const bool goes_on =
@@ -62,12 +55,7 @@ void Interpreter::check_cycle(int code) {
                   fmt::format("{} needs at least one axis word", g_name(code))));
   }
   if (!goes_on) {
-    const int plane_code = words_.g(GGroup::plane);
-    const Plane plane = plane_code == 170   ? Plane::xy
-                        : plane_code == 180 ? Plane::zx
-                        : plane_code == 190 ? Plane::yz
-                                            : state_.plane;
-    const char along = kAxisLetters[static_cast<std::size_t>(plane_axes(plane).normal)];
+    const char along = kAxisLetters[static_cast<std::size_t>(plane_axes(plane_of_line()).normal)];
     std::vector<NeededWord> needed = {{along, "the bottom of the hole"}, {'R', "the retract level"}};
     if (dwells(code) && !taps(code)) needed.push_back({'P', "the seconds to wait at the bottom"});
     if (pecks(code)) needed.push_back({'Q', "the depth of a peck"});
@@ -158,7 +146,7 @@ bool Interpreter::cycle_levels(Hole& hole) {
   }
   // a sequence that began below R: first straight up
   if (initial < hole.retract) {
-    go_to_level(hole, BlockKind::traverse, hole.retract);
+    go_to_level(hole, Rate::rapid, hole.retract);
     initial = hole.here = hole.retract;
   }
   hole.clear = kept.last_level = state_.retract_to_start ? initial : hole.retract;
@@ -185,8 +173,8 @@ void Interpreter::cycle_holes(Hole hole) {
     }
     // the first way to a hole is at the height where the tool is, the others at the level of retreat
     const double way = i == 0 && hole.here > hole.retract ? hole.here : hole.clear;
-    go_to_level(hole, BlockKind::traverse, way);
-    if (way > hole.retract) go_to_level(hole, BlockKind::traverse, hole.retract);
+    go_to_level(hole, Rate::rapid, way);
+    if (way > hole.retract) go_to_level(hole, Rate::rapid, hole.retract);
     make_hole(hole);
   }
 }
@@ -202,36 +190,36 @@ void Interpreter::make_hole(const Hole& hole) {
     case kBoreStop:
       return bore_and_stop(hole);
     case kDrill:
-      go_to_level(hole, BlockKind::feed, hole.bottom);
+      go_to_level(hole, Rate::feed, hole.bottom);
       break;
     case kDrillDwell:
-      go_to_level(hole, BlockKind::feed, hole.bottom);
+      go_to_level(hole, Rate::feed, hole.bottom);
       dwell_at_bottom();
       break;
     case kBore:
-      go_to_level(hole, BlockKind::feed, hole.bottom);
-      go_to_level(hole, BlockKind::feed, hole.retract);
+      go_to_level(hole, Rate::feed, hole.bottom);
+      go_to_level(hole, Rate::feed, hole.retract);
       break;
     case kBoreDwell:
-      go_to_level(hole, BlockKind::feed, hole.bottom);
+      go_to_level(hole, Rate::feed, hole.bottom);
       dwell_at_bottom();
-      return go_to_level(hole, BlockKind::feed, hole.clear);
+      return go_to_level(hole, Rate::feed, hole.clear);
     default:
       require(false, "every code of the group of cycles has its hole");
   }
-  go_to_level(hole, BlockKind::traverse, hole.clear);
+  go_to_level(hole, Rate::rapid, hole.clear);
 }
 
 void Interpreter::peck(const Hole& hole) {
   const double clearance = state_.inches ? kPeckClearance_in : kPeckClearance_in * kMillimetresPerInch;
   const double depth = state_.cycle.peck;
   for (double level = hole.retract - depth; level > hole.bottom && !ended_; level -= depth) {
-    go_to_level(hole, BlockKind::feed, level);
-    if (state_.cycle.code == kPeck) go_to_level(hole, BlockKind::traverse, hole.retract);
-    go_to_level(hole, BlockKind::traverse, level + clearance);
+    go_to_level(hole, Rate::feed, level);
+    if (state_.cycle.code == kPeck) go_to_level(hole, Rate::rapid, hole.retract);
+    go_to_level(hole, Rate::rapid, level + clearance);
   }
-  go_to_level(hole, BlockKind::feed, hole.bottom);
-  go_to_level(hole, BlockKind::traverse, hole.clear);
+  go_to_level(hole, Rate::feed, hole.bottom);
+  go_to_level(hole, Rate::rapid, hole.clear);
 }
 
 void Interpreter::tap(const Hole& hole) {
@@ -240,8 +228,8 @@ void Interpreter::tap(const Hole& hole) {
   const Turning out = in == Turning::clockwise ? Turning::counterclockwise : Turning::clockwise;
   const bool feed_override = state_.feed_override;
   const bool speed_override = state_.speed_override;
-  override_block(BlockKind::feed_override, false);
-  override_block(BlockKind::speed_override, false);
+  enable_feed_override(false);
+  enable_speed_override(false);
   tap_to_level(hole, hole.bottom);
   turn_spindle(Turning::stopped, span);
   turn_spindle(out, span);
@@ -252,19 +240,19 @@ void Interpreter::tap(const Hole& hole) {
   // after exchanged axes the program goes on as if the tool were over the hole
   state_.position = near_position(state_.to_machine(place_at(hole, hole.clear)));
   tapped_at_ = state_.position;
-  if (feed_override) override_block(BlockKind::feed_override, true);
-  if (speed_override) override_block(BlockKind::speed_override, true);
+  if (feed_override) enable_feed_override(true);
+  if (speed_override) enable_speed_override(true);
 }
 
 /// LinuxCNC 2.9 exchanges the axes of the feed moves of G74 and G84 outside G17. Its machine makes this move;
 /// so does the emulated one, and says so: the place to find it out is here.
 void Interpreter::tap_to_level(const Hole& hole, double level) {
-  if (state_.plane == Plane::xy) return go_to_level(hole, BlockKind::feed, level);
+  if (state_.plane == Plane::xy) return go_to_level(hole, Rate::feed, level);
   Hole exchanged = hole;
   const bool zx = state_.plane == Plane::zx;
   exchanged.first = zx ? hole.second : level;
   exchanged.second = zx ? level : hole.first;
-  go_to_level(exchanged, BlockKind::feed, zx ? hole.first : hole.second);
+  go_to_level(exchanged, Rate::feed, zx ? hole.first : hole.second);
   report_.warning(problem(Code::tap_outside_g17, action_span(),
                           fmt::format("the tap is fed to X{} Y{} Z{}", figure(state_.program_position(0)),
                                       figure(state_.program_position(1)), figure(state_.program_position(2))),
@@ -273,10 +261,10 @@ void Interpreter::tap_to_level(const Hole& hole, double level) {
 
 void Interpreter::bore_and_stop(const Hole& hole) {
   const Turning turning = state_.turning;
-  go_to_level(hole, BlockKind::feed, hole.bottom);
+  go_to_level(hole, Rate::feed, hole.bottom);
   dwell_at_bottom();
   turn_spindle(Turning::stopped, action_span());
-  go_to_level(hole, BlockKind::traverse, hole.clear);
+  go_to_level(hole, Rate::rapid, hole.clear);
   turn_spindle(turning, action_span());
 }
 
@@ -291,19 +279,17 @@ AxisValues Interpreter::place_at(const Hole& hole, double level) const {
   return program;
 }
 
-void Interpreter::go_to_level(const Hole& hole, BlockKind kind, double level) {
-  go(kind, place_at(hole, level));
+void Interpreter::go_to_level(const Hole& hole, Rate rate, double level) {
+  go(rate, place_at(hole, level));
 }
 
 void Interpreter::dwell_at_bottom() {
-  Block block = make_block(BlockKind::dwell, action_span());
-  block.dwell_s = state_.cycle.dwell_s;
-  emit(block);
+  emit(action_span(), Dwell{state_.cycle.dwell_s});
 }
 
 void Interpreter::retract_mode() {
   const int code = words_.g(GGroup::retract);
-  if (code != kNoCode) state_.retract_to_start = code == 980;
+  if (code != kNoCode) state_.retract_to_start = code == code::g98;
 }
 
 }  // namespace kadr::gcode

@@ -5,62 +5,69 @@ namespace kadr::gcode {
 void Interpreter::spindle() {
   const int code = words_.m(MGroup::spindle);
   if (code == kNoCode) return;
-  if (code == 19) return orient_spindle();
-  turn_spindle(code == 3   ? Turning::clockwise
-               : code == 4 ? Turning::counterclockwise
+  if (code == code::m19) return orient_spindle();
+  turn_spindle(code == code::m3   ? Turning::clockwise
+               : code == code::m4 ? Turning::counterclockwise
                            : Turning::stopped,
                words_.span(*line_, MGroup::spindle));
 }
 
 void Interpreter::turn_spindle(Turning turning, Span span) {
   state_.turning = turning;
-  Block block = make_block(turning == Turning::clockwise          ? BlockKind::spindle_clockwise
-                           : turning == Turning::counterclockwise ? BlockKind::spindle_counterclockwise
-                                                                  : BlockKind::spindle_stop,
-                           span);
-  block.value = mean_spindle_rpm(state_.position, state_.position);
-  emit(block);
+  const double speed_rpm = mean_spindle_rpm(state_.position, state_.position);
+  switch (turning) {
+    case Turning::clockwise:
+      return emit(span, SpindleClockwise{speed_rpm});
+    case Turning::counterclockwise:
+      return emit(span, SpindleCounterclockwise{speed_rpm});
+    case Turning::stopped:
+      return emit(span, SpindleStop{});
+  }
 }
 
 void Interpreter::orient_spindle() {
   state_.turning = Turning::stopped;
-  Block block = make_block(BlockKind::spindle_stop, words_.span(*line_, MGroup::spindle));
-  block.on = true;
-  block.value = words_.has('R') ? words_.value('R') : 0;
-  int way = words_.has('R') ? 0 : -1;
-  if (words_.has('P')) near_integer(words_.value('P'), way);
-  block.number = way;
-  emit(block);
+  SpindleOrientation orientation;
+  if (words_.has('R')) orientation = {words_.value('R'), 0};
+  if (words_.has('P')) near_integer(words_.value('P'), orientation.direction);
+  emit(words_.span(*line_, MGroup::spindle), SpindleStop{orientation});
 }
 
 void Interpreter::coolant() {
   const int code = words_.m(MGroup::coolant);
   if (code == kNoCode) return;
   const Span span = words_.span(*line_, MGroup::coolant);
-  if (code == 7) simple_block(BlockKind::mist_on, span);
-  if (code == 8) simple_block(BlockKind::flood_on, span);
-  if (code == 9) {
-    simple_block(BlockKind::mist_off, span);
-    simple_block(BlockKind::flood_off, span);
+  if (code == code::m7) emit(span, MistOn{});
+  if (code == code::m8) emit(span, FloodOn{});
+  if (code == code::m9) {
+    emit(span, MistOff{});
+    emit(span, FloodOff{});
   }
-  state_.mist = code == 7 || (state_.mist && code != 9);
-  state_.flood = code == 8 || (state_.flood && code != 9);
+  state_.mist = code == code::m7 || (state_.mist && code != code::m9);
+  state_.flood = code == code::m8 || (state_.flood && code != code::m9);
 }
 
 void Interpreter::overrides() {
   const int code = words_.m(MGroup::overrides);
-  if (code == kNoCode || code == 52 || code == 53) return;  // adaptive feed and feed hold are the operator's
-  const bool enable = code == 48 || (code != 49 && !(words_.has('P') && words_.value('P') == 0));
-  if (code != 51) override_block(BlockKind::feed_override, enable);
-  if (code != 50) override_block(BlockKind::speed_override, enable);
+  if (code == kNoCode || code == code::m52 || code == code::m53) return;  // adaptive feed and feed hold are the operator's
+  const bool enable = code == code::m48 || (code != code::m49 && !(words_.has('P') && words_.value('P') == 0));
+  if (code != code::m51) enable_feed_override(enable);
+  if (code != code::m50) enable_speed_override(enable);
 }
 
-void Interpreter::override_block(BlockKind kind, bool enabled) {
-  (kind == BlockKind::feed_override ? state_.feed_override : state_.speed_override) = enabled;
-  const int code = words_.m(MGroup::overrides);
-  Block block = make_block(kind, code == kNoCode ? line_span() : words_.span(*line_, MGroup::overrides));
-  block.number = enabled ? 1 : 0;
-  emit(block);
+void Interpreter::enable_feed_override(bool enabled) {
+  state_.feed_override = enabled;
+  emit(override_span(), FeedOverride{enabled});
+}
+
+void Interpreter::enable_speed_override(bool enabled) {
+  state_.speed_override = enabled;
+  emit(override_span(), SpeedOverride{enabled});
+}
+
+/// The M code of the line, or the whole line where a cycle or the end of the program switches overrides.
+Span Interpreter::override_span() const {
+  return words_.m(MGroup::overrides) == kNoCode ? line_span() : words_.span(*line_, MGroup::overrides);
 }
 
 void Interpreter::take_dwell_words() {
@@ -79,10 +86,8 @@ void Interpreter::take_dwell_words() {
 }
 
 void Interpreter::dwell() {
-  if (words_.g(GGroup::nonmodal) != 40) return;
-  Block block = make_block(BlockKind::dwell, g_span(GGroup::nonmodal));
-  block.dwell_s = words_.value('P');
-  emit(block);
+  if (words_.g(GGroup::nonmodal) != code::g4) return;
+  emit(g_span(GGroup::nonmodal), Dwell{words_.value('P')});
 }
 
 /// A word or setting beside M98 P L or M99, none: null.
@@ -98,14 +103,14 @@ const Item* Interpreter::words_beside_call() const {
 
 /// LinuxCNC runs nothing of a line that begins with M98 but the call.
 bool Interpreter::calls_only() const {
-  return words_.m(MGroup::call) == 98 && options_.dialect != Dialect::fanuc;
+  return words_.m(MGroup::call) == code::m98 && options_.dialect != Dialect::fanuc;
 }
 
 void Interpreter::call() {
   const int code = words_.m(MGroup::call);
   if (code == kNoCode) return;
   CallRequest request;
-  request.returns = code == 99;
+  request.returns = code == code::m99;
   request.place = words_.span(*line_, MGroup::call);
   request.alone = !words_beside_call();
   int whole = 0;
@@ -126,28 +131,28 @@ void Interpreter::stop() {
   if (code == kNoCode) return;
   const Span span = words_.span(*line_, MGroup::stop);
   switch (code) {
-    case 1:
-      simple_block(BlockKind::optional_stop, span);
+    case code::m1:
+      emit(span, OptionalStop{});
       break;
-    case 2:
-    case 30:
+    case code::m2:
+    case code::m30:
       end_program(span);
       break;
     default:
-      simple_block(BlockKind::program_stop, span);
+      emit(span, ProgramStop{});
       break;  // M0, and M60 for a machine without pallets
   }
 }
 
 void Interpreter::end_program(Span span) {
   state_.feed_mode = FeedMode::units_per_minute;
-  simple_block(BlockKind::set_feed_mode, span);
-  simple_block(BlockKind::set_feed_rate, span);
-  if (!state_.feed_override) override_block(BlockKind::feed_override, true);
-  if (!state_.speed_override) override_block(BlockKind::speed_override, true);
+  emit(span, SetFeedMode{state_.feed_mode});
+  emit(span, SetFeedRate{});
+  if (!state_.feed_override) enable_feed_override(true);
+  if (!state_.speed_override) enable_speed_override(true);
   turn_spindle(Turning::stopped, span);
-  if (state_.mist) simple_block(BlockKind::mist_off, span);
-  if (state_.flood) simple_block(BlockKind::flood_off, span);
+  if (state_.mist) emit(span, MistOff{});
+  if (state_.flood) emit(span, FloodOff{});
   finish(span);
 }
 

@@ -35,7 +35,7 @@ void Interpreter::run(const Line& line) {
   started_ = started_ || words_.any;
   if (line.failed) return recover(true);
   if (state_.diameter_mode || words_.g(GGroup::diameter) != kNoCode) take_diameters();
-  if (words_.g(GGroup::nonmodal) == 40 && options_.dialect != Dialect::linuxcnc) take_dwell_words();
+  if (words_.g(GGroup::nonmodal) == code::g4 && options_.dialect != Dialect::linuxcnc) take_dwell_words();
   if (readable && plain_move()) return motion();
   if (!readable || !polar_words() || !check()) return recover(false);
   if (calls_only()) return call();
@@ -102,7 +102,7 @@ void Interpreter::recover(bool syntax) {
   Uncertain& uncertain = state_.uncertain;
   const bool cycles = motion_of_line() == Motion::cycle && moves();
   const int motion_code = words_.g(GGroup::motion);
-  const bool for_this_line = motion_code == 50 || motion_code == 51;
+  const bool for_this_line = motion_code == code::g5 || motion_code == code::g5_1;
   if (motion_code != kNoCode && !for_this_line) take_motion(motion_code);
   if (for_this_line) uncertain.motion = false;
   if (cycles) uncertain.cycle = true;
@@ -130,32 +130,13 @@ void Interpreter::recover(bool syntax) {
 void Interpreter::finish(Span end, bool by_percent) {
   if (ended_) return;
   if (nurbs_.open) drop_nurbs(end);
-  Block block = make_block(BlockKind::program_end, end);
-  block.number = by_percent ? 1 : 0;
-  emit(block);
+  emit(end, ProgramEnd{by_percent});
   ended_ = true;
 }
 
-Block Interpreter::make_block(BlockKind kind, Span span) const {
-  Block block;
-  block.kind = kind;
-  block.span = span;
-  block.end = state_.position;
-  block.feed_mode = state_.feed_mode;
-  block.path_mode = state_.path_mode;
-  block.path_tolerance_mm = state_.path_tolerance_mm;
-  block.feed_override_enabled = state_.feed_override;
-  block.plane = state_.plane;
-  return block;
-}
-
-void Interpreter::simple_block(BlockKind kind, Span span) {
-  Block block = make_block(kind, span);
-  emit(block);
-}
-
-void Interpreter::emit(Block& block) {
+void Interpreter::emit(Span span, Action action) {
   if (silent_ || ended_) return;
+  Block block{span, std::move(action)};
   if (compensation_.active()) return compensate(block);
   hand_out(block);
 }

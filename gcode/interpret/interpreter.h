@@ -32,6 +32,9 @@ struct NeededWord {
 
 using Sink = std::function<void(const Block&)>;
 
+/// How fast a straight move goes.
+enum class Rate : std::uint8_t { rapid, feed };
+
 /// The points between G5.2 and G5.3: program coordinates, mm.
 struct Nurbs {
   bool open = false;
@@ -85,6 +88,7 @@ class Interpreter {
   void feed_mode();
   void feed_rate();
   void plane();
+  Plane plane_of_line() const;
   void units();
   void work_system();
   void path_control();
@@ -101,7 +105,9 @@ class Interpreter {
   void dwell();
   void stop();
   void call();
-  void override_block(BlockKind kind, bool enabled);
+  void enable_feed_override(bool enabled);
+  void enable_speed_override(bool enabled);
+  Span override_span() const;
 
   // tools.cpp: T, M6 M61, G43 G43.1 G43.2 G49, G10 L1 L10 L11
   void select_tool();
@@ -139,20 +145,23 @@ class Interpreter {
   AxisValues target() const;
   AxisValues near_position(const AxisValues& wanted) const;
   void straight(Motion motion);
-  void go(BlockKind kind, const AxisValues& program);
-  void go_to(BlockKind kind, const AxisValues& end);
+  void go(Rate rate, const AxisValues& program);
+  void go_to(Rate rate, const AxisValues& end);
+  Move make_move(const AxisValues& end) const;
+  Move straight_to(const AxisValues& end);
+  void emit_straight(Rate rate, const Move& move);
   void arc(Motion motion);
   /// Where an arc is a circle of its plane: machine coordinates, and program coordinates of X Z and Y Z under
   /// a rotation, which tilts those planes.
   AxisValues arc_frame(const AxisValues& machine) const;
   AxisValues arc_frame_to_machine(const AxisValues& point) const;
-  bool find_arc(const AxisValues& start, const AxisValues& end, bool clockwise, Arc& result);
+  bool find_arc(const AxisValues& start, const AxisValues& end, bool clockwise, ArcGeometry& result);
   bool arc_center_words(PlanePoint& center);
   ArcLimits limits_of_arc() const;
-  bool refuse_arc(const Arc& arc, PlanePoint end);
-  void warn_arc(const Arc& arc);
+  bool refuse_arc(const ArcGeometry& arc, PlanePoint end);
+  void warn_arc(const ArcGeometry& arc);
   bool feed_ready();
-  void set_feed(Block& block);
+  void set_feed(Move& move);
   void move_to(const AxisValues& end);
 
   // splines.cpp: G5 G5.1 G5.2 G5.3
@@ -160,9 +169,9 @@ class Interpreter {
   bool spline_allowed(Motion motion);
   bool spline_place_allowed(std::string_view name);
   double spline_offset(char letter) const;
-  void add_control(Block& block, AxisValues program, double x_mm, double y_mm, double weight) const;
+  void add_control(Spline& spline, AxisValues program, double x_mm, double y_mm, double weight) const;
   void warn_direction_kept();
-  void emit_spline(Block& block);
+  void emit_spline(Spline spline, Span span);
   void add_nurbs_point();
   void add_nurbs_control(const AxisValues& program, double weight);
   bool nurbs_words_allowed(bool first);
@@ -178,7 +187,7 @@ class Interpreter {
   double mean_spindle_rpm(const AxisValues& from, const AxisValues& to) const;
   bool feed_per_turn_ready();
   void warn_standing_spindle();
-  void follow_spindle(Block& block);
+  void follow_spindle(Move& move);
 
   // threads.cpp: G33 G33.1
   void check_thread(int code);
@@ -210,7 +219,7 @@ class Interpreter {
   void bore_and_stop(const Hole& hole);
   void tap_to_level(const Hole& hole, double level);
   AxisValues place_at(const Hole& hole, double level) const;
-  void go_to_level(const Hole& hole, BlockKind kind, double level);
+  void go_to_level(const Hole& hole, Rate rate, double level);
   void dwell_at_bottom();
   void retract_mode();
 
@@ -218,10 +227,10 @@ class Interpreter {
   void probe();
   bool probe_allowed();
   double probe_feed_under_inverse_time();
-  bool find_contact(Block& block, double& travelled);
-  bool refuse_probe_start(const Block& block, double beyond_mm);
+  bool find_contact(Probe& probe, double& travelled);
+  bool refuse_probe_start(const Probe& probe, double beyond_mm);
   std::string stock_text() const;
-  void keep_probe_result(const Block& block);
+  void keep_probe_result(const Probe& probe);
 
   // compensation_codes.cpp: G40 G41 G42 G41.1 G42.1
   void compensation();
@@ -268,10 +277,8 @@ class Interpreter {
   void execute();
   void apply_modes();
   void recover(bool syntax);
-  void emit(Block& block);
+  void emit(Span span, Action action);
   void hand_out(Block& block);
-  Block make_block(BlockKind kind, Span span) const;
-  void simple_block(BlockKind kind, Span span);
   Span line_span() const;
   Span action_span() const;
   Span g_span(GGroup group) const { return words_.span(*line_, group); }
@@ -283,7 +290,6 @@ class Interpreter {
   State state_;
   Advice advice_;
   Words words_;
-  Block motion_block_;
   std::optional<CallRequest> call_;
   std::optional<Span> place_;  ///< of blocks while modes are restored
   Compensation compensation_;
@@ -295,6 +301,7 @@ class Interpreter {
   double spline_i_mm_ = 0;  ///< from the start to the first control point of a G5 without I and J
   double spline_j_mm_ = 0;
   std::optional<AxisValues> spline_end_;  ///< of the last G5
+  AxisValues last_move_end_{};            ///< of the last line, arc or tap
   std::optional<AxisValues> tapped_at_;   ///< where the last tap ended for the program: not where the tool is
   std::optional<AxisValues> probe_left_;  ///< where the last G38.4 or G38.5 lost contact
   bool probe_stock_told_ = false;

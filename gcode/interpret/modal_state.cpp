@@ -41,7 +41,7 @@ std::string differing_words(const ModalState& now, const ModalState& saved) {
   differ(now.spindle_rpm != saved.spindle_rpm && !speed_told, fmt::format("S{:.0f} ", saved.spindle_rpm));
   differ(now.plane != saved.plane, plane_word(saved.plane));
   differ(now.diameter_mode != saved.diameter_mode, saved.diameter_mode ? "G7 " : "G8 ");
-  differ(now.compensation_code != saved.compensation_code && saved.compensation_code == 400, "G40 ");
+  differ(now.compensation_code != saved.compensation_code && saved.compensation_code == code::g40, "G40 ");
   differ(now.work_system != saved.work_system, work_system_word(saved.work_system));
   differ(now.path_mode != saved.path_mode || now.path_tolerance != saved.path_tolerance, path_word(saved));
   differ(now.incremental != saved.incremental, saved.incremental ? "G91 " : "G90 ");
@@ -111,11 +111,11 @@ void Interpreter::modal_state() {
   if (code == kNoCode) return;
   CallLevel& level = state_.levels.back();
   switch (code) {
-    case 71:
+    case code::m71:
       level.modal.reset();
       level.restores_modal = false;
       return;
-    case 72: {
+    case code::m72: {
       const Span place = words_.span(*line_, MGroup::modal_state);
       if (level.modal) return restore(*level.modal, place);
       error(problem(Code::modal_state_missing, place, "nothing was saved at this level of calls",
@@ -124,7 +124,7 @@ void Interpreter::modal_state() {
     }
     default:
       level.modal = modes();
-      level.restores_modal = code == 73;
+      level.restores_modal = code == code::m73;
       return;
   }
 }
@@ -167,7 +167,7 @@ void Interpreter::leave_level(Span place) {
 
 void Interpreter::diameter_mode() {
   const int code = words_.g(GGroup::diameter);
-  if (code != kNoCode) state_.diameter_mode = code == 70;
+  if (code != kNoCode) state_.diameter_mode = code == code::g7;
 }
 
 }  // namespace kadr::gcode

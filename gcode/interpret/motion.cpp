@@ -16,33 +16,33 @@ constexpr double kLeastInverseFeed = 0.1;  // #<_feed> of a very slow move under
 
 Motion Interpreter::motion_of_line() const {
   switch (words_.g(GGroup::motion)) {
-    case 0:
+    case code::g0:
       return Motion::traverse;
-    case 10:
+    case code::g1:
       return Motion::feed;
-    case 20:
+    case code::g2:
       return Motion::arc_clockwise;
-    case 30:
+    case code::g3:
       return Motion::arc_counterclockwise;
-    case 50:
+    case code::g5:
       return Motion::cubic_spline;
-    case 51:
+    case code::g5_1:
       return Motion::quadratic_spline;
-    case 52:
+    case code::g5_2:
       return Motion::nurbs;
-    case 330:
+    case code::g33:
       return Motion::thread;
-    case 331:
+    case code::g33_1:
       return Motion::rigid_tap;
-    case 382:
-    case 383:
-    case 384:
-    case 385:
+    case code::g38_2:
+    case code::g38_3:
+    case code::g38_4:
+    case code::g38_5:
       return Motion::probe;
-    case 760:
+    case code::g76:
       return Motion::thread_cycle;
-    case 53:
-    case 800:
+    case code::g5_3:
+    case code::g80:
       return Motion::none;
     case kNoCode:
       return state_.motion;
@@ -54,12 +54,12 @@ Motion Interpreter::motion_of_line() const {
 bool Interpreter::axis_words_taken() const {
   if (takes_axis_words(words_.g(GGroup::nonmodal))) return true;
   const int tool_length = words_.g(GGroup::tool_length);
-  return tool_length == 431 || tool_length == 432;
+  return tool_length == code::g43_1 || tool_length == code::g43_2;
 }
 
 bool Interpreter::moves() const {
   const int code = words_.g(GGroup::motion);
-  if (code != kNoCode) return code != 800 && code != 53;
+  if (code != kNoCode) return code != code::g80 && code != code::g5_3;
   if (axis_words_taken()) return false;
   return words_.has_axis() || (is_arc(state_.motion) && (words_.present & letter_bits("IJK")) != 0);
 }
@@ -67,13 +67,13 @@ bool Interpreter::moves() const {
 void Interpreter::motion() {
   const int code = words_.g(GGroup::motion);
   if (code != kNoCode) {
-    if (nurbs_.open && code != 52 && code != 53) drop_nurbs(g_span(GGroup::motion));
-    if (code == 50 || code == 51) {
+    if (nurbs_.open && code != code::g5_2 && code != code::g5_3) drop_nurbs(g_span(GGroup::motion));
+    if (code == code::g5 || code == code::g5_1) {
       if ((words_.present & letter_bits("@^")) != 0 && !resolve_polar()) return;
       return spline(motion_of_line());
     }
     take_motion(code);
-    if (code == 53) return end_nurbs();
+    if (code == code::g5_3) return end_nurbs();
   }
   if (!moves()) return;
   if ((words_.present & letter_bits("@^")) != 0 && !resolve_polar()) return;
@@ -116,7 +116,7 @@ void Interpreter::take_motion(int code) {
 }
 
 AxisValues Interpreter::target() const {
-  const bool machine_coordinates = words_.g(GGroup::nonmodal) == 530;
+  const bool machine_coordinates = words_.g(GGroup::nonmodal) == code::g53;
   AxisValues wanted = state_.position;
   if (machine_coordinates || state_.rotation_deg == 0) {
     // each axis for itself
@@ -159,32 +159,51 @@ void Interpreter::move_to(const AxisValues& end) {
 }
 
 void Interpreter::straight(Motion motion) {
-  Block& block = motion_block_;
-  const bool feed = motion == Motion::feed;
+  const Rate rate = motion == Motion::feed ? Rate::feed : Rate::rapid;
   state_.straight_move_due = false;
-  const bool ready = !feed || feed_ready();
-  block.kind = feed ? BlockKind::feed : BlockKind::traverse;
-  block.span = action_span();
-  block.end = target();
-  measure_straight(state_.position, block);
-  if (ready) set_feed(block);
-  move_to(block.end);
-  if (ready) emit(block);
+  const bool ready = rate == Rate::rapid || feed_ready();
+  Move move = straight_to(target());
+  if (ready && rate == Rate::feed) set_feed(move);
+  move_to(move.end);
+  if (ready) emit_straight(rate, move);
 }
 
-void Interpreter::go(BlockKind kind, const AxisValues& program) {
-  go_to(kind, near_position(state_.to_machine(program)));
+void Interpreter::go(Rate rate, const AxisValues& program) {
+  go_to(rate, near_position(state_.to_machine(program)));
 }
 
-void Interpreter::go_to(BlockKind kind, const AxisValues& end) {
-  Block& block = motion_block_;
-  block.kind = kind;
-  block.span = action_span();
-  block.end = end;
-  measure_straight(state_.position, block);
-  set_feed(block);
+void Interpreter::go_to(Rate rate, const AxisValues& end) {
+  Move move = straight_to(end);
+  if (rate == Rate::feed) set_feed(move);
   move_to(end);
-  emit(block);
+  emit_straight(rate, move);
+}
+
+/// A move under the modes in force, without length and feed.
+Move Interpreter::make_move(const AxisValues& end) const {
+  Move move;
+  move.end = end;
+  move.path_mode = state_.path_mode;
+  move.path_tolerance_mm = state_.path_tolerance_mm;
+  move.feed_override_enabled = state_.feed_override;
+  return move;
+}
+
+/// A straight move from the present position, without feed.
+Move Interpreter::straight_to(const AxisValues& end) {
+  Move move = make_move(end);
+  measure_straight(state_.position, move);
+  last_move_end_ = end;
+  return move;
+}
+
+void Interpreter::emit_straight(Rate rate, const Move& move) {
+  switch (rate) {
+    case Rate::rapid:
+      return emit(action_span(), Traverse{move});
+    case Rate::feed:
+      return emit(action_span(), Feed{move});
+  }
 }
 
 AxisValues Interpreter::near_position(const AxisValues& wanted) const {
@@ -221,29 +240,20 @@ bool Interpreter::feed_ready() {
   return error(problem(Code::feed_missing, span, "no F has been given before this move", help));
 }
 
-void Interpreter::set_feed(Block& block) {
-  block.path_mode = state_.path_mode;
-  block.path_tolerance_mm = state_.path_tolerance_mm;
-  block.feed_override_enabled = state_.feed_override;
-  block.feed_mode = state_.feed_mode;
-  block.plane = state_.plane;
-  block.feed_u_s = 0;
-  block.duration_s = 0;
-  block.pitch_u_rev = 0;
-  if (block.kind == BlockKind::traverse) return;
-  const bool rotary = block.feed_length == FeedLength::rotary;
-  if (threading_ || state_.feed_mode == FeedMode::units_per_revolution) return follow_spindle(block);
+void Interpreter::set_feed(Move& move) {
+  const bool rotary = move.feed_length == FeedLength::rotary;
+  if (threading_ || state_.feed_mode == FeedMode::units_per_revolution) return follow_spindle(move);
   if (state_.feed_mode == FeedMode::inverse_time) {
-    block.duration_s = kSecondsPerMinute / words_.value('F');
-    block.feed_u_s = block.length_u / block.duration_s;
+    move.duration_s = kSecondsPerMinute / words_.value('F');
+    move.feed_u_s = move.length_u / move.duration_s;
     // a probing move, which has no time of its own, goes on at this feed
-    state_.feed_linear_mm_min = state_.feed_rotary_deg_min = block.feed_u_s * kSecondsPerMinute;
-    const double length = rotary ? block.length_u : block.length_u / state_.length_factor();
+    state_.feed_linear_mm_min = state_.feed_rotary_deg_min = move.feed_u_s * kSecondsPerMinute;
+    const double length = rotary ? move.length_u : move.length_u / state_.length_factor();
     state_.feed_number = std::max(kLeastInverseFeed, length * words_.value('F'));
     return;
   }
   const double per_minute = rotary ? state_.feed_rotary_deg_min : state_.feed_linear_mm_min;
-  block.feed_u_s = per_minute / kSecondsPerMinute;
+  move.feed_u_s = per_minute / kSecondsPerMinute;
 }
 
 Span Interpreter::action_span() const {

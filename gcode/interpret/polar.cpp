@@ -23,7 +23,7 @@ bool Interpreter::polar_words() {
                          words_.has('X') ? "X is on this line too" : "Y is on this line too",
                          "give the end with @ and ^, or with X and Y"));
   }
-  if (axis_words_taken() || words_.g(GGroup::nonmodal) == 530) {
+  if (axis_words_taken() || words_.g(GGroup::nonmodal) == code::g53) {
     return error(problem(Code::polar_place, span, "no motion in program coordinates reads this word",
                          "give X and Y instead"));
   }
@@ -67,7 +67,7 @@ bool Interpreter::resolve_polar() {
 
 void Interpreter::take_diameters() {
   const int code = words_.g(GGroup::diameter);
-  const bool diameters = code == kNoCode ? state_.diameter_mode : code == 70;
+  const bool diameters = code == kNoCode ? state_.diameter_mode : code == code::g7;
   if (diameters && words_.has('X')) words_.set('X', words_.value('X') / 2);
 }
 

@@ -25,45 +25,11 @@ double machine_position(const Context& c) {
 double one_if(bool b) { return b ? 1 : 0; }
 double always_zero(const Context&) { return 0; }
 
-/// Ten times the G code of the motion in force.
-double motion_mode(const Context& c) {
-  switch (c.state.motion) {
-    case Motion::none:
-      return 800;
-    case Motion::traverse:
-      return 0;
-    case Motion::feed:
-      return 10;
-    case Motion::arc_clockwise:
-      return 20;
-    case Motion::arc_counterclockwise:
-      return 30;
-    case Motion::cubic_spline:
-      return 50;
-    case Motion::quadratic_spline:
-      return 51;
-    case Motion::nurbs:
-      return 52;
-    case Motion::thread:
-      return 330;
-    case Motion::rigid_tap:
-      return 331;
-    case Motion::thread_cycle:
-      return 760;
-    case Motion::probe:
-      return c.state.probe_code;
-    case Motion::cycle:
-      return c.state.cycle.code;
-  }
-  return 0;
-}
-
-double plane(const Context& c) {
-  return c.state.plane == Plane::xy ? 170 : c.state.plane == Plane::zx ? 180 : 190;
-}
+double motion_mode(const Context& c) { return motion_code(c.state); }
+double plane(const Context& c) { return plane_code(c.state.plane); }
 double work_system(const Context& c) {
   const int system = c.state.work_system;  // G54 .. G59 are 1 .. 6, G59.1 .. G59.3 are 7 .. 9
-  return system <= 6 ? 530 + 10 * system : 584 + system;
+  return system <= 6 ? code::g54 + 10 * (system - 1) : code::g59 + system - 6;
 }
 double tool_length(const Context& c) {
   for (const double offset : c.state.tool_offset) {

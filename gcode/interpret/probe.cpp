@@ -9,8 +9,6 @@
 namespace kadr::gcode {
 namespace {
 
-constexpr int kAway = 384;  // G38.4 G38.5
-
 bool same_point(const AxisValues& a, const AxisValues& b) {
   for (std::size_t axis = 0; axis < kProgramAxes; ++axis)
     if (std::fabs(a[axis] - b[axis]) > kSamePoint_u) return false;
@@ -30,23 +28,21 @@ void Interpreter::probe() {
                   "name a point on the other side of the surface"));
     return;
   }
-  Block block = make_block(BlockKind::probe, action_span());
-  block.end = end;
-  block.probe.away = state_.probe_code >= kAway;
-  block.probe.must_trip = state_.probe_code == 382 || state_.probe_code == kAway;
+  Probe probe{make_move(end)};
+  probe.away = state_.probe_code == code::g38_4 || state_.probe_code == code::g38_5;
+  probe.must_trip = state_.probe_code == code::g38_2 || state_.probe_code == code::g38_4;
   double travelled = 1;
-  if (!find_contact(block, travelled)) return move_to(end);
-  measure_straight(state_.position, block);
+  if (!find_contact(probe, travelled)) return move_to(end);
+  measure_straight(state_.position, probe);
   if (inverse) {
-    block.feed_mode = FeedMode::units_per_minute;
-    block.feed_u_s = probe_feed_under_inverse_time() / kSecondsPerMinute;
+    probe.feed_u_s = probe_feed_under_inverse_time() / kSecondsPerMinute;
   } else {
-    set_feed(block);
+    set_feed(probe);
   }
-  block.length_u *= travelled;
-  keep_probe_result(block);
-  move_to(block.contact);
-  emit(block);
+  probe.length_u *= travelled;
+  keep_probe_result(probe);
+  move_to(probe.contact);
+  emit(action_span(), probe);
 }
 
 /// As in LinuxCNC a probing move has no time of its own: it goes on at the feed of the move before it, or at
@@ -73,13 +69,13 @@ bool Interpreter::probe_allowed() {
   return true;
 }
 
-/// Where the probe changes on the way to block.end, and which part of the way that is.
-/// @return false if an error was told
-bool Interpreter::find_contact(Block& block, double& travelled) {
-  block.contact = block.end;
+/// Finds where the probe changes on the way to its end, and what part of the way that is.
+/// @return false: an error was reported
+bool Interpreter::find_contact(Probe& probe, double& travelled) {
+  probe.contact = probe.end;
   if (!options_.stock) {
     if (!probe_stock_told_) {
-      report_.warning(problem(Code::probe_without_stock, block.span, "the probe meets the end of each move",
+      report_.warning(problem(Code::probe_without_stock, action_span(), "the probe meets the end of each move",
                               "give [stock] in the machine or scenario file"));
     }
     probe_stock_told_ = true;
@@ -89,27 +85,27 @@ bool Interpreter::find_contact(Block& block, double& travelled) {
   const auto axis = static_cast<std::size_t>(stock.axis);
   // what meets the plane is the tip: the controlled point less its tool offset
   const double plane_u = stock.position_u + state_.tool_offset[axis];
-  const double from_u = state_.position[axis], to_u = block.end[axis];
+  const double from_u = state_.position[axis], to_u = probe.end[axis];
   const auto inside = [&](double at_u) { return stock.below ? at_u <= plane_u : at_u >= plane_u; };
   // a probe that has just lost contact stands on the plane and does not touch it
   const bool just_left = probe_left_ && same_point(*probe_left_, state_.position);
   const bool touching = inside(from_u) && !just_left;
-  if (touching != block.probe.away) return refuse_probe_start(block, from_u - plane_u);
-  block.probe.tripped = inside(to_u) != block.probe.away;
-  if (block.probe.tripped) {
+  if (touching != probe.away) return refuse_probe_start(probe, from_u - plane_u);
+  probe.tripped = inside(to_u) != probe.away;
+  if (probe.tripped) {
     travelled = (plane_u - from_u) / (to_u - from_u);
     for (std::size_t a = 0; a < kProgramAxes; ++a)
-      block.contact[a] = state_.position[a] + (block.end[a] - state_.position[a]) * travelled;
-    block.contact[axis] = plane_u;
+      probe.contact[a] = state_.position[a] + (probe.end[a] - state_.position[a]) * travelled;
+    probe.contact[axis] = plane_u;
     return true;
   }
-  if (!block.probe.must_trip) return true;
+  if (!probe.must_trip) return true;
   const double left_mm = std::fabs(to_u - plane_u);
   Diagnostic d = problem(
-      Code::probe_no_contact, block.span,
-      fmt::format("the move ends {} mm {} the stock", figure(left_mm), block.probe.away ? "inside" : "from"));
+      Code::probe_no_contact, action_span(),
+      fmt::format("the move ends {} mm {} the stock", figure(left_mm), probe.away ? "inside" : "from"));
   d.notes.push_back(stock_text());
-  d.help = block.probe.away ? "probe further away, or use G38.5 and look at #5070"
+  d.help = probe.away ? "probe further away, or use G38.5 and look at #5070"
                             : "probe further, or use G38.3 and look at #5070";
   return error(std::move(d));
 }
@@ -121,26 +117,26 @@ std::string Interpreter::stock_text() const {
                      figure(stock.position_u));
 }
 
-bool Interpreter::refuse_probe_start(const Block& block, double beyond_mm) {
+bool Interpreter::refuse_probe_start(const Probe& probe, double beyond_mm) {
   const std::string apart = figure(std::fabs(beyond_mm));
-  Diagnostic d = problem(Code::probe_already_there, block.span,
-                         block.probe.away ? fmt::format("the probe is {} mm outside the stock", apart)
+  Diagnostic d = problem(Code::probe_already_there, action_span(),
+                         probe.away ? fmt::format("the probe is {} mm outside the stock", apart)
                                           : fmt::format("the probe is {} mm inside the stock", apart));
   d.notes.push_back(stock_text());
-  d.help = block.probe.away ? "probe towards the stock first: G38.2" : "retract before probing: G0 or G38.4";
+  d.help = probe.away ? "probe towards the stock first: G38.2" : "retract before probing: G0 or G38.4";
   return error(std::move(d));
 }
 
 /// #5061 .. #5069 in program coordinates and the units in force, #5070.
-void Interpreter::keep_probe_result(const Block& block) {
-  const AxisValues at = state_.to_program(block.contact);
+void Interpreter::keep_probe_result(const Probe& probe) {
+  const AxisValues at = state_.to_program(probe.contact);
   for (int axis = 0; axis < kProgramAxes; ++axis) {
     state_.parameters[static_cast<std::size_t>(parameter::kProbe + axis)] =
         state_.to_program_units(axis, at[static_cast<std::size_t>(axis)]);
   }
-  state_.parameters[parameter::kProbeTripped] = block.probe.tripped ? 1 : 0;
+  state_.parameters[parameter::kProbeTripped] = probe.tripped ? 1 : 0;
   probe_left_.reset();
-  if (block.probe.away && block.probe.tripped) probe_left_ = block.contact;
+  if (probe.away && probe.tripped) probe_left_ = probe.contact;
 }
 
 }  // namespace kadr::gcode

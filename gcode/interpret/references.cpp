@@ -15,24 +15,24 @@ constexpr std::uint32_t kXYAxes = 3;
 
 void Interpreter::nonmodal() {
   switch (words_.g(GGroup::nonmodal)) {
-    case 100:
+    case code::g10:
       set_offsets();
       break;
-    case 280:
+    case code::g28:
       go_to_reference(parameter::kG28);
       break;
-    case 281:
+    case code::g28_1:
       write_axis_parameters(state_, parameter::kG28, state_.position);
       break;
-    case 300:
+    case code::g30:
       go_to_reference(parameter::kG30);
       break;
-    case 301:
+    case code::g30_1:
       write_axis_parameters(state_, parameter::kG30, state_.position);
       break;
-    case 520:
-    case 920:
-      set_g92(words_.g(GGroup::nonmodal) == 520);
+    case code::g52:
+    case code::g92:
+      set_g92(words_.g(GGroup::nonmodal) == code::g52);
       break;
     default:
       break;
@@ -42,16 +42,16 @@ void Interpreter::nonmodal() {
 
 void Interpreter::set_g92_state() {
   switch (words_.g(GGroup::g92_state)) {
-    case 921:
+    case code::g92_1:
       state_.g92_offset = {};
       write_axis_parameters(state_, parameter::kG92, {});
       state_.parameters[parameter::kG92Active] = 0;
       break;
-    case 922:
+    case code::g92_2:
       state_.g92_offset = {};
       state_.parameters[parameter::kG92Active] = 0;
       break;
-    case 923:
+    case code::g92_3:
       state_.g92_offset = read_axis_parameters(state_, parameter::kG92);
       state_.parameters[parameter::kG92Active] = 1;
       break;
@@ -63,13 +63,11 @@ void Interpreter::set_g92_state() {
 void Interpreter::go_to_reference(int parameters) {
   // first the point that the axis words name, then those axes (all, if none is named) on to the reference:
   // along the axes of the work system, which may be rotated
-  Block block = make_block(BlockKind::traverse, action_span());
   const bool named = words_.has_axis();
   const AxisValues by = target();
   if (named && !silent_) advice_.way_to_reference(state_.position, by, action_span());
   move_to(by);
-  block.end = state_.position;
-  emit(block);
+  emit(action_span(), Traverse{make_move(state_.position)});
   AxisValues end = state_.position;
   const AxisValues reference = read_axis_parameters(state_, parameters);
   const bool turned = named && state_.rotation_deg != 0 && (words_.has('X') || words_.has('Y'));
@@ -83,8 +81,7 @@ void Interpreter::go_to_reference(int parameters) {
     state_.uncertain.axes &= ~(1U << axis);
   }
   state_.position = turned ? state_.to_machine(end) : end;
-  block.end = state_.position;
-  emit(block);
+  emit(action_span(), Traverse{make_move(state_.position)});
 }
 
 void Interpreter::set_offsets() {

@@ -35,10 +35,11 @@ void Interpreter::comment() {
   const bool debug = same_letters(active.command, "DEBUG");
   if (!message && !debug && !same_letters(active.command, "PRINT")) return;
   if (debug && state_.parameters[parameter::kDebug] == 0) return;
-  Block block =
-      make_block(message || debug ? BlockKind::message : BlockKind::comment, line_->span(item.bytes));
-  block.text = message ? valid_text(active.text) : expanded_text(active.text, state_, line_->number);
-  emit(block);
+  const Span span = line_->span(item.bytes);
+  if (message) return emit(span, Message{valid_text(active.text)});
+  const std::string text = expanded_text(active.text, state_, line_->number);
+  if (debug) return emit(span, Message{text});
+  emit(span, Comment{text});
 }
 
 /// (TECH s_max=200): a technological limit of speed at the place where it stands.
@@ -49,10 +50,7 @@ void Interpreter::technology(std::string_view text, Span span) {
                          value = without_blanks(text.substr(equals + 1));
   const std::optional<double> speed = parse_number(value);
   if (same_letters(name, "S_MAX") && speed && *speed > 0 && *speed <= kFastest_mm_s) {
-    Block block = make_block(BlockKind::speed_point, span);
-    block.value = *speed;
-    emit(block);
-    return;
+    return emit(span, SpeedPoint{*speed});
   }
   const bool known = same_letters(name, "S_MAX");
   report_.error(problem(
@@ -66,13 +64,13 @@ void Interpreter::feed_mode() {
   const int code = words_.g(GGroup::feed_mode);
   if (code == kNoCode) return;
   const Span span = g_span(GGroup::feed_mode);
-  state_.feed_mode = code == 930   ? FeedMode::inverse_time
-                     : code == 940 ? FeedMode::units_per_minute
+  state_.feed_mode = code == code::g93   ? FeedMode::inverse_time
+                     : code == code::g94 ? FeedMode::units_per_minute
                                    : FeedMode::units_per_revolution;
-  simple_block(BlockKind::set_feed_mode, span);
+  emit(span, SetFeedMode{state_.feed_mode});
   if (state_.feed_mode == FeedMode::inverse_time) return;
   // G94 and G95 always begin without a feed, even if they were in force already
-  simple_block(BlockKind::set_feed_rate, span);
+  emit(span, SetFeedRate{});
   state_.feed_cleared = state_.feed_cleared || state_.feed_given;
   state_.feed_given = false;
   state_.feed_linear_mm_min = state_.feed_rotary_deg_min = 0;
@@ -84,22 +82,21 @@ void Interpreter::feed_rate() {
   if (!words_.has('F')) return;
   const double f = words_.value('F');
   const Span span = words_.span(*line_, 'F');
-  Block block = make_block(BlockKind::set_feed_rate, span);
-  block.value = f;
+  SetFeedRate feed{f};
   const bool inverse = state_.feed_mode == FeedMode::inverse_time;
   if (!inverse) {
     state_.feed_number = f;
     const bool per_minute = state_.feed_mode == FeedMode::units_per_minute;
-    block.value = f * state_.length_factor();
-    (per_minute ? state_.feed_linear_mm_min : state_.feed_linear_mm_rev) = block.value;
+    feed.rate = f * state_.length_factor();
+    (per_minute ? state_.feed_linear_mm_min : state_.feed_linear_mm_rev) = feed.rate;
     (per_minute ? state_.feed_rotary_deg_min : state_.feed_rotary_deg_rev) = f;
     state_.feed_given = true;
     state_.feed_cleared = false;
     state_.uncertain.feed = (words_.doubtful & letter_bit('F')) != 0;
   }
-  emit(block);
+  emit(span, feed);
   const int units_code = words_.g(GGroup::units);
-  const bool changes_units = units_code != kNoCode && (units_code == 200) != state_.inches;
+  const bool changes_units = units_code != kNoCode && (units_code == code::g20) != state_.inches;
   if (changes_units && !inverse && !silent_) {
     report_.warning(problem(Code::feed_before_units, span,
                             fmt::format("taken as {} per {}", state_.inches ? "inches" : "mm",
@@ -108,32 +105,25 @@ void Interpreter::feed_rate() {
   }
 }
 
-void Interpreter::plane() {
-  switch (words_.g(GGroup::plane)) {
-    case 170:
-      state_.plane = Plane::xy;
-      break;
-    case 180:
-      state_.plane = Plane::zx;
-      break;
-    case 190:
-      state_.plane = Plane::yz;
-      break;
-    default:
-      break;
-  }
+Plane Interpreter::plane_of_line() const {
+  const int code = words_.g(GGroup::plane);
+  for (const Plane plane : {Plane::xy, Plane::zx, Plane::yz})
+    if (code == plane_code(plane)) return plane;
+  return state_.plane;
 }
+
+void Interpreter::plane() { state_.plane = plane_of_line(); }
 
 void Interpreter::units() {
   const int code = words_.g(GGroup::units);
-  if (code != kNoCode) state_.inches = code == 200;
+  if (code != kNoCode) state_.inches = code == code::g20;
 }
 
 void Interpreter::work_system() {
   const int code = words_.g(GGroup::coordinate_system);
   if (code == kNoCode) return;
   // G54 .. G59 are 1 .. 6, G59.1 .. G59.3 are 7 .. 9
-  const int system = code <= 590 ? (code - 530) / 10 : 6 + (code - 590);
+  const int system = code <= code::g59 ? 1 + (code - code::g54) / 10 : 6 + (code - code::g59);
   // as RS-274/NGC: parameters that a program has set take effect with the change to their system
   if (system != state_.work_system) state_.use_work_system(system);
 }
@@ -141,9 +131,9 @@ void Interpreter::work_system() {
 void Interpreter::path_control() {
   const int code = words_.g(GGroup::path);
   if (code == kNoCode) return;
-  const double tolerance = code == 640 && words_.has('P') ? words_.value('P') : 0;
-  set_path_mode(code == 610   ? PathMode::exact_path
-                : code == 611 ? PathMode::exact_stop
+  const double tolerance = code == code::g64 && words_.has('P') ? words_.value('P') : 0;
+  set_path_mode(code == code::g61   ? PathMode::exact_path
+                : code == code::g61_1 ? PathMode::exact_stop
                               : PathMode::continuous,
                 tolerance, g_span(GGroup::path));
 }
@@ -152,14 +142,14 @@ void Interpreter::set_path_mode(PathMode mode, double tolerance, Span span) {
   state_.path_mode = mode;
   state_.path_tolerance = tolerance;
   state_.path_tolerance_mm = tolerance * state_.length_factor();
-  simple_block(BlockKind::set_path_mode, span);
+  emit(span, SetPathMode{mode, state_.path_tolerance_mm});
 }
 
 void Interpreter::distance_mode() {
   const int distance = words_.g(GGroup::distance);
-  if (distance != kNoCode) state_.incremental = distance == 910;
+  if (distance != kNoCode) state_.incremental = distance == code::g91;
   const int arc_distance = words_.g(GGroup::arc_distance);
-  if (arc_distance != kNoCode) state_.arc_centers_absolute = arc_distance == 901;
+  if (arc_distance != kNoCode) state_.arc_centers_absolute = arc_distance == code::g90_1;
 }
 
 }  // namespace kadr::gcode

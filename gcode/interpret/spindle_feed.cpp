@@ -34,16 +34,13 @@ void Interpreter::spindle_mode() {
   if (code == kNoCode) return;
   const Span span = g_span(GGroup::spindle_mode);
   const double maximum_rpm = words_.has('D') ? std::fabs(words_.value('D')) : 0;
-  state_.constant_surface_speed = code == 960;
+  state_.constant_surface_speed = code == code::g96;
   // D0 is the controller's way to write G97
-  state_.surface = {.on = code == 960 && !(words_.has('D') && maximum_rpm == 0),
+  state_.surface = {.on = code == code::g96 && !(words_.has('D') && maximum_rpm == 0),
                     .speed_m_min = 0,
                     .maximum_rpm = maximum_rpm};
   if (state_.surface.on) state_.surface.speed_m_min = surface_speed_m_min();
-  Block block = make_block(BlockKind::spindle_mode, span);
-  block.surface_speed_m_min = state_.surface.speed_m_min;
-  block.maximum_rpm = state_.surface.maximum_rpm;
-  emit(block);
+  emit(span, SpindleMode{state_.surface.speed_m_min, state_.surface.maximum_rpm});
 }
 
 double Interpreter::surface_speed_m_min() const {
@@ -54,10 +51,7 @@ void Interpreter::spindle_speed() {
   if (!words_.has('S')) return;
   state_.spindle_rpm = words_.value('S');
   if (state_.surface.on) state_.surface.speed_m_min = surface_speed_m_min();
-  Block block = make_block(BlockKind::spindle_speed, words_.span(*line_, 'S'));
-  block.value = state_.spindle_rpm;
-  block.surface_speed_m_min = state_.surface.speed_m_min;
-  emit(block);
+  emit(words_.span(*line_, 'S'), SpindleSpeed{state_.spindle_rpm, state_.surface.speed_m_min});
 }
 
 /// The constant speed at which the spindle would make as many turns during a straight move of constant feed
@@ -98,15 +92,15 @@ void Interpreter::warn_standing_spindle() {
                           "write S and M3 or M4 before it"));
 }
 
-void Interpreter::follow_spindle(Block& block) {
-  const bool rotary = block.feed_length == FeedLength::rotary;
+void Interpreter::follow_spindle(Move& move) {
+  const bool rotary = move.feed_length == FeedLength::rotary;
   if (threading_) {
-    block.pitch_u_rev = rotary ? thread_pitch_u_rev_ : thread_pitch_u_rev_ * state_.length_factor();
+    move.pitch_u_rev = rotary ? thread_pitch_u_rev_ : thread_pitch_u_rev_ * state_.length_factor();
   } else {
-    block.pitch_u_rev = rotary ? state_.feed_rotary_deg_rev : state_.feed_linear_mm_rev;
+    move.pitch_u_rev = rotary ? state_.feed_rotary_deg_rev : state_.feed_linear_mm_rev;
   }
-  const double turns_s = mean_spindle_rpm(state_.position, block.end) / kSecondsPerMinute;
-  block.feed_u_s = std::max(0.0, block.pitch_u_rev) * turns_s;
+  const double turns_s = mean_spindle_rpm(state_.position, move.end) / kSecondsPerMinute;
+  move.feed_u_s = std::max(0.0, move.pitch_u_rev) * turns_s;
 }
 
 }  // namespace kadr::gcode

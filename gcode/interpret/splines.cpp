@@ -14,10 +14,10 @@ constexpr int kCubic = 4;
 constexpr std::uint32_t kPlaneBits = letter_bits("XY");
 constexpr std::uint32_t kPlaneAxes = 3;  // X and Y in Uncertain::axes
 
-double length_mm(const Block& block) {
+double length_mm(const Spline& spline) {
   std::vector<SplineControl> points;
-  for (const SplinePoint& p : block.control_points) points.push_back({p.x_mm, p.y_mm, p.weight});
-  return PlaneSpline(std::move(points), block.order).length();
+  for (const SplinePoint& p : spline.control_points) points.push_back({p.x_mm, p.y_mm, p.weight});
+  return PlaneSpline(std::move(points), spline.order).length();
 }
 
 }  // namespace
@@ -29,28 +29,27 @@ void Interpreter::spline(Motion motion) {
       (state_.uncertain.axes & kPlaneAxes) == 0 && (words_.doubtful & (kAxisBits | letter_bits("IJPQ"))) == 0;
   const bool allowed = spline_allowed(motion);
   if (!ready || !known || !allowed) return move_to(end);
-  Block block = make_block(BlockKind::spline, action_span());
-  block.end = end;
-  block.order = motion == Motion::cubic_spline ? kCubic : kQuadratic;
+  Spline spline{make_move(end)};
+  spline.order = motion == Motion::cubic_spline ? kCubic : kQuadratic;
   const AxisValues from = state_.to_program(state_.position);
   const AxisValues to = state_.to_program(end);
-  add_control(block, from, 0, 0, 1);
+  add_control(spline, from, 0, 0, 1);
   if (motion == Motion::quadratic_spline) {
-    add_control(block, from, spline_offset('I'), spline_offset('J'), 1);
+    add_control(spline, from, spline_offset('I'), spline_offset('J'), 1);
   } else {
     const bool given = words_.has('I') || options_.dialect == Dialect::marlin;
     if (!given) warn_direction_kept();
     const double i_mm = given ? spline_offset('I') : spline_i_mm_;
     const double j_mm = given ? spline_offset('J') : spline_j_mm_;
-    add_control(block, from, i_mm, j_mm, 1);
-    add_control(block, to, spline_offset('P'), spline_offset('Q'), 1);
+    add_control(spline, from, i_mm, j_mm, 1);
+    add_control(spline, to, spline_offset('P'), spline_offset('Q'), 1);
     // what a G5 without I and J goes on with
     spline_i_mm_ = -spline_offset('P');
     spline_j_mm_ = -spline_offset('Q');
     spline_end_ = end;
   }
-  add_control(block, to, 0, 0, 1);
-  emit_spline(block);
+  add_control(spline, to, 0, 0, 1);
+  emit_spline(std::move(spline), action_span());
 }
 
 /// A word's length in mm, 0 if it is not given.
@@ -59,12 +58,12 @@ double Interpreter::spline_offset(char letter) const {
 }
 
 /// Adds the point that lies aside of a program position, which turns with the work system.
-void Interpreter::add_control(Block& block, AxisValues program, double x_mm, double y_mm,
+void Interpreter::add_control(Spline& spline, AxisValues program, double x_mm, double y_mm,
                               double weight) const {
   program[0] += x_mm;
   program[1] += y_mm;
   const AxisValues machine = state_.to_machine(program);
-  block.control_points.push_back({machine[0], machine[1], weight});
+  spline.control_points.push_back({machine[0], machine[1], weight});
 }
 
 bool Interpreter::spline_allowed(Motion motion) {
@@ -115,13 +114,11 @@ void Interpreter::warn_direction_kept() {
               "I and J may be left out right after another G5: give both here"));
 }
 
-void Interpreter::emit_spline(Block& block) {
-  block.plane = Plane::xy;
-  block.feed_length = FeedLength::xyz;
-  block.length_u = length_mm(block);
-  set_feed(block);
-  move_to(block.end);
-  emit(block);
+void Interpreter::emit_spline(Spline spline, Span span) {
+  spline.length_u = length_mm(spline);
+  set_feed(spline);
+  move_to(spline.end);
+  emit(span, std::move(spline));
 }
 
 void Interpreter::add_nurbs_point() {
@@ -215,35 +212,35 @@ void Interpreter::end_nurbs() {
 }
 
 void Interpreter::emit_nurbs(const Nurbs& nurbs) {
-  Block block = make_block(BlockKind::spline, g_span(GGroup::motion));
+  const Span span = g_span(GGroup::motion);
+  Spline spline{make_move(state_.position)};
   AxisValues program = state_.to_program(state_.position);
   for (const SplinePoint& p : nurbs.points) {
     program[0] = p.x_mm;
     program[1] = p.y_mm;
-    add_control(block, program, 0, 0, p.weight);
+    add_control(spline, program, 0, 0, p.weight);
   }
-  block.end = state_.to_machine(program);
-  block.order = nurbs.order;
+  spline.end = state_.to_machine(program);
+  spline.order = nurbs.order;
   if (state_.feed_mode != FeedMode::inverse_time) {
-    if (feed_ready()) emit_spline(block);
+    if (feed_ready()) emit_spline(std::move(spline), span);
     return;
   }
   const double f = words_.has('F') ? words_.value('F') : nurbs.inverse_f;
-  block.length_u = length_mm(block);
+  spline.length_u = length_mm(spline);
   if (f > 0) {
-    block.duration_s = kSecondsPerMinute / f;
-    block.feed_u_s = block.length_u / block.duration_s;
+    spline.duration_s = kSecondsPerMinute / f;
+    spline.feed_u_s = spline.length_u / spline.duration_s;
   } else if (state_.feed_linear_mm_min > 0) {
     // without F the controller goes on at the feed that it has
-    block.feed_mode = FeedMode::units_per_minute;
-    block.feed_u_s = state_.feed_linear_mm_min / kSecondsPerMinute;
+    spline.feed_u_s = state_.feed_linear_mm_min / kSecondsPerMinute;
   } else {
-    error(problem(Code::inverse_feed_missing, block.span, "no F between G5.2 and here",
+    error(problem(Code::inverse_feed_missing, span, "no F between G5.2 and here",
                   "under G93 the curve needs its own F: 60 divided by its seconds"));
-    return move_to(block.end);
+    return move_to(spline.end);
   }
-  move_to(block.end);
-  emit(block);
+  move_to(spline.end);
+  emit(span, std::move(spline));
 }
 
 void Interpreter::drop_nurbs(Span span) {

@@ -74,6 +74,38 @@ void State::use_work_system(int system) {
   set_rotation(parameters[static_cast<std::size_t>(work_rotation_parameter(system))]);
 }
 
+int motion_code(const State& state) {
+  switch (state.motion) {
+    case Motion::none:
+      return code::g80;
+    case Motion::traverse:
+      return code::g0;
+    case Motion::feed:
+      return code::g1;
+    case Motion::arc_clockwise:
+      return code::g2;
+    case Motion::arc_counterclockwise:
+      return code::g3;
+    case Motion::cubic_spline:
+      return code::g5;
+    case Motion::quadratic_spline:
+      return code::g5_1;
+    case Motion::nurbs:
+      return code::g5_2;
+    case Motion::thread:
+      return code::g33;
+    case Motion::rigid_tap:
+      return code::g33_1;
+    case Motion::thread_cycle:
+      return code::g76;
+    case Motion::probe:
+      return state.probe_code;
+    case Motion::cycle:
+      return state.cycle.code;
+  }
+  return code::g80;
+}
+
 namespace {
 
 /// Parameters 5400 to 5413, in mm and degrees.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gcode/block.h"
+#include "gcode/dialect/codes.h"
 #include "gcode/read/names.h"
 #include "gcode/read/tool_table.h"
 #include "machine/base/axes.h"
@@ -118,7 +119,7 @@ struct ModalState {
   double spindle_rpm = 0;
   Turning turning = Turning::stopped;
   int work_system = 1;
-  int compensation_code = 400;
+  int compensation_code = code::g40;
   bool tool_length = false;  ///< G43 .. G43.2 with an offset other than 0
   bool g92_active = false;
 };
@@ -164,7 +165,7 @@ struct State {
 
   bool retract_to_start = false;        ///< G98: cycles go back to where they began, not to R (G99, at start)
   bool diameter_mode = false;           ///< G7
-  int compensation_code = 400;          ///< 400 off, 410 left, 420 right
+  int compensation_code = code::g40;    ///< G40, G41 or G42
   bool constant_surface_speed = false;  ///< G96
 
   double spindle_rpm = 0;  ///< S as written, under G96 a surface speed
@@ -194,7 +195,7 @@ struct State {
   Uncertain uncertain;
 
   /// G41 or G42 holds, also with a radius of 0.
-  bool compensating() const { return compensation_code != 400; }
+  bool compensating() const { return compensation_code != code::g40; }
   int call_level() const { return static_cast<int>(levels.size()) - 1; }
   double length_factor() const { return inches ? kMillimetresPerInch : 1.0; }
   /// A value of an axis word in mm or deg.
@@ -230,6 +231,13 @@ struct State {
     return to_program_units(axis, to_program(tool_point())[static_cast<std::size_t>(axis)]);
   }
 };
+
+/// The G code of the motion in force, in tenths; G80 for none.
+int motion_code(const State& state);
+/// G17, G18 or G19, in tenths.
+constexpr int plane_code(Plane plane) {
+  return plane == Plane::xy ? code::g17 : plane == Plane::zx ? code::g18 : code::g19;
+}
 
 /// Value of a numbered parameter; positions and tool data are those of now.
 /// @pre parameter::kFirst <= index <= parameter::kLast

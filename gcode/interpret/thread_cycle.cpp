@@ -87,7 +87,7 @@ void Interpreter::check_thread_cycle() {
 void Interpreter::thread_cycle() {
   ThreadShape shape;
   const AxisValues end = target();
-  if (!spindle_turns(760) || !thread_shape(shape, end)) return move_to(end);
+  if (!spindle_turns(code::g76) || !thread_shape(shape, end)) return move_to(end);
   warn_thread(shape);
   double depth = shape.crest + shape.first_cut;
   for (int pass = 2; depth < shape.full_depth() && !ended_; ++pass) {
@@ -95,7 +95,7 @@ void Interpreter::thread_cycle() {
     depth = shape.crest + shape.first_cut * exact_pow(pass, 1.0 / shape.degression);
   }
   for (int i = 0; i <= shape.spring_passes && !ended_; ++i) thread_pass(shape, shape.full_depth());
-  go_to(BlockKind::traverse, end);
+  go_to(Rate::rapid, end);
 }
 
 bool Interpreter::thread_shape(ThreadShape& shape, const AxisValues& end) {
@@ -164,11 +164,11 @@ void Interpreter::warn_thread(const ThreadShape& shape) {
 }
 
 void Interpreter::thread_pass(const ThreadShape& shape, double depth) {
-  const auto go_xz = [&](BlockKind kind, double x, double z) {
+  const auto go_xz = [&](Rate rate, double x, double z) {
     AxisValues program = shape.start;
     program[kX] = x * state_.length_factor();
     program[kZ] = z * state_.length_factor();
-    go(kind, program);
+    go(rate, program);
   };
   const double back = shape.x_at(depth - shape.full_depth());
   const double cut = shape.x_at(depth);
@@ -177,27 +177,27 @@ void Interpreter::thread_pass(const ThreadShape& shape, double depth) {
   const double end = shape.end_z + shape.shift(shape.full_depth()) - shape.shift(depth);
   const bool feed_override = state_.feed_override;
   const bool tapered = shape.taper != 0;
-  go_xz(BlockKind::traverse, back, begin);
+  go_xz(Rate::rapid, back, begin);
   if (tapered && shape.entry_taper) {
-    override_block(BlockKind::feed_override, false);
+    enable_feed_override(false);
     start_thread(shape.taper_pitch_u_rev);
-    go_xz(BlockKind::feed, outside, begin);
-    go_xz(BlockKind::feed, cut, begin - shape.taper);
+    go_xz(Rate::feed, outside, begin);
+    go_xz(Rate::feed, cut, begin - shape.taper);
   } else {
-    go_xz(BlockKind::traverse, cut, begin);
-    override_block(BlockKind::feed_override, false);
+    go_xz(Rate::rapid, cut, begin);
+    enable_feed_override(false);
   }
   start_thread(shape.pitch_u_rev);
   if (tapered && shape.exit_taper) {
-    go_xz(BlockKind::feed, cut, end + shape.taper);
+    go_xz(Rate::feed, cut, end + shape.taper);
     start_thread(shape.taper_pitch_u_rev);
-    go_xz(BlockKind::feed, outside, end);
+    go_xz(Rate::feed, outside, end);
   } else {
-    go_xz(BlockKind::feed, cut, end);
+    go_xz(Rate::feed, cut, end);
   }
   stop_thread();
-  go_xz(BlockKind::traverse, back, end);
-  if (feed_override) override_block(BlockKind::feed_override, true);
+  go_xz(Rate::rapid, back, end);
+  if (feed_override) enable_feed_override(true);
 }
 
 }  // namespace kadr::gcode

@@ -39,14 +39,12 @@ bool Interpreter::spindle_turns(int code) {
 void Interpreter::start_thread(double pitch_u_rev) {
   threading_ = true;
   thread_pitch_u_rev_ = pitch_u_rev;
-  Block block = make_block(BlockKind::sync_start, action_span());
-  block.value = pitch_u_rev * state_.length_factor();
-  emit(block);
+  emit(action_span(), SyncStart{pitch_u_rev * state_.length_factor()});
 }
 
 void Interpreter::stop_thread() {
   threading_ = false;
-  simple_block(BlockKind::sync_stop, action_span());
+  emit(action_span(), SyncStop{});
 }
 
 void Interpreter::warn_pitch(char letter) {
@@ -58,25 +56,27 @@ void Interpreter::warn_pitch(char letter) {
 
 void Interpreter::thread() {
   const AxisValues end = target();
-  if (!spindle_turns(330)) return move_to(end);
+  if (!spindle_turns(code::g33)) return move_to(end);
   warn_pitch('K');
   start_thread(words_.value('K'));
-  go_to(BlockKind::feed, end);
+  go_to(Rate::feed, end);
   stop_thread();
 }
 
 void Interpreter::rigid_tap() {
   const AxisValues wanted = target();
   const AxisValues from = state_.position;
-  if (!spindle_turns(331)) return;
+  if (!spindle_turns(code::g33_1)) return;
   warn_pitch('K');
   // X Y Z alone go down and come back; the other axes take their new place with the next move
   AxisValues bottom = from;
   for (std::size_t axis = 0; axis < 3; ++axis) bottom[axis] = wanted[axis];
   start_thread(words_.value('K'));
-  motion_block_.value = words_.has('I') && words_.value('I') > 0 ? words_.value('I') : 1;
-  go_to(BlockKind::rigid_tap, bottom);
-  motion_block_.value = 0;
+  RigidTap tap{straight_to(bottom)};
+  if (words_.has('I') && words_.value('I') > 0) tap.retract_ratio = words_.value('I');
+  set_feed(tap);
+  move_to(bottom);
+  emit(action_span(), tap);
   stop_thread();
   AxisValues after = wanted;
   for (std::size_t axis = 0; axis < 3; ++axis) after[axis] = from[axis];

@@ -5,30 +5,25 @@
 
 /// Tools: T, M6, M61, G43 G43.1 G43.2 G49, and G10 L1 L10 L11, which write the tool table.
 namespace kadr::gcode {
-namespace {}  // namespace
 
 void Interpreter::select_tool() {
   if (!words_.has('T')) return;
   near_integer(words_.value('T'), state_.tool_selected);
-  Block block = make_block(BlockKind::select_tool, words_.span(*line_, 'T'));
-  block.number = state_.tool_selected;
-  emit(block);
+  emit(words_.span(*line_, 'T'), SelectTool{state_.tool_selected});
 }
 
 void Interpreter::change_tool() {
   const int code = words_.m(MGroup::tool_change);
   if (code == kNoCode) return;
   const Span span = words_.span(*line_, MGroup::tool_change);
-  if (code == 61) {
+  if (code == code::m61) {
     near_integer(words_.value('Q'), state_.tool_in_spindle);
-  } else {
-    turn_spindle(Turning::stopped, span);
-    state_.tool_in_spindle = state_.tool_selected;
-    take_real_position();
+    return emit(span, SetToolNumber{state_.tool_in_spindle});
   }
-  Block block = make_block(code == 61 ? BlockKind::set_tool_number : BlockKind::change_tool, span);
-  block.number = state_.tool_in_spindle;
-  emit(block);
+  turn_spindle(Turning::stopped, span);
+  state_.tool_in_spindle = state_.tool_selected;
+  take_real_position();
+  emit(span, ChangeTool{state_.tool_in_spindle});
 }
 
 /// At a tool change the controller asks the machine where it stands: beside the contour if no move came since
@@ -39,7 +34,7 @@ void Interpreter::take_real_position() {
     state_.position = compensation_.last_end();
     compensation_.leave();
   } else if (tapped_at_ && *tapped_at_ == state_.position) {
-    state_.position = motion_block_.end;
+    state_.position = last_move_end_;
   }
 }
 
@@ -48,9 +43,9 @@ void Interpreter::tool_length() {
   if (code == kNoCode) return;
   advice_.length_named();
   // G43 takes the tool's offset, G43.2 adds it; axis words replace under G43.1, add under G43.2
-  if (code == 430 || code == 490) state_.tool_offset = {};
+  if (code == code::g43 || code == code::g49) state_.tool_offset = {};
   const bool by_number = words_.has('H');
-  if (code == 430 || (code == 432 && by_number)) {
+  if (code == code::g43 || (code == code::g43_2 && by_number)) {
     int number = 0;
     if (by_number) near_integer(words_.value('H'), number);
     if (const Tool* tool = length_of_tool(number)) {
@@ -60,9 +55,9 @@ void Interpreter::tool_length() {
   }
   for (int axis = 0; axis < kProgramAxes; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    if (code == 490 || !words_.has(kAxisLetters[a])) continue;
+    if (code == code::g49 || !words_.has(kAxisLetters[a])) continue;
     const double value = state_.to_base_units(axis, words_.value(kAxisLetters[a]));
-    state_.tool_offset[a] = code == 431 ? value : state_.tool_offset[a] + value;
+    state_.tool_offset[a] = code == code::g43_1 ? value : state_.tool_offset[a] + value;
   }
 }
 

@@ -56,6 +56,9 @@ class Words {
   const Item& item(const Line& line, char letter) const { return line.items[items_[index(letter)]]; }
   Span span(const Line& line, char letter) const { return line.span(item(line, letter).bytes); }
 
+  /// Of each group, kNoCode where the line has none.
+  const auto& g_codes() const { return g_; }
+  const auto& m_codes() const { return m_; }
   int g(GGroup group) const { return g_[static_cast<std::size_t>(group)]; }
   int m(MGroup group) const { return m_[static_cast<std::size_t>(group)]; }
   Span span(const Line& line, GGroup group) const {
@@ -109,9 +112,6 @@ class Words {
   bool other_codes_ = false;  ///< an M code, or a G code that is no motion
   Evaluator evaluator_;
 };
-
-/// Letters besides axes, F, S and T that a canned cycle reads; its code as ten times the G number.
-std::uint32_t letters_of_cycle(int code);
 
 /// "G92.1" of 921
 std::string g_name(int tenths);

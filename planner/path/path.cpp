@@ -65,50 +65,7 @@ Path Path::tail(std::size_t i) const {
 }
 
 std::string_view motion_name(const PathSegment& segment) {
-  switch (segment.made_by) {
-    case gcode::BlockKind::traverse:
-      return "rapid";
-    case gcode::BlockKind::arc:
-      return "arc";
-    case gcode::BlockKind::spline:
-      return "spline";
-    case gcode::BlockKind::probe:
-      return "probe";
-    case gcode::BlockKind::rigid_tap:
-      return "tap";
-    case gcode::BlockKind::feed:
-    case gcode::BlockKind::dwell:
-    case gcode::BlockKind::set_feed_rate:
-    case gcode::BlockKind::set_feed_mode:
-    case gcode::BlockKind::set_path_mode:
-    case gcode::BlockKind::spindle_speed:
-    case gcode::BlockKind::spindle_clockwise:
-    case gcode::BlockKind::spindle_counterclockwise:
-    case gcode::BlockKind::spindle_stop:
-    case gcode::BlockKind::mist_on:
-    case gcode::BlockKind::mist_off:
-    case gcode::BlockKind::flood_on:
-    case gcode::BlockKind::flood_off:
-    case gcode::BlockKind::sync_start:
-    case gcode::BlockKind::sync_stop:
-    case gcode::BlockKind::spindle_mode:
-    case gcode::BlockKind::select_tool:
-    case gcode::BlockKind::change_tool:
-    case gcode::BlockKind::set_tool_number:
-    case gcode::BlockKind::digital_output:
-    case gcode::BlockKind::analog_output:
-    case gcode::BlockKind::wait_input:
-    case gcode::BlockKind::message:
-    case gcode::BlockKind::program_stop:
-    case gcode::BlockKind::optional_stop:
-    case gcode::BlockKind::program_end:
-    case gcode::BlockKind::feed_override:
-    case gcode::BlockKind::speed_override:
-    case gcode::BlockKind::speed_point:
-    case gcode::BlockKind::comment:
-      break;
-  }
-  return "line";
+  return gcode::kBlockKinds.word(segment.made_by);
 }
 
 void eval_position(const Path& path, std::size_t segment, double s_u, std::span<double> position_u) {

@@ -128,13 +128,6 @@ void eval_curvature(const Path& path, std::size_t segment, double s_u, std::span
 /// Smallest and largest position of one axis on a segment, extremes of arcs included.
 std::pair<double, double> axis_extent(const Path& path, std::size_t segment, int axis);
 
-/// Whether a block moves the machine.
-constexpr bool is_motion(gcode::BlockKind kind) {
-  return kind == gcode::BlockKind::traverse || kind == gcode::BlockKind::feed ||
-         kind == gcode::BlockKind::arc || kind == gcode::BlockKind::spline ||
-         kind == gcode::BlockKind::probe || kind == gcode::BlockKind::rigid_tap;
-}
-
 /// Whether a segment is a rapid that planner.rapid_law takes care of: a G0 of an axis with a flexible link.
 /// It begins and ends at rest.
 bool is_positioning(const Path& path, std::size_t segment, const machine::MachineModel& machine);

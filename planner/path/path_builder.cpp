@@ -8,6 +8,7 @@
 #include "gcode/block.h"
 #include "machine/base/numbers.h"
 #include "machine/base/require.h"
+#include "machine/base/variants.h"
 #include "machine/machine.h"
 #include "planner/bezier/curve_parts.h"
 #include "planner/path/path_builder.h"
@@ -63,79 +64,51 @@ Path PathBuilder::take() {
 }
 
 bool PathBuilder::add(const gcode::Block& block) {
-  require(is_motion(block.kind), "only moves make path");
   add_motion(block);
   return path_.size() > 0 && path_.segments.back().block + 1 == blocks_;
 }
 
 void PathBuilder::add_motion(const gcode::Block& block) {
-  PathSegment segment = segment_of(block);
-  switch (block.kind) {
-    case gcode::BlockKind::arc:
-      return add_arc(segment, block);
-    case gcode::BlockKind::spline:
-      return add_spline(segment, block);
-    case gcode::BlockKind::probe:
-      // the controller stops where the probe changes
-      segment.stop_at_end = true;
-      return add_line(segment, block, machine_point(block.contact));
-    case gcode::BlockKind::rigid_tap: {
-      const Point start = last_point();
-      segment.stop_at_end = true;
-      add_line(segment, block, machine_point(block.end));
-      return add_line(segment, block, start);
-    }
-    case gcode::BlockKind::traverse:
-    case gcode::BlockKind::feed:
-    case gcode::BlockKind::dwell:
-    case gcode::BlockKind::set_feed_rate:
-    case gcode::BlockKind::set_feed_mode:
-    case gcode::BlockKind::set_path_mode:
-    case gcode::BlockKind::spindle_speed:
-    case gcode::BlockKind::spindle_clockwise:
-    case gcode::BlockKind::spindle_counterclockwise:
-    case gcode::BlockKind::spindle_stop:
-    case gcode::BlockKind::mist_on:
-    case gcode::BlockKind::mist_off:
-    case gcode::BlockKind::flood_on:
-    case gcode::BlockKind::flood_off:
-    case gcode::BlockKind::sync_start:
-    case gcode::BlockKind::sync_stop:
-    case gcode::BlockKind::spindle_mode:
-    case gcode::BlockKind::select_tool:
-    case gcode::BlockKind::change_tool:
-    case gcode::BlockKind::set_tool_number:
-    case gcode::BlockKind::digital_output:
-    case gcode::BlockKind::analog_output:
-    case gcode::BlockKind::wait_input:
-    case gcode::BlockKind::message:
-    case gcode::BlockKind::program_stop:
-    case gcode::BlockKind::optional_stop:
-    case gcode::BlockKind::program_end:
-    case gcode::BlockKind::feed_override:
-    case gcode::BlockKind::speed_override:
-    case gcode::BlockKind::speed_point:
-    case gcode::BlockKind::comment:
-      break;
-  }
-  return add_line(segment, block, machine_point(block.end));
+  const gcode::Move* move = gcode::move_of(block);
+  require(move != nullptr, "only moves make path");
+  PathSegment segment = segment_of(block, *move);
+  const auto along_line = [&](const OneOf<gcode::Traverse, gcode::Feed> auto& line) {
+    add_line(segment, line, machine_point(line.end));
+  };
+  const auto to_contact = [&](const gcode::Probe& probe) {
+    // the controller stops where the probe changes
+    segment.stop_at_end = true;
+    add_line(segment, probe, machine_point(probe.contact));
+  };
+  const auto down_and_up = [&](const gcode::RigidTap& tap) {
+    const Point start = last_point();
+    segment.stop_at_end = true;
+    add_line(segment, tap, machine_point(tap.end));
+    add_line(segment, tap, start);
+  };
+  std::visit(Overloaded{along_line, to_contact, down_and_up,
+                        [&](const gcode::Arc& arc) { add_arc(segment, arc); },
+                        [&](const gcode::Spline& spline) { add_spline(segment, spline); },
+                        [](const gcode::NoMove auto&) {}},
+             block.action);
 }
 
-PathSegment PathBuilder::segment_of(const gcode::Block& block) {
+PathSegment PathBuilder::segment_of(const gcode::Block& block, const gcode::Move& move) {
   PathSegment segment;
-  segment.rapid = block.kind == gcode::BlockKind::traverse;
-  segment.stop_at_end = block.path_mode == gcode::PathMode::exact_stop;
-  if (follows_spindle_ || block.kind == gcode::BlockKind::rigid_tap)
+  segment.rapid = gcode::is<gcode::Traverse>(block);
+  segment.stop_at_end = move.path_mode == gcode::PathMode::exact_stop;
+  if (follows_spindle_ || gcode::is<gcode::RigidTap>(block))
     segment.lock = FeedLock::thread;
-  else if (!block.feed_override_enabled)
+  else if (!move.feed_override_enabled)
     segment.lock = FeedLock::disabled;
-  segment.made_by = block.kind;
+  pitch_u_rev_ = move.pitch_u_rev;
+  segment.made_by = block.kind();
   segment.block = blocks_++;
   segment.span = block.span;
   return segment;
 }
 
-void PathBuilder::add_line(PathSegment segment, const gcode::Block& block, const Point& end) {
+void PathBuilder::add_line(PathSegment segment, const gcode::Move& move, const Point& end) {
   const auto from = last_node();
   double squares = 0.0, xyz_squares = 0.0;
   for (std::size_t j = 0; j < program_axis_.size(); ++j) {
@@ -144,28 +117,33 @@ void PathBuilder::add_line(PathSegment segment, const gcode::Block& block, const
     if (program_axis_[j] < 3) xyz_squares += step * step;
   }
   segment.length_u = std::sqrt(squares);
-  set_feed(segment, block, std::sqrt(xyz_squares));
-  const SmoothLine line = smooth_line(segment, block, end);
+  set_feed(segment, move, std::sqrt(xyz_squares));
+  const SmoothLine line = smooth_line(segment, move, end);
   if (joins(segment, line)) {
     if (is_dense(line)) {
       open_curve(line);
     } else {
       settle();
-      if (brakes(segment, line)) return round_into(segment, block, end, line);
+      if (brakes(segment, line)) return round_into(segment, end, line);
     }
   } else {
     settle();
   }
-  append(segment, block, end);
+  append(segment, end);
   last_line_ = line;
 }
 
-void PathBuilder::add_arc(PathSegment segment, const gcode::Block& block) {
+void PathBuilder::add_arc(PathSegment segment, const gcode::Arc& programmed) {
+  if (programmed.plane_rotation_deg != 0) {
+    return fault(Code::arc_plane_turned, segment.span,
+                 fmt::format("G10 L2 R turns this plane by {:.6g} degrees about Z", programmed.plane_rotation_deg),
+                 "turn the work system back by R0, or write the arc as short lines");
+  }
   ArcShape arc;
-  if (!plane_axes(block, arc)) return;
-  const Point end = machine_point(block.end);
+  if (!plane_axes(segment, programmed.plane, arc)) return;
+  const Point end = machine_point(programmed.end);
   const auto from = last_node();
-  arc = circle(arc, block.center_first_mm, block.center_second_mm, end);
+  arc = circle(arc, programmed.center_first_mm, programmed.center_second_mm, end);
   double squares = 0.0;      // over the axes that move linearly
   double xyz_squares = 0.0;  // those of them that are X Y Z
   for (std::size_t j = 0; j < program_axis_.size(); ++j) {
@@ -176,38 +154,38 @@ void PathBuilder::add_arc(PathSegment segment, const gcode::Block& block) {
     if (program_axis_[j] < 3) xyz_squares += step * step;
   }
   const double mean_radius = 0.5 * (arc.radius_begin_u + arc.radius_end_u);
-  const double told = std::sqrt(std::max(block.length_u * block.length_u - xyz_squares, 0.0));
+  const double told = std::sqrt(std::max(programmed.length_u * programmed.length_u - xyz_squares, 0.0));
   const auto first = static_cast<std::size_t>(arc.first_axis);
   const auto second = static_cast<std::size_t>(arc.second_axis);
   arc.sweep_rad =
       signed_sweep(from[first] - arc.center_first_u, from[second] - arc.center_second_u,
-                   end[first] - arc.center_first_u, end[second] - arc.center_second_u, block.turns,
-                   block.feed_length == gcode::FeedLength::xyz ? told : 0.0, mean_radius);
+                   end[first] - arc.center_first_u, end[second] - arc.center_second_u, programmed.turns,
+                   programmed.feed_length == gcode::FeedLength::xyz ? told : 0.0, mean_radius);
   const double planar = mean_radius * std::fabs(arc.sweep_rad);
   segment.length_u = std::sqrt(squares + planar * planar);
-  set_feed(segment, block, std::sqrt(xyz_squares + planar * planar));
+  set_feed(segment, programmed, std::sqrt(xyz_squares + planar * planar));
   settle();
   // a circle of radius zero is a point: what is left is the straight motion of the other axes
-  append(segment, block, end, planar > 0.0 ? SegmentShape(arc) : SegmentShape());
+  append(segment, end, planar > 0.0 ? SegmentShape(arc) : SegmentShape());
 }
 
-void PathBuilder::add_spline(PathSegment segment, const gcode::Block& block) {
+void PathBuilder::add_spline(PathSegment segment, const gcode::Spline& spline) {
   ArcShape plane;
-  if (!plane_axes(block, plane)) return;
+  if (!plane_axes(segment, gcode::Plane::xy, plane)) return;
   settle();
-  if (add_curve(segment, block, plane)) return;
+  if (add_curve(segment, spline, plane)) return;
   std::vector<SplineControl> points;
-  for (const gcode::SplinePoint& p : block.control_points) points.push_back({p.x_mm, p.y_mm, p.weight});
-  const double deviation_mm = std::max(kSplineDeviation_mm, block.path_tolerance_mm);
+  for (const gcode::SplinePoint& p : spline.control_points) points.push_back({p.x_mm, p.y_mm, p.weight});
+  const double deviation_mm = std::max(kSplineDeviation_mm, spline.path_tolerance_mm);
   const std::vector<CurvePiece> pieces =
-      arcs_along(PlaneSpline(std::move(points), block.order), deviation_mm);
+      arcs_along(PlaneSpline(std::move(points), spline.order), deviation_mm);
   const bool stops = segment.stop_at_end;
   double length_mm = 0.0;
   for (const CurvePiece& piece : pieces) length_mm += piece.length_mm;
   for (const CurvePiece& piece : pieces) {
     const bool last = &piece == &pieces.back();
     // the last piece ends where the program says, to the last bit
-    Point end = last ? machine_point(block.end) : last_point();
+    Point end = last ? machine_point(spline.end) : last_point();
     if (!last) {
       end[static_cast<std::size_t>(plane.first_axis)] = piece.end_first_mm;
       end[static_cast<std::size_t>(plane.second_axis)] = piece.end_second_mm;
@@ -221,32 +199,32 @@ void PathBuilder::add_spline(PathSegment segment, const gcode::Block& block) {
     segment.stop_at_end = stops && last;
     segment.path_limits = true;
     segment.length_u = segment.feed_length_u = piece.length_mm;
-    segment.feed_u_s = block.duration_s > 0.0 ? length_mm / block.duration_s : block.feed_u_s;
-    append(segment, block, end, std::move(shape));
+    segment.feed_u_s = spline.duration_s > 0.0 ? length_mm / spline.duration_s : spline.feed_u_s;
+    append(segment, end, std::move(shape));
   }
 }
 
-/// Curvature that brakes a block at no percent of the override up to 200.
-double PathBuilder::harmless_curvature_per_u(const gcode::Block& block,
+/// Largest curvature that never limits the feed, even at 200 % override.
+double PathBuilder::harmless_curvature_per_u(const gcode::Move& move,
                                              std::span<const double> control_u) const {
   constexpr double kFastest = 2.0, kShare = 0.8;
-  const double feed_u_s = block.duration_s > 0.0
-                              ? PathCurve(control_u, program_axis_.size()).length_u() / block.duration_s
-                              : block.feed_u_s;
+  const double feed_u_s = move.duration_s > 0.0
+                              ? PathCurve(control_u, program_axis_.size()).length_u() / move.duration_s
+                              : move.feed_u_s;
   double accel = machine_.path.centripetal_accel_mm_s2;
   for (const machine::AxisModel& axis : machine_.axis) accel = std::min(accel, kShare * axis.max_accel_u_s2);
   return accel / (kFastest * feed_u_s * kFastest * feed_u_s);
 }
 
 /// A spline of one span without weights, which is a Bezier curve: exactly, in parts.
-bool PathBuilder::add_curve(PathSegment segment, const gcode::Block& block, const ArcShape& plane) {
-  const std::vector<gcode::SplinePoint>& points = block.control_points;
+bool PathBuilder::add_curve(PathSegment segment, const gcode::Spline& spline, const ArcShape& plane) {
+  const std::vector<gcode::SplinePoint>& points = spline.control_points;
   const auto plain = [](const gcode::SplinePoint& p) { return p.weight == 1; };
-  if (static_cast<int>(points.size()) != block.order || points.size() > PathCurve::kPowers ||
+  if (static_cast<int>(points.size()) != spline.order || points.size() > PathCurve::kPowers ||
       !std::all_of(points.begin(), points.end(), plain))
     return false;
   const std::size_t axes = program_axis_.size();
-  const Point start = last_point(), end = machine_point(block.end);
+  const Point start = last_point(), end = machine_point(spline.end);
   std::vector<double> control;
   for (std::size_t i = 0; i < points.size(); ++i) {
     // both ends are the path's own nodes, to the last bit
@@ -258,7 +236,7 @@ bool PathBuilder::add_curve(PathSegment segment, const gcode::Block& block, cons
     }
     control.insert(control.end(), at.begin(), at.begin() + static_cast<int>(axes));
   }
-  const auto parts = parts_of_like_curvature(control, axes, harmless_curvature_per_u(block, control));
+  const auto parts = parts_of_like_curvature(control, axes, harmless_curvature_per_u(spline, control));
   if (!parts) return false;
   std::vector<PathCurve> curves;
   double length_mm = 0.0;
@@ -271,27 +249,26 @@ bool PathBuilder::add_curve(PathSegment segment, const gcode::Block& block, cons
     segment.stop_at_end = stops && last;
     segment.path_limits = true;
     segment.length_u = segment.feed_length_u = curves[i].length_u();
-    segment.feed_u_s = block.duration_s > 0.0 ? length_mm / block.duration_s : block.feed_u_s;
-    append(segment, block, to, std::move(curves[i]));
+    segment.feed_u_s = spline.duration_s > 0.0 ? length_mm / spline.duration_s : spline.feed_u_s;
+    append(segment, to, std::move(curves[i]));
   }
   return true;
 }
 
-void PathBuilder::set_feed(PathSegment& segment, const gcode::Block& block, double xyz_u) {
+void PathBuilder::set_feed(PathSegment& segment, const gcode::Move& move, double xyz_u) {
   // what F measures; a reader that gave no length leaves it to the geometry
   segment.path_limits = xyz_u > 0.0;
-  segment.feed_length_u = block.length_u > 0.0 ? block.length_u : xyz_u > 0.0 ? xyz_u : segment.length_u;
-  if (segment.path_limits && block.feed_length != gcode::FeedLength::xyz) segment.feed_length_u = xyz_u;
+  segment.feed_length_u = move.length_u > 0.0 ? move.length_u : xyz_u > 0.0 ? xyz_u : segment.length_u;
+  if (segment.path_limits && move.feed_length != gcode::FeedLength::xyz) segment.feed_length_u = xyz_u;
   if (segment.rapid)
     segment.feed_u_s = machine::kInfinity;
-  else if (block.duration_s > 0.0)
-    segment.feed_u_s = segment.length_u / block.duration_s;
+  else if (move.duration_s > 0.0)
+    segment.feed_u_s = segment.length_u / move.duration_s;
   else
-    segment.feed_u_s = block.feed_u_s * segment.length_u / segment.feed_length_u;
+    segment.feed_u_s = move.feed_u_s * segment.length_u / segment.feed_length_u;
 }
 
-void PathBuilder::append(const PathSegment& segment, const gcode::Block& block, const Point& end,
-                         SegmentShape shape) {
+void PathBuilder::append(const PathSegment& segment, const Point& end, SegmentShape shape) {
   last_line_ = {};
   const std::size_t axes = program_axis_.size();
   const double s = path_.start_s_u.back();
@@ -301,9 +278,9 @@ void PathBuilder::append(const PathSegment& segment, const gcode::Block& block, 
     if (segment.stop_at_end) stop();
     return;
   }
-  if (block.pitch_u_rev > 0.0 && !(segment.feed_u_s > 0.0)) {
-    fault(Code::spindle_stands_still, block,
-          fmt::format("{} mm per turn, and the spindle turns at 0 rpm", block.pitch_u_rev),
+  if (pitch_u_rev_ > 0.0 && !(segment.feed_u_s > 0.0)) {
+    fault(Code::spindle_stands_still, segment.span,
+          fmt::format("{} mm per turn, and the spindle turns at 0 rpm", pitch_u_rev_),
           "start the spindle before this move: S and M3 or M4");
     return;
   }
@@ -341,14 +318,8 @@ PathBuilder::Point PathBuilder::last_point() const {
   return point;
 }
 
-bool PathBuilder::plane_axes(const gcode::Block& block, ArcShape& arc) {
-  if (block.plane_rotation_deg != 0) {
-    fault(Code::arc_plane_turned, block,
-          fmt::format("G10 L2 R turns this plane by {:.6g} degrees about Z", block.plane_rotation_deg),
-          "turn the work system back by R0, or write the arc as short lines");
-    return false;
-  }
-  const gcode::PlaneAxes plane = gcode::plane_axes(block.plane);
+bool PathBuilder::plane_axes(const PathSegment& segment, gcode::Plane program_plane, ArcShape& arc) {
+  const gcode::PlaneAxes plane = gcode::plane_axes(program_plane);
   const auto machine_axis = [&](int program_axis) {
     const auto it = std::find(program_axis_.begin(), program_axis_.end(), program_axis);
     return it == program_axis_.end() ? -1 : static_cast<int>(it - program_axis_.begin());
@@ -358,10 +329,8 @@ bool PathBuilder::plane_axes(const gcode::Block& block, ArcShape& arc) {
   if (arc.first_axis >= 0 && arc.second_axis >= 0) return true;
   const char missing =
       kAxisLetters[static_cast<std::size_t>(arc.first_axis < 0 ? plane.first : plane.second)];
-  fault(
-      Code::arc_axis_missing, block,
-      std::string(block.kind == gcode::BlockKind::arc ? "the arc" : "the spline") + " needs axis " + missing,
-      "choose the plane with G17, G18 or G19, or a machine that has both of its axes");
+  fault(Code::arc_axis_missing, segment.span, fmt::format("the {} needs axis {}", motion_name(segment), missing),
+        "choose the plane with G17, G18 or G19, or a machine that has both of its axes");
   std::string letters;
   for (const machine::AxisModel& axis : machine_.axis) letters += axis.letter;
   path_.faults.back().notes.push_back("machine '" + machine_.name + "' has the axes " + letters);
@@ -381,10 +350,10 @@ ArcShape PathBuilder::circle(ArcShape arc, double center_first_u, double center_
   return arc;
 }
 
-void PathBuilder::fault(Code code, const gcode::Block& block, std::string label, std::string help) {
+void PathBuilder::fault(Code code, Span span, std::string label, std::string help) {
   Diagnostic d{};
   d.code = code;
-  d.span = block.span;
+  d.span = span;
   d.message = std::string(code_entry(code).title);
   d.label = std::move(label);
   d.help = std::move(help);

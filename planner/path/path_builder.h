@@ -10,8 +10,12 @@
 #include "planner/path/path.h"
 
 namespace kadr::gcode {
+enum class Plane : std::uint8_t;
+struct Arc;
 struct Block;
-}
+struct Move;
+struct Spline;
+}  // namespace kadr::gcode
 
 namespace kadr::planner {
 
@@ -28,7 +32,7 @@ class PathBuilder {
   /// Appends the block's motion; a move of zero length adds nothing. A probing move ends at rest where the
   /// probe changes, a tap goes to its end and back, at rest between. A cubic or quadratic spline becomes
   /// curves, any other arcs (arcs_along).
-  /// @pre is_motion(block.kind)
+  /// @pre gcode::is_move(block)
   /// @return whether path was added
   bool add(const gcode::Block& block);
   /// The last segment ends at rest (dwell, stop, spindle word follows).
@@ -56,25 +60,25 @@ class PathBuilder {
   };
 
   void add_motion(const gcode::Block& block);
-  PathSegment segment_of(const gcode::Block& block);
-  void add_line(PathSegment segment, const gcode::Block& block, const Point& end);
-  void add_arc(PathSegment segment, const gcode::Block& block);
-  void add_spline(PathSegment segment, const gcode::Block& block);
-  double harmless_curvature_per_u(const gcode::Block& block, std::span<const double> control_u) const;
-  bool add_curve(PathSegment segment, const gcode::Block& block, const ArcShape& plane);
-  void append(const PathSegment& segment, const gcode::Block& block, const Point& end,
-              SegmentShape shape = {});
+  PathSegment segment_of(const gcode::Block& block, const gcode::Move& move);
+  void add_line(PathSegment segment, const gcode::Move& move, const Point& end);
+  void add_arc(PathSegment segment, const gcode::Arc& arc);
+  void add_spline(PathSegment segment, const gcode::Spline& spline);
+  double harmless_curvature_per_u(const gcode::Move& move, std::span<const double> control_u) const;
+  bool add_curve(PathSegment segment, const gcode::Spline& spline, const ArcShape& plane);
+  void append(const PathSegment& segment, const Point& end, SegmentShape shape = {});
   void set_shape(PathSegment& segment, SegmentShape shape);
-  void set_feed(PathSegment& segment, const gcode::Block& block, double xyz_u);
-  bool plane_axes(const gcode::Block& block, ArcShape& arc);  ///< false: a fault was noted
+  void set_feed(PathSegment& segment, const gcode::Move& move, double xyz_u);
+  /// False: a fault was noted.
+  bool plane_axes(const PathSegment& segment, gcode::Plane program_plane, ArcShape& arc);
   ArcShape circle(ArcShape arc, double center_first_u, double center_second_u, const Point& end) const;
   Point machine_point(const AxisValues& program) const;
   std::span<const double> last_node() const { return path_.node(path_.size()); }
   Point last_point() const;
-  void fault(Code code, const gcode::Block& block, std::string label, std::string help);
+  void fault(Code code, Span span, std::string label, std::string help);
 
   // path_smoothing.cpp
-  SmoothLine smooth_line(const PathSegment& segment, const gcode::Block& block, const Point& end) const;
+  SmoothLine smooth_line(const PathSegment& segment, const gcode::Move& move, const Point& end) const;
   bool joins(const PathSegment& segment, const SmoothLine& line) const;
   bool is_dense(const SmoothLine& line) const;
   bool brakes(const PathSegment& segment, const SmoothLine& line) const;
@@ -83,7 +87,7 @@ class PathBuilder {
   void fit(std::size_t begin, std::size_t end);
   void split_last(double behind_u);
   void measure_from(std::size_t segment);
-  void round_into(PathSegment segment, const gcode::Block& block, const Point& end, const SmoothLine& line);
+  void round_into(PathSegment segment, const Point& end, const SmoothLine& line);
   void cut_last(double trim_u);
 
   const machine::MachineModel& machine_;
@@ -91,6 +95,7 @@ class PathBuilder {
   std::vector<int> program_axis_;  ///< [machine axes] index into AxisValues
   std::uint32_t blocks_ = 0;
   bool follows_spindle_ = false;
+  double pitch_u_rev_ = 0;  ///< of the move being added
   double speed_limit_u_s_ = machine::kInfinity;  ///< of the next segment's beginning
   SmoothLine last_line_;
   std::size_t curve_begin_ =

@@ -36,15 +36,15 @@ PathSegment of_length(PathSegment segment, double length_u) {
 }  // namespace
 
 /// What a segment is to the one that follows; length 0 if nothing is to be smoothed there.
-PathBuilder::SmoothLine PathBuilder::smooth_line(const PathSegment& segment, const gcode::Block& block,
+PathBuilder::SmoothLine PathBuilder::smooth_line(const PathSegment& segment, const gcode::Move& move,
                                                  const Point& end) const {
   SmoothLine line;
   if (segment.made_by != gcode::BlockKind::feed || segment.lock == FeedLock::thread ||
-      block.path_mode != gcode::PathMode::continuous || !(block.path_tolerance_mm > 0) ||
+      move.path_mode != gcode::PathMode::continuous || !(move.path_tolerance_mm > 0) ||
       !(segment.length_u > 0))
     return line;
   line.length_u = segment.length_u;
-  line.tolerance_u = block.path_tolerance_mm;
+  line.tolerance_u = move.path_tolerance_mm;
   const auto from = last_node();
   for (std::size_t k = 0; k < program_axis_.size(); ++k)
     line.direction[k] = (end[k] - from[k]) / segment.length_u;
@@ -152,8 +152,7 @@ void PathBuilder::measure_from(std::size_t segment) {
 }
 
 /// Appends a line behind a rounded corner, of which one half is of the line before.
-void PathBuilder::round_into(PathSegment segment, const gcode::Block& block, const Point& end,
-                             const SmoothLine& line) {
+void PathBuilder::round_into(PathSegment segment, const Point& end, const SmoothLine& line) {
   const auto axes = program_axis_.size();
   const Point corner = last_point();
   const SmoothLine before = last_line_;
@@ -174,14 +173,14 @@ void PathBuilder::round_into(PathSegment segment, const gcode::Block& block, con
       const double limit = speed_limit_u_s_;
       if (!second) speed_limit_u_s_ = machine::kInfinity;
       const PathSegment piece = of_length(second ? segment : last, shape.length_u());
-      append(piece, block, to, std::move(shape));
+      append(piece, to, std::move(shape));
       if (!second) speed_limit_u_s_ = limit;
     }
     segment = of_length(segment, segment.length_u - rounded->trim_u);
     path_.smoothing.corners += 1;
     path_.smoothing.corner_deviation_u = std::max(path_.smoothing.corner_deviation_u, rounded->deviation_u);
   }
-  append(segment, block, end);
+  append(segment, end);
   last_line_ = line;
 }
 

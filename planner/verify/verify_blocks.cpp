@@ -10,7 +10,7 @@ namespace kadr::planner {
 namespace {
 
 // a block's end is a product and a sum; every pause before it adds its rounding
-constexpr double kTickUlps = 4.0;
+constexpr double kLinkUlps = 4.0;
 // kl are numbers near 1: their products agree to this
 constexpr double kSameFeed = 1e-9;
 
@@ -27,7 +27,7 @@ class BlockVerifier {
         law_(plan.law),
         tau_s_(machine.clock.tau_s()),
         whole_ticks_(machine.planner.whole_ticks),
-        tick_ulps_(kTickUlps + static_cast<double>(pauses)),
+        tick_ulps_(kLinkUlps + static_cast<double>(pauses)),
         options_(options),
         jerk_limited_(jerk_limited),
         found_(found) {
@@ -73,14 +73,14 @@ class BlockVerifier {
     if (first == piece_) return report("block without pieces", end_s, i, 0.0, 1.0);
     const JerkPiece& p = law_.pieces[piece_ - 1];
     const double gap = std::fabs(p.begin_s + p.duration_s - end_s);
-    if (!(gap <= kTickUlps * kUlp * end_s)) report("block end inside a piece", end_s, i, gap, 0.0);
+    if (!(gap <= kLinkUlps * kUlp * end_s)) report("block end inside a piece", end_s, i, gap, 0.0);
     if (!jerk_limited_(i)) return;
     check_rest_of_accel(i, law_.pieces[first], 0.0);
     check_rest_of_accel(i, p, p.duration_s);
   }
 
   static bool begins_at(const JerkPiece& p, double time_s) {
-    return std::fabs(p.begin_s - time_s) <= kTickUlps * kUlp * time_s;
+    return std::fabs(p.begin_s - time_s) <= kLinkUlps * kUlp * time_s;
   }
 
   void check_rest_of_accel(std::size_t i, const JerkPiece& p, double t) {

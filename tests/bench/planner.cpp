@@ -56,8 +56,7 @@ std::vector<gcode::Block> make_blocks(Shape shape, int count) {
     const SinCos d = exact_sincos(angle);
     x += step * d.cos;
     y += step * d.sin;
-    gcode::Block b;
-    b.kind = gcode::BlockKind::feed;
+    gcode::Feed b;
     b.end[0] = std::floor(x * 1e4 + 0.5) / 1e4;
     b.end[1] = std::floor(y * 1e4 + 0.5) / 1e4;
     b.length_u =
@@ -65,7 +64,7 @@ std::vector<gcode::Block> make_blocks(Shape shape, int count) {
     b.feed_u_s = 100.0;
     last_x = b.end[0];
     last_y = b.end[1];
-    blocks.push_back(b);
+    blocks.push_back({{}, b});
   }
   return blocks;
 }

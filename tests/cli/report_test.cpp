@@ -220,18 +220,16 @@ TEST_CASE("alarms are counted beyond those that are kept") {
 TEST_CASE("travel of a line and of a full circle of radius 10 mm: 40 mm per axis within 1 %") {
   machine::MachineModel m = model();
   planner::PathBuilder builder(m, {});
-  gcode::Block line;
-  line.kind = gcode::BlockKind::feed;
+  gcode::Feed line;
   line.end = {20, 0, 0, 0, 0, 0, 0, 0, 0};
   line.length_u = 20;
   line.feed_u_s = 10;
-  builder.add(line);
-  gcode::Block circle = line;
-  circle.kind = gcode::BlockKind::arc;
+  builder.add({{}, line});
+  gcode::Arc circle{line};
   circle.center_first_mm = 10;
   circle.turns = 1;
   circle.length_u = 20 * 3.14159265358979;
-  builder.add(circle);
+  builder.add({{}, circle});
   const auto travel = axis_travel(builder.path());
   CHECK(travel[0].max_u == doctest::Approx(20));
   CHECK(travel[0].travel_u == doctest::Approx(20 + 40).epsilon(0.01));
@@ -247,19 +245,18 @@ TEST_CASE("travel of a line and of a full circle of radius 10 mm: 40 mm per axis
 TEST_CASE("a move of the rotary axis alone is measured in degrees, with X in mm") {
   machine::MachineModel m = model();
   planner::PathBuilder builder(m, {});
-  gcode::Block turn;
-  turn.kind = gcode::BlockKind::feed;
+  gcode::Feed turn;
   turn.feed_length = gcode::FeedLength::rotary;
   turn.end = {0, 0, 0, 360, 0, 0, 0, 0, 0};
   turn.length_u = 360;
   turn.feed_u_s = 10;
-  builder.add(turn);
+  builder.add({{}, turn});
   CHECK(path_unit(builder.path(), m) == "deg");
-  gcode::Block both = turn;
+  gcode::Feed both = turn;
   both.feed_length = gcode::FeedLength::xyz;
   both.end = {5, 0, 0, 720, 0, 0, 0, 0, 0};
   both.length_u = 5;
-  builder.add(both);
+  builder.add({{}, both});
   CHECK(std::string(segment_unit(builder.path(), 1, m)) == "mm");
   CHECK(path_unit(builder.path(), m) == "mm+deg");
 }

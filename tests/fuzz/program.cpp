@@ -68,20 +68,40 @@ InterpretOptions options_of(const Choices& choices) {
 
 void check_finite(double value) { require(std::isfinite(value), "numbers of a block are finite"); }
 
+void check_move(const Move& move) {
+  for (const double v : move.end) check_finite(v);
+  for (const double v :
+       {move.length_u, move.feed_u_s, move.duration_s, move.path_tolerance_mm, move.pitch_u_rev})
+    check_finite(v);
+  require(move.length_u >= 0 && move.feed_u_s >= 0 && move.duration_s >= 0,
+          "lengths, feeds and times are not negative");
+}
+
+struct CheckAction {
+  void operator()(const Arc& arc) const {
+    check_finite(arc.center_first_mm), check_finite(arc.center_second_mm);
+    require(arc.turns != 0, "an arc turns");
+  }
+  void operator()(const Spline& spline) const {
+    for (const SplinePoint& p : spline.control_points)
+      check_finite(p.x_mm), check_finite(p.y_mm), check_finite(p.weight);
+  }
+  void operator()(const RigidTap& tap) const { check_finite(tap.retract_ratio); }
+  void operator()(const Dwell& dwell) const {
+    check_finite(dwell.time_s);
+    require(dwell.time_s >= 0, "a dwell is not negative");
+  }
+  void operator()(const InputWait& wait) const { check_finite(wait.timeout_s); }
+  void operator()(const SpindleMode& mode) const { check_finite(mode.maximum_rpm); }
+  void operator()(const SpindleSpeed& speed) const { check_finite(speed.s_word); }
+  void operator()(const AnalogOutput& output) const { check_finite(output.value); }
+  void operator()(const auto&) const {}
+};
+
 void check_block(const Block& block, const SourceSet& sources) {
   fuzz::check_span(block.span, sources);
-  for (const double v : block.end) check_finite(v);
-  for (const double v : {block.length_u, block.feed_u_s, block.duration_s, block.path_tolerance_mm,
-                         block.center_first_mm, block.center_second_mm, block.pitch_u_rev,
-                         block.wait.timeout_s, block.maximum_rpm, block.dwell_s, block.value}) {
-    check_finite(v);
-  }
-  for (const SplinePoint& p : block.control_points) {
-    check_finite(p.x_mm), check_finite(p.y_mm), check_finite(p.weight);
-  }
-  require(block.length_u >= 0 && block.feed_u_s >= 0 && block.duration_s >= 0 && block.dwell_s >= 0,
-          "lengths, feeds and times are not negative");
-  require(block.kind != BlockKind::arc || block.turns != 0, "an arc turns");
+  if (const Move* move = move_of(block)) check_move(*move);
+  std::visit(CheckAction{}, block.action);
   std::string line;
   append_canon(line, block);
   require(line.find('\n') == std::string::npos, "a call of the trace is one line");
@@ -129,7 +149,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       sources, file, options,
       [&](const Block& block) {
         require(!ended, "nothing comes after the end of the program");
-        ended = block.kind == BlockKind::program_end;
+        ended = is<ProgramEnd>(block);
         require(++blocks <= options.bounds.blocks, "the bound on blocks holds");
         check_block(block, sources);
       },

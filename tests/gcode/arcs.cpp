@@ -12,7 +12,7 @@ namespace {
 
 const double kPiByAcos = std::acos(-1.0);
 
-Block arc_of(const std::string& text) {
+LineOrArc arc_of(const std::string& text) {
   const Outcome outcome = run("F600\n" + text + "\n");
   CAPTURE(outcome.rendered);
   REQUIRE_FALSE(outcome.diagnostics.has_errors());
@@ -21,7 +21,7 @@ Block arc_of(const std::string& text) {
 }
 
 /// Center of the arc of a moved line, checked against both radii.
-void check_center(const Block& b, double first, double second) {
+void check_center(const LineOrArc& b, double first, double second) {
   CHECK(b.center_first_mm == doctest::Approx(first).epsilon(1e-12));
   CHECK(b.center_second_mm == doctest::Approx(second).epsilon(1e-12));
 }
@@ -30,7 +30,7 @@ void check_center(const Block& b, double first, double second) {
 
 TEST_CASE("a quarter by its centre and by its radius is the same arc of length pi/2 times 10") {
   for (const char* text : {"G3 X10 Y10 I0 J10", "G3 X10 Y10 R10", "G90.1 G3 X10 Y10 I0 J10"}) {
-    const Block b = arc_of(text);
+    const LineOrArc b = arc_of(text);
     check_center(b, 0, 10);
     CHECK(b.turns == 1);
     CHECK(b.length_u == doctest::Approx(5 * kPiByAcos).epsilon(1e-14));
@@ -57,7 +57,7 @@ TEST_CASE("a full circle ends where it starts, further turns add whole circles")
 
 TEST_CASE("a helix measures along the screw: 3 mm radius, one turn, pitch 8 pi gives 10 pi") {
   // sqrt((2 pi 3)^2 + (8 pi)^2) = pi sqrt(36 + 64) = 10 pi
-  const Block b = arc_of("G3 I3 Z[8*ACOS[-1]/180*3.14159265358979323846]");
+  const LineOrArc b = arc_of("G3 I3 Z[8*ACOS[-1]/180*3.14159265358979323846]");
   CHECK(b.length_u == doctest::Approx(10 * kPiByAcos).epsilon(1e-13));
   CHECK(b.feed_length == FeedLength::xyz);
 }
@@ -66,7 +66,7 @@ TEST_CASE("each plane is right-handed: G3 turns from its first to its second axi
   // XY: from (10,0) about the origin to (0,10)
   CHECK(arc_of("G17 G0 X10\nG3 X0 Y10 I-10").length_u == doctest::Approx(5 * kPiByAcos).epsilon(1e-13));
   // ZX: first axis Z, second X: a quarter counter-clockwise goes from +Z to +X
-  const Block zx = arc_of("G18 G0 Z10\nG3 X10 Z0 I0 K-10");
+  const LineOrArc zx = arc_of("G18 G0 Z10\nG3 X10 Z0 I0 K-10");
   CHECK(zx.length_u == doctest::Approx(5 * kPiByAcos).epsilon(1e-13));
   CHECK(zx.plane == Plane::zx);
   check_center(zx, 0, 0);
@@ -120,7 +120,7 @@ TEST_CASE("a radius short by up to 0.00127 mm is a half circle") {
 
 TEST_CASE("R a little over the half distance bulges to the right side") {
   // h = 1, R = 1.0001: offset sqrt(R^2 - 1) = 0.0141425, centre below the chord for G2
-  const Block b = arc_of("G2 X2 R1.0001");
+  const LineOrArc b = arc_of("G2 X2 R1.0001");
   check_center(b, 1, -std::sqrt(1.0001 * 1.0001 - 1));
   CHECK(b.length_u < kPiByAcos);
 }
@@ -149,7 +149,7 @@ TEST_CASE("the centre lies at the same distance from both ends for random arcs o
     CAPTURE(text);
     const Outcome outcome = run(text);
     REQUIRE(outcome.moves().size() == 1);
-    const Block b = outcome.moves()[0];
+    const LineOrArc b = outcome.moves()[0];
     const double start = std::hypot(b.center_first_mm, b.center_second_mm);
     const double end = std::hypot(b.center_first_mm - b.end[0], b.center_second_mm - b.end[1]);
     REQUIRE(start == doctest::Approx(std::fabs(radius)).epsilon(1e-9));

@@ -13,10 +13,7 @@ using namespace kadr::gcode::test;
 namespace {
 
 std::string dwell_text(double seconds) {
-  Block block;
-  block.kind = BlockKind::dwell;
-  block.dwell_s = seconds;
-  block.span.line = 7;
+  const Block block{{.line = 7}, Dwell{seconds}};
   std::string out;
   append_canon(out, block);
   return out;

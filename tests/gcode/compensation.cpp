@@ -21,7 +21,7 @@ constexpr double kExact_mm = 1e-9;
 /// Ends of the moves in the plane XY, and the centre of an arc: "L x y" "R x y" (rapid) "A x y about x y".
 std::vector<std::string> outline(const std::string& program, const InterpretOptions& options = {}) {
   std::vector<std::string> lines;
-  for (const Block& b : run(program, options).moves()) {
+  for (const LineOrArc& b : run(program, options).moves()) {
     // + 0.0: no negative zero
     const auto at = [](double v) { return std::round(v * 1e4) / 1e4 + 0.0; };
     std::string line = fmt::format("{} {} {}",
@@ -116,7 +116,7 @@ double distance(PlanePoint p, const Piece& piece) {
   return along <= 0 || along >= 1 ? ends : apart(p, point_of(piece, along));
 }
 
-std::vector<Piece> pieces(const std::vector<Block>& moves) {
+std::vector<Piece> pieces(const std::vector<LineOrArc>& moves) {
   std::vector<Piece> out;
   for (std::size_t i = 1; i < moves.size(); ++i) {
     Piece piece;
@@ -275,7 +275,7 @@ TEST_CASE("moves without motion in the plane wait with the move before them") {
   // down and up again in an inside corner: all stand where the trimmed move ends
   const Outcome outcome =
       run("G21 F100\nG0 X-20 Y0\nG41.1 D4\nG1 X0 Y0\nX20\nZ-5\nG0 Z1\nG1 Y20\nG40\nG0 X0\nM2\n");
-  const std::vector<Block> moves = outcome.moves();
+  const std::vector<LineOrArc> moves = outcome.moves();
   REQUIRE(moves.size() == 7);
   CHECK(moves[2].end == AxisValues{18, 2, 0});
   CHECK(moves[3].end == AxisValues{18, 2, -5});
@@ -288,7 +288,7 @@ TEST_CASE("moves without motion in the plane wait with the move before them") {
 TEST_CASE("around a corner the rapid move goes straight, Z waits and rotary axes turn") {
   const Outcome outcome =
       run("G21 F100\nG0 X-20 Y0\nG41.1 D4\nG1 X0 Y0\nX20\nG0 Y-20 Z5 A90\nG40\nG0 X0\nM2\n");
-  const std::vector<Block> moves = outcome.moves();
+  const std::vector<LineOrArc> moves = outcome.moves();
   REQUIRE(moves.size() == 6);
   CHECK(moves[3].kind == BlockKind::traverse);
   CHECK(moves[3].end == AxisValues{22, 0, 0, 90});
@@ -320,7 +320,7 @@ TEST_CASE("a program stop ends the waiting move at its full length") {
 TEST_CASE("inverse time holds for the programmed length: a longer path takes longer") {
   // 20 mm in 60/2 = 30 s: 2/3 mm/s. About the corner the tool of 4 mm adds an arc of pi/2 · 2 mm; the entry
   // of 20 mm is sqrt(20² + 2²) mm long.
-  const std::vector<Block> moves =
+  const std::vector<LineOrArc> moves =
       run("G21 G93\nG0 X-20\nG41.1 D4\nG1 X0 F2\nX20 F2\nY-20 F2\nG40\nG0 X0\nM2\n").moves();
   REQUIRE(moves.size() == 6);
   const double feed = 20.0 / 30.0;
@@ -335,7 +335,7 @@ TEST_CASE("inverse time holds for the programmed length: a longer path takes lon
 
 TEST_CASE("the first move after G40 is as long as the way back to the contour makes it") {
   // half an inch beside X2: a move that names A only moves the tool by that, at F1 in inches
-  const std::vector<Block> moves =
+  const std::vector<LineOrArc> moves =
       run("G20\nF1\nG0 X-1\nG41.1 D1\nG1 X0\nX2\nG40\nG1 A90\nG1 A0\nM2\n").moves();
   REQUIRE(moves.size() == 5);
   CHECK(moves[3].feed_length == FeedLength::xyz);
@@ -350,9 +350,7 @@ TEST_CASE("parameters 5420 and 5421 read the tool's centre, incremental moves st
       run("G21 F100\nG0 X-20\nG41.1 D4\nG1 X0\n(DEBUG,#5420 #5421)\nG91 X20 Y0\nY-20\n(DEBUG,#5420 "
           "#5421)\nG40\n(DEBUG,#5420 #5421)\nG0 X0\nM2\n");
   std::vector<std::string> messages;
-  for (const Block& b : outcome.blocks) {
-    if (b.kind == BlockKind::message) messages.push_back(b.text);
-  }
+  for (const Message& m : outcome.all<Message>()) messages.push_back(m.text);
   CHECK(messages == Lines{"0.000000 2.000000", "22.000000 -20.000000", "20.000000 -20.000000"});
   CHECK(outcome.moves().back().end == AxisValues{20, -20});
 }
@@ -374,7 +372,7 @@ TEST_CASE("tool radius and orientation come from the table, of the tool in the s
   CHECK(outline("G21 F100\nG41 D2\nG1 X20\nG40\nG0 Y0\nM2\n", options)[0] == "L 20 -2");
   // orientation 2: the controlled point lies at the nose's centre less the radius in X and Z. Along Z to 20,
   // left of it is +X: 1 mm off, and 1 mm back.
-  const std::vector<Block> moves = run("G21 G18 F100\nG41 D3\nG1 Z20\nG40\nG0 X9\nM2\n", options).moves();
+  const std::vector<LineOrArc> moves = run("G21 G18 F100\nG41 D3\nG1 Z20\nG40\nG0 X9\nM2\n", options).moves();
   REQUIRE(moves.size() == 2);
   CHECK(moves[0].end == AxisValues{0, 0, 19});
   CHECK(moves[1].end == AxisValues{9, 0, 20});
@@ -383,11 +381,11 @@ TEST_CASE("tool radius and orientation come from the table, of the tool in the s
 TEST_CASE("in G18 the plane of compensation turns with the work system") {
   // turned by 90 degrees the program's X is the machine's Y: left of the way along Z is Y2, and a move along
   // X goes on along Y
-  const std::vector<Block> moves =
+  const std::vector<LineOrArc> moves =
       run("G21 G18 F100\nG10 L2 P1 R90\nG41.1 D4\nG1 Z20\nG1 Y-3\nG2 Z22 X-2 K0 I-2\nG40\nG0 X9\nM2\n")
           .moves();
   REQUIRE(moves.size() == 4);
-  const auto at = [](const Block& b, double x, double y, double z) {
+  const auto at = [](const LineOrArc& b, double x, double y, double z) {
     return std::fabs(b.end[0] - x) < kExact_mm && std::fabs(b.end[1] - y) < kExact_mm &&
            std::fabs(b.end[2] - z) < kExact_mm;
   };
@@ -449,7 +447,7 @@ TEST_CASE("the tool's centre stays one radius beside a random contour, length an
             contour_text(contour) + "G40\nG0 Y900\nM2\n");
     CAPTURE(seed() * 7919 + i);
     REQUIRE(outcome.rendered == "");
-    const std::vector<Block> moves = outcome.moves();
+    const std::vector<LineOrArc> moves = outcome.moves();
     const std::vector<Piece> path = pieces(moves);
     double worst = 0;
     // the first piece leads from the bare point to the contour, the last one away

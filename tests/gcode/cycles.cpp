@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "machine/base/variants.h"
 #include "support.h"
 
 using namespace kadr;
@@ -17,44 +18,30 @@ std::vector<std::string> brief(const std::string& text, const InterpretOptions& 
   CAPTURE(outcome.rendered);
   CHECK_FALSE(outcome.diagnostics.has_errors());
   std::vector<std::string> lines;
-  for (const Block& b : outcome.blocks) {
-    const auto point = [&](const char* name) {
-      lines.push_back(fmt::format("{} {:.6g} {:.6g} {:.6g}", name, b.end[0], b.end[1], b.end[2]));
-    };
-    switch (b.kind) {
-      case BlockKind::traverse:
-        point("T");
-        break;
-      case BlockKind::feed:
-        point("F");
-        break;
-      case BlockKind::dwell:
-        lines.push_back(fmt::format("dwell {:.6g}", b.dwell_s));
-        break;
-      case BlockKind::spindle_clockwise:
-        lines.emplace_back("clockwise");
-        break;
-      case BlockKind::spindle_counterclockwise:
-        lines.emplace_back("counterclockwise");
-        break;
-      case BlockKind::spindle_stop:
-        lines.emplace_back("stop");
-        break;
-      case BlockKind::feed_override:
-        lines.emplace_back(b.number != 0 ? "feed override on" : "feed override off");
-        break;
-      case BlockKind::speed_override:
-        lines.emplace_back(b.number != 0 ? "speed override on" : "speed override off");
-        break;
-      case BlockKind::set_path_mode:
-        lines.emplace_back(b.path_mode == PathMode::exact_path   ? "exact path"
-                           : b.path_mode == PathMode::exact_stop ? "exact stop"
-                                                                 : "continuous");
-        break;
-      default:
-        break;
-    }
-  }
+  const auto point = [&](const char* name, const Move& move) {
+    lines.push_back(fmt::format("{} {:.6g} {:.6g} {:.6g}", name, move.end[0], move.end[1], move.end[2]));
+  };
+  const Overloaded brief_line{
+      [&](const Traverse& move) { point("T", move); },
+      [&](const Feed& move) { point("F", move); },
+      [&](const Dwell& dwell) { lines.push_back(fmt::format("dwell {:.6g}", dwell.time_s)); },
+      [&](const SpindleClockwise&) { lines.emplace_back("clockwise"); },
+      [&](const SpindleCounterclockwise&) { lines.emplace_back("counterclockwise"); },
+      [&](const SpindleStop&) { lines.emplace_back("stop"); },
+      [&](const FeedOverride& feed) {
+        lines.emplace_back(feed.enabled ? "feed override on" : "feed override off");
+      },
+      [&](const SpeedOverride& speed) {
+        lines.emplace_back(speed.enabled ? "speed override on" : "speed override off");
+      },
+      [&](const SetPathMode& path) {
+        lines.emplace_back(path.mode == PathMode::exact_path   ? "exact path"
+                           : path.mode == PathMode::exact_stop ? "exact stop"
+                                                               : "continuous");
+      },
+      [](const auto&) {},
+  };
+  for (const Block& b : outcome.blocks) std::visit(brief_line, b.action);
   return lines;
 }
 
@@ -122,9 +109,7 @@ TEST_CASE("pecks of an inch program clear by 0.010 inch, as by 0.254 mm in anoth
 TEST_CASE("the last peck ends where the hole does") {
   // 6 pecks of 1 from R2 to Z-4: no empty seventh
   const Outcome outcome = run("F100\nG81 X0 Z-4 R2\nG73 X0 Z-4 R2 Q1\n");
-  std::size_t feeds = 0;
-  for (const Block& b : outcome.blocks) feeds += b.kind == BlockKind::feed ? 1 : 0;
-  CHECK(feeds == 1 + 6);
+  CHECK(outcome.all<Feed>().size() == 1 + 6);
 }
 
 TEST_CASE("G85 bores in and out at the feed, G89 waits at the bottom, G86 stops the spindle there") {
@@ -148,10 +133,8 @@ TEST_CASE("G84 taps with the spindle clockwise, G74 counter-clockwise, both with
               "feed override off", "speed override off", "F 1 0 -5", "stop", "clockwise", "dwell 0",
               "F 1 0 2", "stop", "counterclockwise", "speed override on"});
   const Outcome outcome = run("F100 M3 S100\nG84 X1 Z-5 R2\nG0 X0\n");
-  for (const Block& b : outcome.blocks) {
-    if (b.kind == BlockKind::feed) CHECK_FALSE(b.feed_override_enabled);
-  }
-  CHECK(outcome.blocks[outcome.blocks.size() - 5].feed_override_enabled);
+  for (const Feed& feed : outcome.all<Feed>()) CHECK_FALSE(feed.feed_override_enabled);
+  CHECK(outcome.moves().back().feed_override_enabled);
 }
 
 TEST_CASE("a cycle runs on an exact path and gives the path mode back") {

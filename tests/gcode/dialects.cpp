@@ -16,14 +16,8 @@ InterpretOptions of(Dialect dialect) {
 
 /// Seconds of the only dwell of a program, -1 if there are none or several.
 double dwell_s(const std::string& text, Dialect dialect) {
-  double found = -1;
-  int dwells = 0;
-  for (const Block& block : run(text, of(dialect)).blocks) {
-    if (block.kind != BlockKind::dwell) continue;
-    found = block.dwell_s;
-    ++dwells;
-  }
-  return dwells == 1 ? found : -1;
+  const std::vector<Dwell> dwells = run(text, of(dialect)).all<Dwell>();
+  return dwells.size() == 1 ? dwells[0].time_s : -1;
 }
 
 }  // namespace

@@ -20,16 +20,14 @@ std::vector<std::string> printed(const std::string& text) {
   CAPTURE(outcome.rendered);
   CHECK_FALSE(outcome.diagnostics.has_errors());
   std::vector<std::string> lines;
-  for (const Block& block : outcome.blocks) {
-    if (block.kind == BlockKind::comment) lines.push_back(block.text);
-  }
+  for (const Comment& comment : outcome.all<Comment>()) lines.push_back(comment.text);
   return lines;
 }
 
 /// X of every move.
 std::vector<double> xs(const Outcome& outcome) {
   std::vector<double> values;
-  for (const Block& block : outcome.moves()) values.push_back(block.end[0]);
+  for (const LineOrArc& move : outcome.moves()) values.push_back(move.end[0]);
   return values;
 }
 

@@ -54,19 +54,19 @@ TEST_CASE("M48 to M51 switch feed and speed override") {
       {BlockKind::speed_override, 1}, {BlockKind::feed_override, 0},  {BlockKind::feed_override, 1},
       {BlockKind::speed_override, 0}, {BlockKind::speed_override, 1}};
   for (std::size_t i = 0; i < 8; ++i) {
-    CHECK(blocks[i].kind == expected[i].first);
-    CHECK(blocks[i].number == expected[i].second);
+    CHECK(blocks[i].kind() == expected[i].first);
+    const auto* feed = std::get_if<FeedOverride>(&blocks[i].action);
+    const bool enabled = feed != nullptr ? feed->enabled : std::get<SpeedOverride>(blocks[i].action).enabled;
+    CHECK(enabled == (expected[i].second == 1));
   }
 }
 
 TEST_CASE("spindle blocks carry the speed in force") {
   const auto blocks = run("S1500 M3\nS200\nM4\nM5\n").blocks;
-  CHECK(blocks[0].kind == BlockKind::spindle_speed);
-  CHECK(blocks[1].kind == BlockKind::spindle_clockwise);
-  CHECK(blocks[1].value == 1500);
-  CHECK(blocks[3].kind == BlockKind::spindle_counterclockwise);
-  CHECK(blocks[3].value == 200);
-  CHECK(blocks[4].kind == BlockKind::spindle_stop);
+  CHECK(is<SpindleSpeed>(blocks[0]));
+  CHECK(std::get<SpindleClockwise>(blocks[1].action).speed_rpm == 1500);
+  CHECK(std::get<SpindleCounterclockwise>(blocks[3].action).speed_rpm == 200);
+  CHECK(is<SpindleStop>(blocks[4]));
 }
 
 TEST_CASE("a tool is changed to the one selected last, without a selection to tool 0") {

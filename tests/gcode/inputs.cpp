@@ -48,9 +48,9 @@ TEST_CASE("there is one spindle: $0, and $-1 for all") {
 
 TEST_CASE("M72 restores the modal state that M70 has saved, but the motion") {
   const std::string change = "G91 G18 F7 S300 M4 G64 P0.5 M8\n";
-  const Outcome outcome = run("F50 S100 M3 G61\nM70\n" + change + "M72\nG1 X1\nX1\n");
+  const Outcome outcome = run("F50 S100 M3 G61\nM70\n" + change + "M72\nG1 X1\nG2 X3 I1\n");
   CHECK_FALSE(outcome.diagnostics.has_errors());
-  CHECK(outcome.moves().back().end[0] == 1);
+  CHECK(outcome.moves().back().end[0] == 3);
   CHECK(outcome.moves().back().plane == Plane::xy);
   CHECK(outcome.moves().back().feed_u_s == doctest::Approx(50.0 / 60));
   CHECK(outcome.moves().back().path_mode == PathMode::exact_path);
@@ -59,9 +59,8 @@ TEST_CASE("M72 restores the modal state that M70 has saved, but the motion") {
 TEST_CASE("M72 gives back path mode and overrides on one line, so that they share P") {
   // G64 P0 and M51 of the line that gives the modes back: P0 disables the speed override
   std::vector<bool> speed_override;
-  for (const Block& block : run("M50 P0\nM70\nM50\nG64 P0.1\nM72\nM2\n").blocks) {
-    if (block.kind == BlockKind::speed_override) speed_override.push_back(block.number == 1);
-  }
+  const Outcome outcome = run("M50 P0\nM70\nM50\nG64 P0.1\nM72\nM2\n");
+  for (const SpeedOverride& speed : outcome.all<SpeedOverride>()) speed_override.push_back(speed.enabled);
   REQUIRE_FALSE(speed_override.empty());
   CHECK_FALSE(speed_override.front());
 }

@@ -93,7 +93,7 @@ TEST_CASE("an arc in XZ under a rotation is computed in the work system") {
   // centre half way
   const Outcome outcome = run("F100 G10 L2 P1 R30\nG18 G2 X4 I2\n");
   REQUIRE_FALSE(outcome.diagnostics.has_errors());
-  const Block arc = outcome.moves().back();
+  const LineOrArc arc = outcome.moves().back();
   check_point(arc.end, 2 * std::sqrt(3.0), 2);
   CHECK(arc.center_first_mm == doctest::Approx(0));
   CHECK(arc.center_second_mm == doctest::Approx(std::sqrt(3.0)));

@@ -104,9 +104,7 @@ TEST_CASE("an incremental angle of a repeated cycle goes on from hole to hole") 
   // six holes on a circle of radius 10
   const Outcome outcome = run("G0 X10 Y0 Z5 F100\nG91 G81 R-1 Z-2 ^60 L6\nM2\n");
   std::vector<AxisValues> holes;
-  for (const Block& block : outcome.blocks) {
-    if (block.kind == BlockKind::feed) holes.push_back(block.end);
-  }
+  for (const Feed& feed : outcome.all<Feed>()) holes.push_back(feed.end);
   REQUIRE(holes.size() == 6);
   CHECK(holes[0][0] == doctest::Approx(5));
   CHECK(holes[0][1] == doctest::Approx(8.660254037844386));

@@ -16,14 +16,12 @@ InterpretOptions with_stock() {
   return options;
 }
 
-Block probe_of(const Outcome& outcome) {
+Probe probe_of(const Outcome& outcome) {
   INFO(outcome.rendered);
   CHECK_FALSE(outcome.diagnostics.has_errors());
-  Block found;
-  for (const Block& b : outcome.blocks)
-    if (b.kind == BlockKind::probe) found = b;
-  REQUIRE(found.kind == BlockKind::probe);
-  return found;
+  const std::vector<Probe> found = outcome.all<Probe>();
+  REQUIRE_FALSE(found.empty());
+  return found.back();
 }
 
 }  // namespace
@@ -31,12 +29,12 @@ Block probe_of(const Outcome& outcome) {
 TEST_CASE("a probing move ends where it meets the stock, and the program goes on from there") {
   // from (0, 0, 5) towards (8, 6, -15): Z-5 is half of the way
   const Outcome outcome = run("F120\nG0 Z5\nG38.2 X8 Y6 Z-15\nG0 X[#5061] Y[#5062+#5070]\n", with_stock());
-  const Block probe = probe_of(outcome);
+  const Probe probe = probe_of(outcome);
   CHECK(probe.end == AxisValues{8, 6, -15});
   CHECK(probe.contact == AxisValues{4, 3, -5});
   CHECK(probe.length_u == doctest::Approx(11.18033988749895));  // sqrt(500) / 2
   CHECK(probe.feed_u_s == 2);
-  CHECK(probe.probe.tripped);
+  CHECK(probe.tripped);
   CHECK(outcome.moves().back().end == AxisValues{4, 4, -5});
 }
 
@@ -70,8 +68,8 @@ TEST_CASE("the tip meets the stock: the length of the tool is taken into account
 
 TEST_CASE("G38.3 that meets nothing goes to its end and says so in #5070") {
   const Outcome outcome = run("F100\nG38.3 X3 Z-4\nG0 X[#5070] Y[#5063]\n", with_stock());
-  const Block probe = probe_of(outcome);
-  CHECK_FALSE(probe.probe.tripped);
+  const Probe probe = probe_of(outcome);
+  CHECK_FALSE(probe.tripped);
   CHECK(probe.contact == probe.end);
   CHECK(outcome.moves().back().end == AxisValues{0, -4, -4});
 }
@@ -82,7 +80,7 @@ TEST_CASE("a probe leaves the stock with G38.5 and may meet it again from there"
   CHECK_FALSE(outcome.diagnostics.has_errors());
   CHECK(outcome.moves().back().end == AxisValues{-5, 0, -5});
   // deep inside, the way out is 3 mm
-  const Block out = probe_of(run("F60\nG0 Z-8\nG38.4 Z2\n", with_stock()));
+  const Probe out = probe_of(run("F60\nG0 Z-8\nG38.4 Z2\n", with_stock()));
   CHECK(out.contact[2] == -5);
   CHECK(out.length_u == doctest::Approx(3));
 }
@@ -90,13 +88,13 @@ TEST_CASE("a probe leaves the stock with G38.5 and may meet it again from there"
 TEST_CASE("material above a plane is met from below") {
   InterpretOptions options;
   options.stock = StockPlane{0, 20, false};
-  const Block probe = probe_of(run("F100\nG38.2 X30\n", options));
+  const Probe probe = probe_of(run("F100\nG38.2 X30\n", options));
   CHECK(probe.contact[0] == 20);
 }
 
 TEST_CASE("under G93 a probing move goes on at the feed of the move before it") {
   // 10 mm in 60/6 s; the probe ignores its own F, half of its way is 10 mm
-  const Block probe = probe_of(run("G93\nG0 Z15\nG1 Z5 F6\nG38.2 Z-15 F2\n", with_stock()));
+  const Probe probe = probe_of(run("G93\nG0 Z15\nG1 Z5 F6\nG38.2 Z-15 F2\n", with_stock()));
   CHECK(probe.feed_u_s == doctest::Approx(1));
   CHECK(probe.duration_s == 0);
   CHECK(probe.length_u == doctest::Approx(10));

@@ -55,7 +55,7 @@ TEST_CASE("a closing percent sign ends a program without a call, and what follow
   const Outcome outcome = run("(head)\n%\nG0 X1\n%\nthis is no program\n");
   CHECK(outcome.diagnostics.list().empty());
   CHECK(outcome.trace.size() == 1);
-  CHECK(outcome.blocks.back().kind == BlockKind::program_end);
+  CHECK(outcome.blocks.back().kind() == BlockKind::program_end);
 }
 
 TEST_CASE("nothing after M2 or M30 is run") {
@@ -100,9 +100,10 @@ TEST_CASE(
   std::vector<std::size_t> moves_before;
   std::size_t moves = 0;
   for (const Block& b : outcome.blocks) {
-    if (b.kind == BlockKind::feed) ++moves;
-    if (b.kind != BlockKind::speed_point) continue;
-    speeds.push_back(b.value);
+    if (is<Feed>(b)) ++moves;
+    const auto* point = std::get_if<SpeedPoint>(&b.action);
+    if (point == nullptr) continue;
+    speeds.push_back(point->max_u_s);
     moves_before.push_back(moves);
   }
   CHECK(speeds == std::vector<double>{200, 1.5});
@@ -111,8 +112,8 @@ TEST_CASE(
   const Outcome offset = run("F600 G0 Z1\nG41 D4 G1 X10 Y10\nG1 X30\n(TECH s_max=3)\nG1 Y30\nG40 G1 X0\n");
   std::size_t before = 0;
   for (const Block& b : offset.blocks) {
-    if (b.kind == BlockKind::speed_point) break;
-    before += b.kind == BlockKind::feed && b.end[0] > 20;
+    if (is<SpeedPoint>(b)) break;
+    before += is<Feed>(b) && move_of(b)->end[0] > 20;
   }
   CHECK(before == 1);
 }

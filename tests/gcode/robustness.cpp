@@ -18,18 +18,22 @@ void survive(const std::string& text) {
   const Outcome outcome = run(text);
   REQUIRE(outcome.diagnostics.errors() <= 1000);
   for (const Block& b : outcome.blocks) {
-    for (const double v : b.end) REQUIRE(std::isfinite(v));
-    REQUIRE(std::isfinite(b.length_u));
-    REQUIRE(std::isfinite(b.feed_u_s));
-    REQUIRE(b.feed_u_s >= 0);
-    REQUIRE(std::isfinite(b.duration_s));
-    REQUIRE(std::isfinite(b.center_first_mm));
-    REQUIRE(std::isfinite(b.center_second_mm));
-    REQUIRE(b.dwell_s >= 0);
-    REQUIRE((b.kind != BlockKind::arc || b.turns != 0));
-    REQUIRE((b.kind != BlockKind::feed || b.feed_u_s > 0 || b.length_u == 0));
+    if (const auto* dwell = std::get_if<Dwell>(&b.action)) REQUIRE(dwell->time_s >= 0);
+    const Move* move = move_of(b);
+    if (move == nullptr) continue;
+    for (const double v : move->end) REQUIRE(std::isfinite(v));
+    REQUIRE(std::isfinite(move->length_u));
+    REQUIRE(std::isfinite(move->feed_u_s));
+    REQUIRE(move->feed_u_s >= 0);
+    REQUIRE(std::isfinite(move->duration_s));
+    REQUIRE((!is<Feed>(b) || move->feed_u_s > 0 || move->length_u == 0));
+    const auto* arc = std::get_if<Arc>(&b.action);
+    if (arc == nullptr) continue;
+    REQUIRE(std::isfinite(arc->center_first_mm));
+    REQUIRE(std::isfinite(arc->center_second_mm));
+    REQUIRE(arc->turns != 0);
   }
-  if (!outcome.diagnostics.has_errors()) REQUIRE(outcome.blocks.back().kind == BlockKind::program_end);
+  if (!outcome.diagnostics.has_errors()) REQUIRE(is<ProgramEnd>(outcome.blocks.back()));
 }
 
 std::string random_bytes(Random& random) {

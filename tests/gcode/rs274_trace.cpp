@@ -8,8 +8,10 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "gcode/interpret/state.h"
+#include "machine/base/variants.h"
 
 namespace kadr::gcode::test {
 namespace {
@@ -243,75 +245,75 @@ std::vector<double> first_numbers(const AxisValues& values, std::ptrdiff_t axes)
   return {values.begin(), values.begin() + axes};
 }
 
-/// The comparable call of a block, none if rs274 has no such call.
-std::optional<Call> call_of(const Block& b, const std::string& name) {
-  switch (b.kind) {
-    case BlockKind::traverse:
-    case BlockKind::feed:
-    case BlockKind::probe:
-      return Call{name, first_numbers(b.end, 6), 0, {}};
-    case BlockKind::rigid_tap:
-      return Call{name, first_numbers(b.end, 3), 0, {}};
-    case BlockKind::arc: {
-      std::vector<double> numbers = first_numbers(b.end, 6);
-      numbers.insert(numbers.end(), {b.center_first_mm, b.center_second_mm, static_cast<double>(b.turns)});
-      return Call{name, numbers, 0, {}};
-    }
-    case BlockKind::spline:
-      return Call{name, {static_cast<double>(b.control_points.size())}, 0, {}};
-    case BlockKind::set_feed_mode:
-      return Call{b.feed_mode == FeedMode::inverse_time           ? "SET_FEED_MODE G93"
-                  : b.feed_mode == FeedMode::units_per_revolution ? "SET_FEED_MODE G95"
-                                                                  : "SET_FEED_MODE G94",
-                  {},
-                  0,
-                  {}};
-    case BlockKind::sync_start:
-      return Call{name, {b.value, static_cast<double>(b.number)}, 0, {}};
-    case BlockKind::spindle_mode:
-      return Call{"SET_SPINDLE_MODE", {b.maximum_rpm}, 0, {}};
-    case BlockKind::spindle_stop:
-      if (!b.on) return Call{name, {}, 0, {}};
-      if (b.number < 0) return std::nullopt;
-      return Call{name, {0, b.value, static_cast<double>(b.number)}, 0, {}};
-    case BlockKind::dwell:
-      return Call{name, {b.dwell_s}, 0, {}};
-    case BlockKind::set_feed_rate:
-    case BlockKind::spindle_speed:
-      return Call{name, {b.value}, 0, {}};
-    case BlockKind::set_path_mode:
-      if (b.path_mode == PathMode::continuous) return Call{"CONTINUOUS", {b.path_tolerance_mm}, 0, {}};
-      return Call{b.path_mode == PathMode::exact_stop ? "EXACT_STOP" : "EXACT_PATH", {}, 0, {}};
-    case BlockKind::select_tool:
-    case BlockKind::set_tool_number:
-      return Call{name, {static_cast<double>(b.number)}, 0, {}};
-    case BlockKind::digital_output:
-      return Call{fmt::format("{}_{}_OUTPUT_BIT", b.on ? "SET" : "CLEAR", b.with_motion ? "MOTION" : "AUX"),
-                  {static_cast<double>(b.number)},
-                  0,
-                  {}};
-    case BlockKind::analog_output:
-      return Call{fmt::format("SET_{}_OUTPUT_VALUE", b.with_motion ? "MOTION" : "AUX"),
-                  {static_cast<double>(b.number), b.value},
-                  0,
-                  {}};
-    case BlockKind::message:
-      return Call{"MESSAGE \"" + b.text + "\"", {}, 0, {}};
-    case BlockKind::comment:
-      return Call{"PRINT " + b.text, {}, 0, {}};
-    case BlockKind::feed_override:
-      return Call{b.number != 0 ? "ENABLE_FEED_OVERRIDE" : "DISABLE_FEED_OVERRIDE", {}, 0, {}};
-    case BlockKind::speed_override:
-      return Call{b.number != 0 ? "ENABLE_SPEED_OVERRIDE" : "DISABLE_SPEED_OVERRIDE", {}, 0, {}};
-    case BlockKind::program_end:
-      if (b.number == 1) return std::nullopt;
-      return Call{name, {}, 0, {}};
-    case BlockKind::wait_input:
-      return std::nullopt;
-    default:
-      return Call{name, {}, 0, {}};
+/// The comparable call of an action, none if rs274 has no such call. `name`: of kadr's own call.
+struct CallOf {
+  using Maybe = std::optional<Call>;
+  std::string name;
+
+  Maybe plain() const { return Call{name, {}, 0, {}}; }
+  Maybe numbers(std::vector<double> values) const { return Call{name, std::move(values), 0, {}}; }
+  static Maybe named(std::string called, std::vector<double> values = {}) {
+    return Call{std::move(called), std::move(values), 0, {}};
   }
-}
+
+  Maybe operator()(const OneOf<Traverse, Feed, Probe> auto& move) const {
+    return numbers(first_numbers(move.end, 6));
+  }
+  Maybe operator()(const RigidTap& tap) const { return numbers(first_numbers(tap.end, 3)); }
+  Maybe operator()(const Arc& arc) const {
+    std::vector<double> values = first_numbers(arc.end, 6);
+    values.insert(values.end(), {arc.center_first_mm, arc.center_second_mm, static_cast<double>(arc.turns)});
+    return numbers(std::move(values));
+  }
+  Maybe operator()(const Spline& spline) const {
+    return numbers({static_cast<double>(spline.control_points.size())});
+  }
+  Maybe operator()(const SetFeedMode& feed) const {
+    return named(feed.mode == FeedMode::inverse_time           ? "SET_FEED_MODE G93"
+                 : feed.mode == FeedMode::units_per_revolution ? "SET_FEED_MODE G95"
+                                                               : "SET_FEED_MODE G94");
+  }
+  Maybe operator()(const SyncStart& sync) const { return numbers({sync.pitch_mm_rev, 0}); }
+  Maybe operator()(const SpindleMode& mode) const { return named("SET_SPINDLE_MODE", {mode.maximum_rpm}); }
+  Maybe operator()(const SpindleStop& stop) const {
+    if (!stop.orientation) return plain();
+    if (stop.orientation->direction < 0) return std::nullopt;
+    return numbers({0, stop.orientation->angle_deg, static_cast<double>(stop.orientation->direction)});
+  }
+  Maybe operator()(const Dwell& dwell) const { return numbers({dwell.time_s}); }
+  Maybe operator()(const SetFeedRate& feed) const { return numbers({feed.rate}); }
+  Maybe operator()(const SpindleSpeed& speed) const { return numbers({speed.s_word}); }
+  Maybe operator()(const SetPathMode& path) const {
+    if (path.mode == PathMode::continuous) return named("CONTINUOUS", {path.tolerance_mm});
+    return named(path.mode == PathMode::exact_stop ? "EXACT_STOP" : "EXACT_PATH");
+  }
+  Maybe operator()(const OneOf<SelectTool, SetToolNumber> auto& tool) const {
+    return numbers({static_cast<double>(tool.tool)});
+  }
+  Maybe operator()(const DigitalOutput& output) const {
+    return named(fmt::format("{}_{}_OUTPUT_BIT", output.on ? "SET" : "CLEAR",
+                             output.with_motion ? "MOTION" : "AUX"),
+                 {static_cast<double>(output.number)});
+  }
+  Maybe operator()(const AnalogOutput& output) const {
+    return named(fmt::format("SET_{}_OUTPUT_VALUE", output.with_motion ? "MOTION" : "AUX"),
+                 {static_cast<double>(output.number), output.value});
+  }
+  Maybe operator()(const Message& message) const { return named("MESSAGE \"" + message.text + "\""); }
+  Maybe operator()(const Comment& comment) const { return named("PRINT " + comment.text); }
+  Maybe operator()(const FeedOverride& feed) const {
+    return named(feed.enabled ? "ENABLE_FEED_OVERRIDE" : "DISABLE_FEED_OVERRIDE");
+  }
+  Maybe operator()(const SpeedOverride& speed) const {
+    return named(speed.enabled ? "ENABLE_SPEED_OVERRIDE" : "DISABLE_SPEED_OVERRIDE");
+  }
+  Maybe operator()(const ProgramEnd& end) const { return end.by_percent ? std::nullopt : plain(); }
+  Maybe operator()(const InputWait&) const { return std::nullopt; }
+  Maybe operator()(const OneOf<SpindleClockwise, SpindleCounterclockwise, MistOn, MistOff, FloodOn, FloodOff,
+                               SyncStop, ChangeTool, ProgramStop, OptionalStop, SpeedPoint> auto&) const {
+    return plain();
+  }
+};
 
 }  // namespace
 
@@ -335,11 +337,11 @@ std::vector<Call> own_calls(const std::vector<Block>& blocks) {
   std::vector<Call> calls;
   bool inverse = false;
   for (const Block& b : blocks) {
-    if (b.kind == BlockKind::set_feed_mode) inverse = b.feed_mode == FeedMode::inverse_time;
-    if (b.kind == BlockKind::set_feed_rate && inverse) continue;
+    if (const auto* feed = std::get_if<SetFeedMode>(&b.action)) inverse = feed->mode == FeedMode::inverse_time;
+    if (is<SetFeedRate>(b) && inverse) continue;
     std::string line;
     append_canon(line, b);
-    std::optional<Call> call = call_of(b, line.substr(0, line.find(' ')));
+    std::optional<Call> call = std::visit(CallOf{line.substr(0, line.find(' '))}, b.action);
     if (!call) continue;
     call->source = line;
     calls.push_back(std::move(*call));

@@ -11,18 +11,16 @@ using namespace kadr::gcode::test;
 namespace {
 
 /// The only spline of a program.
-Block spline_of(const std::string& program, const InterpretOptions& options = {}) {
+Spline spline_of(const std::string& program, const InterpretOptions& options = {}) {
   const Outcome outcome = run(program, options);
   INFO(outcome.rendered);
   CHECK_FALSE(outcome.diagnostics.has_errors());
-  Block found;
-  for (const Block& b : outcome.blocks)
-    if (b.kind == BlockKind::spline) found = b;
-  REQUIRE(found.kind == BlockKind::spline);
-  return found;
+  const std::vector<Spline> found = outcome.all<Spline>();
+  REQUIRE_FALSE(found.empty());
+  return found.back();
 }
 
-void check_point(const Block& block, std::size_t i, double x, double y, double weight = 1) {
+void check_point(const Spline& block, std::size_t i, double x, double y, double weight = 1) {
   CAPTURE(i);
   REQUIRE(i < block.control_points.size());
   CHECK(block.control_points[i].x_mm == doctest::Approx(x));
@@ -33,7 +31,7 @@ void check_point(const Block& block, std::size_t i, double x, double y, double w
 }  // namespace
 
 TEST_CASE("G5 puts its control points aside of start and end") {
-  const Block b = spline_of("F120\nG0 X1 Y1\nG5 X11 Y21 I0 J3 P-2 Q-5\n");
+  const Spline b = spline_of("F120\nG0 X1 Y1\nG5 X11 Y21 I0 J3 P-2 Q-5\n");
   REQUIRE(b.control_points.size() == 4);
   CHECK(b.order == 4);
   check_point(b, 0, 1, 1);
@@ -45,7 +43,7 @@ TEST_CASE("G5 puts its control points aside of start and end") {
 }
 
 TEST_CASE("a G5 without I and J goes on where the one before was heading") {
-  const Block b = spline_of("F100\nG5 X1 Y1 I0 J3 P0 Q-3\nG5 X2 Y2 P0.5 Q-3\n");
+  const Spline b = spline_of("F100\nG5 X1 Y1 I0 J3 P0 Q-3\nG5 X2 Y2 P0.5 Q-3\n");
   check_point(b, 1, 1, 1 + 3);
   check_point(b, 2, 2.5, -1);
 }
@@ -60,7 +58,7 @@ TEST_CASE("a G5 holds for its line: axis words go on with the motion before it")
 
 TEST_CASE("the parabola of G5.1 through the origin has its length in closed form") {
   // y = x^2 from -2 to 2: 2 (x sqrt(1 + 4 x^2) / 2 + asinh(2 x) / 4) at x = 2
-  const Block b = spline_of("F60\nG0 X-2 Y4\nG5.1 X2 I2 J-8\n");
+  const Spline b = spline_of("F60\nG0 X-2 Y4\nG5.1 X2 I2 J-8\n");
   CHECK(b.order == 3);
   check_point(b, 1, 0, -4);
   const double exact = 2 * (std::sqrt(17.0) + std::asinh(4.0) / 4);
@@ -68,21 +66,23 @@ TEST_CASE("the parabola of G5.1 through the origin has its length in closed form
 }
 
 TEST_CASE("a NURBS block takes its points, weights and order from its lines") {
-  const Block b = spline_of("F60\nG0 X1 Y1\nG5.2 P2 L4\nX0 Y1 P1\nX2 Y2 P0.5\nX2 Y0 P1\nX0 Y0 P3\nG5.3\n");
+  const std::string program = "F60\nG0 X1 Y1\nG5.2 P2 L4\nX0 Y1 P1\nX2 Y2 P0.5\nX2 Y0 P1\nX0 Y0 P3\nG5.3\n";
+  const Spline b = spline_of(program);
   REQUIRE(b.control_points.size() == 5);
   CHECK(b.order == 4);
   check_point(b, 0, 1, 1, 2);
   check_point(b, 2, 2, 2, 0.5);
   check_point(b, 4, 0, 0, 3);
-  CHECK(b.span.line == 8);
+  for (const Block& block : run(program).blocks)
+    if (is<Spline>(block)) CHECK(block.span.line == 8);
   // the first point may stand on the line of G5.2, with weight 1
-  const Block short_one = spline_of("F60\nG5.2 X1 Y1\nX2 Y0 P1\nG5.3\n");
+  const Spline short_one = spline_of("F60\nG5.2 X1 Y1\nX2 Y0 P1\nG5.3\n");
   check_point(short_one, 1, 1, 1, 1);
   CHECK(short_one.order == 3);
 }
 
 TEST_CASE("three points of weights 1, sqrt(1/2), 1 are a quarter circle") {
-  const Block b = spline_of("F60\nG0 X10\nG5.2 P1\nX10 Y10 P[SQRT[0.5]]\nX0 Y10 P1\nG5.3\n");
+  const Spline b = spline_of("F60\nG0 X10\nG5.2 P1\nX10 Y10 P[SQRT[0.5]]\nX0 Y10 P1\nG5.3\n");
   CHECK(b.length_u == doctest::Approx(5 * 3.14159265358979324).epsilon(1e-10));
 }
 
@@ -92,31 +92,31 @@ TEST_CASE("no motion holds after G5.3") {
 }
 
 TEST_CASE("splines are read in the units, distances and work system in force") {
-  const Block inches = spline_of("G20\nF60\nG5 X1 Y2 I0 J3 P0 Q-3\n");
+  const Spline inches = spline_of("G20\nF60\nG5 X1 Y2 I0 J3 P0 Q-3\n");
   check_point(inches, 1, 0, 76.2);
   CHECK(inches.feed_u_s == doctest::Approx(25.4));
-  const Block incremental = spline_of("G91 F60\nG1 X1 Y1\nG5 X1 Y2 I0 J3 P0 Q-3\n");
+  const Spline incremental = spline_of("G91 F60\nG1 X1 Y1\nG5 X1 Y2 I0 J3 P0 Q-3\n");
   check_point(incremental, 2, 2, 0);
   // a quarter turn of G54: program (x, y) is machine (-y, x)
-  const Block turned = spline_of("G10 L2 P1 R90 X100\nF60\nG5 X10 Y20 I3 J4 P-5 Q6\n");
+  const Spline turned = spline_of("G10 L2 P1 R90 X100\nF60\nG5 X10 Y20 I3 J4 P-5 Q6\n");
   check_point(turned, 1, 0 + -4, 0 + 3);
   check_point(turned, 2, 100 - 26, 5);
   check_point(turned, 3, 100 - 20, 10);
   // points of a NURBS under G91 all count from the position before it
-  const Block nurbs = spline_of("F60\nG0 X1\nG91\nG5.2 P1\nX1 Y1 P1\nX2 Y0 P1\nG5.3\n");
+  const Spline nurbs = spline_of("F60\nG0 X1\nG91\nG5.2 P1\nX1 Y1 P1\nX2 Y0 P1\nG5.3\n");
   check_point(nurbs, 1, 2, 1);
   check_point(nurbs, 2, 3, 0);
 }
 
 TEST_CASE("a spline under G93 lasts 60 / F seconds") {
-  const Block b = spline_of("G93\nG5 X1 Y1 I0 J3 P0 Q-3 F30\n");
+  const Spline b = spline_of("G93\nG5 X1 Y1 I0 J3 P0 Q-3 F30\n");
   CHECK(b.duration_s == 2);
   CHECK(b.feed_u_s == doctest::Approx(b.length_u / 2));
-  const Block nurbs = spline_of("G93\nG5.2 P1 F15\nX1 Y1 P1\nX2 Y0 P1\nG5.3\n");
+  const Spline nurbs = spline_of("G93\nG5.2 P1 F15\nX1 Y1 P1\nX2 Y0 P1\nG5.3\n");
   CHECK(nurbs.duration_s == 4);
   CHECK(only_code("G93\nG5.2 P1\nX1 Y1 P1\nX2 Y0 P1\nG5.3\n") == Code::inverse_feed_missing);
   // without F at the feed in force: 90 mm/min
-  const Block slow = spline_of("F90\nG93\nG5.2 P1\nX1 Y1 P1\nX2 Y0 P1\nG5.3\n");
+  const Spline slow = spline_of("F90\nG93\nG5.2 P1\nX1 Y1 P1\nX2 Y0 P1\nG5.3\n");
   CHECK(slow.feed_u_s == doctest::Approx(1.5));
   CHECK(slow.duration_s == 0);
 }
@@ -124,7 +124,7 @@ TEST_CASE("a spline under G93 lasts 60 / F seconds") {
 TEST_CASE("G5 of Marlin takes missing offsets as zero, without looking back") {
   InterpretOptions marlin;
   marlin.dialect = Dialect::marlin;
-  const Block b = spline_of("F60\nG5 X1 Y1 I0 J3 P0 Q-3\nG5 X2 Y2 Q-3\n", marlin);
+  const Spline b = spline_of("F60\nG5 X1 Y1 I0 J3 P0 Q-3\nG5 X2 Y2 Q-3\n", marlin);
   check_point(b, 1, 1, 1);
   check_point(b, 2, 2, -1);
   CHECK(run("F60\nG5 X2 Y2 Q-3\n", marlin).diagnostics.list().empty());

@@ -8,6 +8,12 @@
 
 namespace kadr::gcode::test {
 
+/// A line or an arc, laid out flat for checks; an arc's own members are 0 for a line.
+struct LineOrArc : Arc {
+  BlockKind kind{};
+  Span span;
+};
+
 /// What a program text comes to.
 struct Outcome {
   std::vector<Block> blocks;
@@ -20,13 +26,21 @@ struct Outcome {
     for (const Diagnostic& d : diagnostics.list()) codes.push_back(d.code);
     return codes;
   }
-  /// Motion blocks only.
-  std::vector<Block> moves() const {
-    std::vector<Block> out;
+  std::vector<LineOrArc> moves() const {
+    std::vector<LineOrArc> out;
     for (const Block& b : blocks) {
-      if (b.kind == BlockKind::traverse || b.kind == BlockKind::feed || b.kind == BlockKind::arc)
-        out.push_back(b);
+      if (!is<Traverse, Feed, Arc>(b)) continue;
+      const Arc* arc = std::get_if<Arc>(&b.action);
+      out.push_back({arc != nullptr ? *arc : Arc{*move_of(b)}, b.kind(), b.span});
     }
+    return out;
+  }
+  /// The actions of one kind, in program order.
+  template <class A>
+  std::vector<A> all() const {
+    std::vector<A> out;
+    for (const Block& b : blocks)
+      if (const A* action = std::get_if<A>(&b.action)) out.push_back(*action);
     return out;
   }
 };

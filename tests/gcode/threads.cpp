@@ -12,18 +12,18 @@ using namespace kadr::gcode::test;
 
 namespace {
 
-std::vector<Block> moves_of(const std::string& text, const InterpretOptions& options = {}) {
+std::vector<LineOrArc> moves_of(const std::string& text, const InterpretOptions& options = {}) {
   const Outcome outcome = run(text, options);
   CAPTURE(outcome.rendered);
   CHECK_FALSE(outcome.diagnostics.has_errors());
-  std::vector<Block> moves = outcome.moves();
+  std::vector<LineOrArc> moves = outcome.moves();
   return moves;
 }
 
 /// X of each pass of a G76 program without tapers: the feed moves.
 std::vector<double> pass_positions(const std::string& text) {
   std::vector<double> x;
-  for (const Block& b : moves_of(text)) {
+  for (const LineOrArc& b : moves_of(text)) {
     if (b.kind == BlockKind::feed) x.push_back(b.end[0]);
   }
   return x;
@@ -39,7 +39,7 @@ TEST_CASE("G33 moves by K for each turn of the spindle") {
   CHECK(tail[1].substr(0, 45) == "STRAIGHT_FEED 20.000000 0.000000 -10.000000 0");
   CHECK(tail[2] == "STOP_SPEED_FEED_SYNC");
   // 300 rpm are 5 turns a second: 7.5 mm/s
-  const Block thread = outcome.moves().back();
+  const LineOrArc thread = outcome.moves().back();
   CHECK(thread.pitch_u_rev == 1.5);
   CHECK(thread.feed_u_s == doctest::Approx(7.5).epsilon(1e-15));
   CHECK(thread.length_u == 15);
@@ -47,7 +47,7 @@ TEST_CASE("G33 moves by K for each turn of the spindle") {
 
 TEST_CASE("the pitch of a tapered thread is along the thread") {
   // X by 3, Z by 4: 5 mm of thread at 1 mm a turn and 1 turn a second take 5 s
-  const Block thread = moves_of("M3 S60\nG33 X3 Z4 K1\n").back();
+  const LineOrArc thread = moves_of("M3 S60\nG33 X3 Z4 K1\n").back();
   CHECK(thread.length_u == 5);
   CHECK(thread.feed_u_s == doctest::Approx(1).epsilon(1e-15));
 }
@@ -60,12 +60,11 @@ TEST_CASE("K of an inch program is in inches, of a rotary move in degrees") {
 TEST_CASE("G33.1 taps down and comes back to where it began, I times as fast") {
   const Outcome outcome = run("M3 S120\nG0 X5 Z2\nG33.1 Z-8 K1.25 I2\nG0 Y1\n");
   CHECK_FALSE(outcome.diagnostics.has_errors());
-  for (const Block& b : outcome.blocks) {
-    if (b.kind != BlockKind::rigid_tap) continue;
-    CHECK(b.end[2] == -8);
-    CHECK(b.length_u == 10);
-    CHECK(b.value == 2);
-    CHECK(b.feed_u_s == doctest::Approx(2.5).epsilon(1e-15));
+  for (const RigidTap& tap : outcome.all<RigidTap>()) {
+    CHECK(tap.end[2] == -8);
+    CHECK(tap.length_u == 10);
+    CHECK(tap.retract_ratio == 2);
+    CHECK(tap.feed_u_s == doctest::Approx(2.5).epsilon(1e-15));
   }
   CHECK(outcome.moves().back().end == AxisValues{5, 1, 2});
 }
@@ -187,7 +186,6 @@ TEST_CASE("under G95 F is the way per turn of the spindle") {
   CHECK(m[0].feed_u_s == doctest::Approx(2).epsilon(1e-15));
   CHECK(m[1].feed_u_s == doctest::Approx(2.54).epsilon(1e-15));
   CHECK(m[2].feed_u_s == doctest::Approx(0.1).epsilon(1e-15));
-  CHECK(m[0].feed_mode == FeedMode::units_per_revolution);
 }
 
 TEST_CASE("under G95 a feed move at S0 is refused, one with the spindle standing is told once") {
@@ -239,11 +237,8 @@ TEST_CASE("G96 needs S, and tells it as it was written") {
   CHECK(only_code("G97 D100\n") == Code::word_unused);
   const Outcome outcome = run("G96 D1500 S120\nS90\nG97\n");
   CHECK(outcome.trace[0] == "SET_SPINDLE_SPEED 0 120.000000");
-  CHECK(outcome.blocks[0].kind == BlockKind::spindle_mode);
-  CHECK(outcome.blocks[0].surface_speed_m_min == 120);
-  CHECK(outcome.blocks[0].maximum_rpm == 1500);
-  CHECK(outcome.blocks[2].kind == BlockKind::spindle_speed);
-  CHECK(outcome.blocks[2].surface_speed_m_min == 90);
-  CHECK(outcome.blocks[3].kind == BlockKind::spindle_mode);
-  CHECK(outcome.blocks[3].surface_speed_m_min == 0);
+  CHECK(std::get<SpindleMode>(outcome.blocks[0].action).surface_speed_m_min == 120);
+  CHECK(std::get<SpindleMode>(outcome.blocks[0].action).maximum_rpm == 1500);
+  CHECK(std::get<SpindleSpeed>(outcome.blocks[2].action).surface_speed_m_min == 90);
+  CHECK(std::get<SpindleMode>(outcome.blocks[3].action).surface_speed_m_min == 0);
 }

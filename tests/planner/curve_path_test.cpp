@@ -47,20 +47,18 @@ Point on_curve(const std::vector<gcode::SplinePoint>& points, int order, double 
   return {x / w, y / w};
 }
 
-gcode::Block spline_block(std::vector<gcode::SplinePoint> points, int order, double feed_u_s) {
-  gcode::Block b;
-  b.kind = gcode::BlockKind::spline;
+gcode::Spline spline_block(std::vector<gcode::SplinePoint> points, int order, double feed_u_s) {
+  gcode::Spline b;
   b.order = order;
   b.end = xyz(points.back().x_mm, points.back().y_mm);
   b.feed_u_s = feed_u_s;
   b.control_points = std::move(points);
-  b.span = {0, 7, 1, 4};
   return b;
 }
 
-Path spline_path(const machine::MachineModel& machine, const gcode::Block& block) {
+Path spline_path(const machine::MachineModel& machine, const gcode::Spline& block) {
   planner::PathBuilder builder(machine, xyz(block.control_points[0].x_mm, block.control_points[0].y_mm));
-  builder.add(block);
+  builder.add({{0, 7, 1, 4}, block});
   return builder.take();
 }
 
@@ -90,7 +88,7 @@ double distance_to_chords(Point p, const std::vector<Point>& line) {
 }
 
 /// The largest distance between curve and path, either way; chords of the curve cost at most 1e-5 mm here.
-double deviation_mm(const gcode::Block& block, const Path& path) {
+double deviation_mm(const gcode::Spline& block, const Path& path) {
   std::vector<Point> curve;
   const double end = static_cast<double>(static_cast<int>(block.control_points.size()) - block.order + 1);
   for (int i = 0; i <= 3000; ++i)
@@ -116,7 +114,7 @@ TEST_CASE("a path along random splines stays within a micrometre of them and end
     const int n = order + random.below(4);
     for (int i = 0; i < n; ++i)
       points.push_back({random.between(-10, 10), random.between(-10, 10), random.decades(0.3, 3)});
-    const gcode::Block block = spline_block(points, order, 20);
+    const gcode::Spline block = spline_block(points, order, 20);
     const Path path = spline_path(machine, block);
     CAPTURE(run);
     REQUIRE(path.size() > 0);
@@ -138,7 +136,7 @@ TEST_CASE("a path along random splines stays within a micrometre of them and end
 
 TEST_CASE("G64 with a tolerance follows a spline with fewer arcs, and stays within the tolerance") {
   const auto machine = plain_machine();
-  gcode::Block block = spline_block({{0, 0, 1}, {0, 30, 2}, {40, -30, 1}, {40, 0, 1}}, 4, 20);
+  gcode::Spline block = spline_block({{0, 0, 1}, {0, 30, 2}, {40, -30, 1}, {40, 0, 1}}, 4, 20);
   const std::size_t fine = spline_path(machine, block).size();
   block.path_tolerance_mm = 0.05;
   const Path path = spline_path(machine, block);
@@ -148,7 +146,7 @@ TEST_CASE("G64 with a tolerance follows a spline with fewer arcs, and stays with
 
 TEST_CASE("the arcs along a smooth spline join without a corner, and the plan keeps every limit") {
   const auto machine = plain_machine();
-  const gcode::Block block = spline_block({{0, 0, 1}, {0, 30, 2}, {40, -30, 1}, {40, 0, 1}}, 4, 100);
+  const gcode::Spline block = spline_block({{0, 0, 1}, {0, 30, 2}, {40, -30, 1}, {40, 0, 1}}, 4, 100);
   const Path path = spline_path(machine, block);
   std::vector<double> end(3), begin(3);
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -169,7 +167,7 @@ TEST_CASE("the feed on a tight spline is bounded by its curvature") {
   machine.path.centripetal_accel_mm_s2 = 2000;
   for (auto& axis : machine.axis)
     axis.max_accel_u_s2 = 4000, axis.max_jerk_u_s3 = 1e9, axis.junction_accel_u_s2 = 1e6;
-  const gcode::Block block = spline_block({{-20, 200, 1}, {0, -200, 1}, {20, 200, 1}}, 3, 100);
+  const gcode::Spline block = spline_block({{-20, 200, 1}, {0, -200, 1}, {20, 200, 1}}, 3, 100);
   const Path path = spline_path(machine, block);
   const auto plan = planner::plan(path, machine);
   REQUIRE(plan);
@@ -187,18 +185,18 @@ TEST_CASE("splines that degenerate to a line, a point or a cusp make path") {
   CHECK(line.length_u() == doctest::Approx(11.25 + 1.25).epsilon(1e-4));  // x = 30 u - 20 u^2: 11.25 at 3/4
   const Path point = spline_path(machine, spline_block({{5, 5, 1}, {5, 5, 1}, {5, 5, 1}}, 3, 20));
   CHECK(point.size() == 0);
-  const gcode::Block cusp = spline_block({{0, 0, 1}, {10, 10, 1}, {0, 10, 1}, {10, 0, 1}}, 4, 20);
+  const gcode::Spline cusp = spline_block({{0, 0, 1}, {10, 10, 1}, {0, 10, 1}, {10, 0, 1}}, 4, 20);
   const Path tip = spline_path(machine, cusp);
   CHECK(deviation_mm(cusp, tip) < planner::kSplineDeviation_mm + 1e-5);
   CHECK(tip.size() < 2000);
   // control points on the ends: no velocity there
-  const gcode::Block rest = spline_block({{0, 0, 1}, {0, 0, 1}, {10, 5, 1}, {10, 5, 1}}, 4, 20);
+  const gcode::Spline rest = spline_block({{0, 0, 1}, {0, 0, 1}, {10, 5, 1}, {10, 5, 1}}, 4, 20);
   CHECK(spline_path(machine, rest).size() <= 2);
 }
 
 TEST_CASE("a spline under G93 takes its time whatever its arcs add up to") {
   const auto machine = plain_machine();
-  gcode::Block block = spline_block({{0, 0, 1}, {0, 3, 1}, {4, -3, 1}, {4, 0, 1}}, 4, 0);
+  gcode::Spline block = spline_block({{0, 0, 1}, {0, 3, 1}, {4, -3, 1}, {4, 0, 1}}, 4, 0);
   block.duration_s = 8;
   const Path path = spline_path(machine, block);
   CHECK(path.length_u() / path.segments[0].feed_u_s == doctest::Approx(8));
@@ -207,17 +205,15 @@ TEST_CASE("a spline under G93 takes its time whatever its arcs add up to") {
 TEST_CASE("a probing move ends at rest at its contact, and the next move starts there") {
   const auto machine = plain_machine();
   planner::PathBuilder builder(machine, {});
-  gcode::Block probe;
-  probe.kind = gcode::BlockKind::probe;
+  gcode::Probe probe;
   probe.end = xyz(0, 0, -20);
   probe.contact = xyz(0, 0, -7.5);
   probe.length_u = 7.5;
   probe.feed_u_s = 5;
-  builder.add(probe);
-  gcode::Block up;
-  up.kind = gcode::BlockKind::traverse;
+  builder.add({{}, probe});
+  gcode::Traverse up;
   up.end = xyz(0, 0, 2.5);
-  builder.add(up);
+  builder.add({{}, up});
   const Path path = builder.take();
   REQUIRE(path.size() == 2);
   CHECK(path.segments[0].length_u == 7.5);
@@ -230,13 +226,12 @@ TEST_CASE("a probing move ends at rest at its contact, and the next move starts 
 TEST_CASE("a tap goes to its end and back, at rest between, as one block") {
   const auto machine = plain_machine();
   planner::PathBuilder builder(machine, xyz(1, 2, 5));
-  gcode::Block tap;
-  tap.kind = gcode::BlockKind::rigid_tap;
+  gcode::RigidTap tap;
   tap.end = xyz(1, 2, -15);
   tap.length_u = 20;
   tap.pitch_u_rev = 1.25;
   tap.feed_u_s = 10;
-  builder.add(tap);
+  builder.add({{}, tap});
   const Path path = builder.take();
   REQUIRE(path.size() == 2);
   CHECK(path.node(1)[2] == -15);

@@ -146,13 +146,12 @@ TEST_CASE("a run too short for its limits, a dwell and a technology point keep t
   planner::PathBuilder builder(machine, {});
   double x = 0;
   for (const double step : {0.001, 0.05, 30.0, 30.0}) {
-    gcode::Block block;
-    block.kind = gcode::BlockKind::feed;
+    gcode::Feed block;
     block.feed_u_s = 100.0;
     block.length_u = step;
     block.end = xyz(x += step);
     if (step == 30.0) builder.limit_speed(15.0);
-    builder.add(block);
+    builder.add({{}, block});
     if (step < 1.0) builder.stop();
   }
   const planner::Path path = builder.take();

@@ -189,8 +189,7 @@ TEST_CASE("a curve that is cut is the same curve, and so is a path of curves") {
 
 TEST_CASE("a spline of one span is followed exactly, at any tolerance, without a corner") {
   const auto machine = plain_machine();
-  gcode::Block block;
-  block.kind = gcode::BlockKind::spline;
+  gcode::Spline block;
   block.order = 4;
   block.control_points = {{0, 0, 1}, {0, 30, 1}, {40, -30, 1}, {40, 0, 1}};
   block.end = xyz(40, 0, 0);
@@ -199,7 +198,7 @@ TEST_CASE("a spline of one span is followed exactly, at any tolerance, without a
   for (const double tolerance_mm : {0.0, 0.05}) {
     block.path_tolerance_mm = tolerance_mm;
     planner::PathBuilder builder(machine, {});
-    CHECK(builder.add(block));
+    CHECK(builder.add({{}, block}));
     const planner::Path path = builder.take();
     CHECK((segments == 0 || segments == path.size()));
     segments = path.size();
@@ -230,14 +229,13 @@ TEST_CASE("a spline of one span is followed exactly, at any tolerance, without a
 
 TEST_CASE("a curve's limits are seen to be broken by a law that is too fast") {
   auto machine = plain_machine();
-  gcode::Block block;
-  block.kind = gcode::BlockKind::spline;
+  gcode::Spline block;
   block.order = 3;
   block.control_points = {{0, 0, 1}, {10, 0, 1}, {10, 10, 1}};
   block.end = xyz(10, 10, 0);
   block.feed_u_s = 100;
   planner::PathBuilder builder(machine, {});
-  builder.add(block);
+  builder.add({{}, block});
   const planner::Path path = builder.take();
   const planner::FeedPlan plan = planned(path, machine);
   // the same law on a machine of half the acceleration, and of a centripetal limit

@@ -85,13 +85,12 @@ TEST_CASE("an end that misses the start by rounding is a full circle if the read
     for (const double told : {20.0 * kPi, 1e-13}) {
       if (miss < 0.0 && told < 1.0) continue;
       planner::PathBuilder builder(machine, xyz(10, 0));
-      gcode::Block b;
-      b.kind = gcode::BlockKind::arc;
+      gcode::Arc b;
       b.turns = 1;
       b.end = xyz(10, miss);
       b.length_u = told;
       b.feed_u_s = 10.0;
-      builder.add(b);
+      builder.add({{}, b});
       CHECK(builder.path().length_u() == doctest::Approx(told).epsilon(1e-2));
     }
   }

@@ -52,18 +52,18 @@ class ProgramWriter {
   gcode::PathMode mode = gcode::PathMode::exact_path;
 
   void line(const AxisValues& to, double feed_u_s) {
-    gcode::Block b = block(gcode::BlockKind::feed, to);
+    auto b = move<gcode::Feed>(to);
     b.feed_u_s = feed_u_s;
     measure(b, 0.0, -1, -1);
     send(b);
   }
   void rapid(const AxisValues& to) {
-    gcode::Block b = block(gcode::BlockKind::traverse, to);
+    auto b = move<gcode::Traverse>(to);
     measure(b, 0.0, -1, -1);
     send(b);
   }
   void timed_line(const AxisValues& to, double duration_s) {
-    gcode::Block b = block(gcode::BlockKind::feed, to);
+    auto b = move<gcode::Feed>(to);
     b.duration_s = duration_s;
     measure(b, 0.0, -1, -1);
     send(b);
@@ -71,7 +71,7 @@ class ProgramWriter {
   /// turns > 0 counter-clockwise from the plane's first axis to its second.
   void arc(gcode::Plane plane, double center_first, double center_second, int turns, const AxisValues& to,
            double feed_u_s) {
-    gcode::Block b = block(gcode::BlockKind::arc, to);
+    auto b = move<gcode::Arc>(to);
     b.plane = plane;
     b.center_first_mm = center_first;
     b.center_second_mm = center_second;
@@ -98,14 +98,14 @@ class ProgramWriter {
   planner::Path take() { return builder_.take(); }
 
  private:
-  gcode::Block block(gcode::BlockKind kind, const AxisValues& to) const {
-    gcode::Block b;
-    b.kind = kind;
+  template <gcode::MoveAction M>
+  M move(const AxisValues& to) const {
+    M b;
     b.end = to;
     b.path_mode = mode;
     return b;
   }
-  void measure(gcode::Block& b, double planar, int first, int second) const {
+  void measure(gcode::Move& b, double planar, int first, int second) const {
     const auto length = [&](int from, int to) {
       double sum = 0.0;
       for (int k = from; k < to; ++k) {
@@ -121,8 +121,9 @@ class ProgramWriter {
                               : gcode::FeedLength::rotary;
     b.length_u = std::sqrt(xyz > 0 ? xyz : uvw > 0 ? uvw : length(3, 6));
   }
-  void send(const gcode::Block& b) {
-    builder_.add(b);
+  template <gcode::MoveAction M>
+  void send(const M& b) {
+    builder_.add({{}, b});
     at_ = b.end;
   }
   planner::PathBuilder builder_;

@@ -18,13 +18,11 @@ const char kProgram[] =
 /// The diagnostic of planning one line to X10 whose span is line 2 of the program.
 Diagnostic refused(const machine::MachineModel& machine, double feed_u_s) {
   planner::PathBuilder builder(machine, {});
-  gcode::Block b;
-  b.kind = gcode::BlockKind::feed;
+  gcode::Feed b;
   b.end = xyz(10);
   b.length_u = 10.0;
   b.feed_u_s = feed_u_s;
-  b.span = {0, 2, 1, 9};
-  builder.add(b);
+  builder.add({{0, 2, 1, 9}, b});
   const auto plan = planner::plan(builder.path(), machine);
   REQUIRE_FALSE(plan);
   return plan.error().diagnostic;
@@ -81,15 +79,13 @@ TEST_CASE("a motion of more than 1e9 s is K4003 at its slowest move") {
 TEST_CASE("an arc in a plane the machine does not have is K4004") {
   const auto machine = plain_machine("XY");
   planner::PathBuilder builder(machine, {});
-  gcode::Block b;
-  b.kind = gcode::BlockKind::arc;
+  gcode::Arc b;
   b.plane = gcode::Plane::zx;
   b.end = xyz(10);
   b.center_second_mm = 5.0;
   b.turns = 1;
   b.feed_u_s = 5.0;
-  b.span = {0, 3, 5, 9};
-  builder.add(b);
+  builder.add({{0, 3, 5, 9}, b});
   const auto plan = planner::plan(builder.path(), machine);
   REQUIRE_FALSE(plan);
   check_text(plan.error().diagnostic);
@@ -98,16 +94,14 @@ TEST_CASE("an arc in a plane the machine does not have is K4004") {
 TEST_CASE("an arc in a plane that a rotation turns is K4006") {
   const auto machine = plain_machine("XYZ");
   planner::PathBuilder builder(machine, {});
-  gcode::Block b;
-  b.kind = gcode::BlockKind::arc;
+  gcode::Arc b;
   b.plane = gcode::Plane::zx;
   b.end = xyz(8.660254, 5);  // 10 along X, turned by 30 degrees
   b.center_second_mm = 4.330127;
   b.turns = 1;
   b.plane_rotation_deg = 30;
   b.feed_u_s = 5.0;
-  b.span = {0, 3, 5, 9};
-  builder.add(b);
+  builder.add({{0, 3, 5, 9}, b});
   const auto plan = planner::plan(builder.path(), machine);
   REQUIRE_FALSE(plan);
   check_text(plan.error().diagnostic);
@@ -116,13 +110,11 @@ TEST_CASE("an arc in a plane that a rotation turns is K4006") {
 TEST_CASE("a move that follows a standing spindle is K4005") {
   const auto machine = plain_machine();
   planner::PathBuilder builder(machine, {});
-  gcode::Block b;
-  b.kind = gcode::BlockKind::feed;
+  gcode::Feed b;
   b.end = xyz(0, 0, -10);
   b.length_u = 10;
   b.pitch_u_rev = 1.5;
-  b.span = {0, 3, 5, 9};
-  builder.add(b);
+  builder.add({{0, 3, 5, 9}, b});
   const auto plan = planner::plan(builder.path(), machine);
   REQUIRE_FALSE(plan);
   CHECK(plan.error().diagnostic.code == Code::spindle_stands_still);

@@ -20,9 +20,8 @@ namespace {
 
 using Points = std::vector<AxisValues>;
 
-gcode::Block feed_line(const AxisValues& to, double tolerance_mm, double feed_u_s) {
-  gcode::Block b;
-  b.kind = gcode::BlockKind::feed;
+gcode::Feed feed_line(const AxisValues& to, double tolerance_mm, double feed_u_s) {
+  gcode::Feed b;
   b.end = to;
   b.feed_u_s = feed_u_s;
   b.path_mode = gcode::PathMode::continuous;
@@ -33,7 +32,7 @@ gcode::Block feed_line(const AxisValues& to, double tolerance_mm, double feed_u_
 Path smoothed(const machine::MachineModel& machine, const Points& points, double tolerance_mm,
               double feed_u_s = 100) {
   planner::PathBuilder builder(machine, points[0]);
-  for (std::size_t i = 1; i < points.size(); ++i) builder.add(feed_line(points[i], tolerance_mm, feed_u_s));
+  for (std::size_t i = 1; i < points.size(); ++i) builder.add({{}, feed_line(points[i], tolerance_mm, feed_u_s)});
   return builder.take();
 }
 
@@ -193,33 +192,36 @@ TEST_CASE("corners without a tolerance, of rapids and stops, and lines that turn
   const Points points = corner(90, 20);
   const auto built = [&](auto change) {
     planner::PathBuilder builder(machine, points[0]);
-    gcode::Block first = feed_line(points[1], 0.1, 50), second = feed_line(points[2], 0.1, 50);
+    gcode::Feed first = feed_line(points[1], 0.1, 50), second = feed_line(points[2], 0.1, 50);
     change(builder, first, second);
     return builder.take();
   };
   const auto two = [&](auto change) {
-    return built([&](planner::PathBuilder& b, gcode::Block& first, gcode::Block& second) {
+    return built([&](planner::PathBuilder& b, gcode::Feed& first, gcode::Feed& second) {
       change(first, second);
-      b.add(first);
-      b.add(second);
+      b.add({{}, first});
+      b.add({{}, second});
     });
   };
-  using gcode::Block;
-  CHECK(two([](Block&, Block&) {}).smoothing.corners == 1);
-  CHECK(two([](Block& a, Block&) { a.path_tolerance_mm = 0; }).size() == 2);
-  CHECK(two([](Block&, Block& b) { b.path_tolerance_mm = 0; }).size() == 2);
-  CHECK(two([](Block& a, Block&) { a.path_mode = gcode::PathMode::exact_path; }).size() == 2);
-  CHECK(two([](Block& a, Block&) { a.path_mode = gcode::PathMode::exact_stop; }).size() == 2);
-  CHECK(two([](Block&, Block& b) { b.kind = gcode::BlockKind::traverse; }).size() == 2);
-  CHECK(two([&](Block&, Block& b) { b.end = points[0]; }).size() == 2);
-  CHECK(two([](Block&, Block& b) { b.feed_override_enabled = false; }).size() == 2);
-  CHECK(built([](planner::PathBuilder& b, Block& first, Block& second) {
-          b.add(first);
+  using gcode::Feed;
+  CHECK(two([](Feed&, Feed&) {}).smoothing.corners == 1);
+  CHECK(two([](Feed& a, Feed&) { a.path_tolerance_mm = 0; }).size() == 2);
+  CHECK(two([](Feed&, Feed& b) { b.path_tolerance_mm = 0; }).size() == 2);
+  CHECK(two([](Feed& a, Feed&) { a.path_mode = gcode::PathMode::exact_path; }).size() == 2);
+  CHECK(two([](Feed& a, Feed&) { a.path_mode = gcode::PathMode::exact_stop; }).size() == 2);
+  CHECK(built([](planner::PathBuilder& b, Feed& first, Feed& second) {
+          b.add({{}, first});
+          b.add({{}, gcode::Traverse{second}});
+        }).size() == 2);
+  CHECK(two([&](Feed&, Feed& b) { b.end = points[0]; }).size() == 2);
+  CHECK(two([](Feed&, Feed& b) { b.feed_override_enabled = false; }).size() == 2);
+  CHECK(built([](planner::PathBuilder& b, Feed& first, Feed& second) {
+          b.add({{}, first});
           b.stop();
-          b.add(second);
+          b.add({{}, second});
         }).size() == 2);
   // the smaller of the two tolerances
-  CHECK(two([](Block& a, Block&) { a.path_tolerance_mm = 0.02; }).smoothing.corner_deviation_u ==
+  CHECK(two([](Feed& a, Feed&) { a.path_tolerance_mm = 0.02; }).smoothing.corner_deviation_u ==
         doctest::Approx(0.02));
   // a turn that needs no braking: 2 mm/s at 50 mm/s allow 2.3 degrees
   const Points slight = corner(1.0, 20);
@@ -230,9 +232,9 @@ TEST_CASE("a technology point at a rounded corner holds in its middle, where its
   const auto machine = plain_machine();
   const Points points = corner(60, 30);
   planner::PathBuilder builder(machine, points[0]);
-  builder.add(feed_line(points[1], 0.05, 60));
+  builder.add({{}, feed_line(points[1], 0.05, 60)});
   builder.limit_speed(3);
-  builder.add(feed_line(points[2], 0.05, 60));
+  builder.add({{}, feed_line(points[2], 0.05, 60)});
   const Path path = builder.take();
   REQUIRE(path.size() == 4);
   CHECK(path.segments[1].begin_limit_u_s == kInfinity);

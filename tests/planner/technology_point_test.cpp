@@ -9,12 +9,11 @@ namespace kadr::test {
 namespace {
 
 gcode::Block line_to(double x_mm) {
-  gcode::Block block;
-  block.kind = gcode::BlockKind::feed;
+  gcode::Feed block;
   block.feed_u_s = 100.0;
   block.length_u = 50.0;
   block.end = xyz(x_mm);
-  return block;
+  return {{}, block};
 }
 
 /// Two lines with a technology point between them.

@@ -14,14 +14,14 @@ planner::Path random_program(Dice& dice, const machine::MachineModel& machine) {
   AxisValues at{};
   planner::PathBuilder builder(machine, at);
   for (int n = dice.whole(1, 12); n > 0; --n) {
-    gcode::Block block;
-    block.kind = dice.chance(0.15) ? gcode::BlockKind::traverse : gcode::BlockKind::feed;
+    gcode::Arc block;
+    const bool rapid = dice.chance(0.15);
     block.feed_u_s = dice.between(5.0, 120.0);
     block.end = at;
     for (std::size_t k = 0; k < 3; ++k)
       if (dice.chance(0.6)) block.end[k] = at[k] + dice.between(-4, 4) * (dice.chance(0.3) ? 0.01 : 1.0);
-    if (dice.chance(0.35)) {
-      block.kind = gcode::BlockKind::arc;
+    const bool arc = dice.chance(0.35);
+    if (arc) {
       block.center_first_mm = at[0] + dice.between(0.3, 3);
       block.center_second_mm = at[1] + dice.between(-2, 2);
       const double dx = at[0] - block.center_first_mm, dy = at[1] - block.center_second_mm;
@@ -32,7 +32,9 @@ planner::Path random_program(Dice& dice, const machine::MachineModel& machine) {
     }
     if (dice.chance(0.15)) block.path_mode = gcode::PathMode::exact_stop;
     block.feed_override_enabled = !dice.chance(0.1);
-    builder.add(block);
+    builder.add({{}, arc     ? gcode::Action(block)
+                     : rapid ? gcode::Action(gcode::Traverse{block})
+                             : gcode::Action(gcode::Feed{block})});
     at = block.end;
   }
   return builder.take();

@@ -13,7 +13,7 @@ using namespace kadr;
 using namespace kadr::emulator;
 using namespace kadr::test;
 using gcode::Block;
-using gcode::BlockKind;
+using gcode::DigitalOutput;
 using gcode::InputWait;
 using gcode::WaitMode;
 
@@ -24,24 +24,14 @@ constexpr double kTau_s = 0.001;
 InputStep digital(std::int64_t tick, int number, double value) { return {{tick}, false, number, value, {}}; }
 
 Block feed_to(double x_mm, double from_mm) {
-  Block b;
-  b.kind = BlockKind::feed;
-  b.end[0] = x_mm;
-  b.length_u = x_mm - from_mm;
-  b.feed_u_s = 100;
-  return b;
-}
-Block of_kind(BlockKind kind) {
-  Block b;
-  b.kind = kind;
-  return b;
+  gcode::Feed feed;
+  feed.end[0] = x_mm;
+  feed.length_u = x_mm - from_mm;
+  feed.feed_u_s = 100;
+  return {{}, feed};
 }
 Block output(int number, bool on, bool with_motion) {
-  Block b = of_kind(BlockKind::digital_output);
-  b.number = number;
-  b.on = on;
-  b.with_motion = with_motion;
-  return b;
+  return {{}, DigitalOutput{number, on, with_motion}};
 }
 
 }  // namespace
@@ -91,23 +81,21 @@ TEST_CASE("a wait begins when the machine stands at its block, and holds the mac
     Diagnostics diagnostics;
     ProgramReader reader(job, diagnostics, {});
     reader.take(feed_to(100, 0));
-    Block dwell = of_kind(BlockKind::dwell);
-    dwell.dwell_s = 0.5;
-    reader.take(dwell);
-    Block wait = of_kind(BlockKind::wait_input);
-    wait.wait = {3, false, WaitMode::high, 5};
+    reader.take({{}, gcode::Dwell{0.5}});
+    const InputWait wait{3, false, WaitMode::high, 5};
     gcode::InputReading reading;
-    if (asked_first) reading = reader.read_input(wait.wait);
-    reader.take(wait);
-    if (!asked_first) reading = reader.read_input(wait.wait);
+    if (asked_first) reading = reader.read_input(wait);
+    reader.take({{}, wait});
+    if (!asked_first) reading = reader.read_input(wait);
     CHECK(reading.reached);
     CHECK(reading.value == 1);
     reader.take(feed_to(200, 100));
     reader.finish();
     CHECK(diagnostics.list().empty());
     REQUIRE(job.events.size() == 2);
-    CHECK(job.events[1].block.dwell_s == doctest::Approx(0.65));
-    CHECK(hold_time_s(job.events[1].block, job.machine.model) == doctest::Approx(0.65));
+    CHECK(job.events[1].wait.reached);
+    CHECK(job.events[1].wait.waited_s == doctest::Approx(0.65));
+    CHECK(hold_time_s(job.events[1], job.machine.model) == doctest::Approx(0.65));
   }
 }
 
@@ -115,13 +103,13 @@ TEST_CASE("a wait that ends with its time is told, and the program goes on") {
   Job job = make_job("", test_machine(1));
   Diagnostics diagnostics;
   ProgramReader reader(job, diagnostics, {});
-  Block wait = of_kind(BlockKind::wait_input);
-  wait.wait = {3, false, WaitMode::rise, 2};
-  reader.take(wait);
-  CHECK_FALSE(reader.read_input(wait.wait).reached);
+  const InputWait wait{3, false, WaitMode::rise, 2};
+  reader.take({{}, wait});
+  CHECK_FALSE(reader.read_input(wait).reached);
   REQUIRE(diagnostics.list().size() == 1);
   CHECK(diagnostics.list()[0].code == Code::wait_timed_out);
-  CHECK(job.events[0].block.dwell_s == 2);
+  CHECK_FALSE(job.events[0].wait.reached);
+  CHECK(job.events[0].wait.waited_s == 2);
 }
 
 TEST_CASE("an output of M62 changes as the next motion begins, one of M64 at once and at rest") {
@@ -132,20 +120,19 @@ TEST_CASE("an output of M62 changes as the next motion begins, one of M64 at onc
   reader.take(output(1, true, true));
   reader.take(output(2, true, true));
   reader.take(output(1, false, true));  // overwrites the first one
-  Block dwell = of_kind(BlockKind::dwell);
-  dwell.dwell_s = 1;
-  reader.take(dwell);
+  reader.take({{}, gcode::Dwell{1}});
   reader.take(feed_to(20, 10));
   reader.take(output(5, true, false));
   reader.take(output(6, true, true));  // no motion follows
   reader.finish();
   REQUIRE(job.events.size() == 4);
-  CHECK(job.events[0].block.kind == BlockKind::dwell);
-  CHECK(job.events[1].block.number == 2);
+  const auto digital_output = [&](std::size_t i) { return std::get<DigitalOutput>(job.events[i].block.action); };
+  CHECK(gcode::is<gcode::Dwell>(job.events[0].block));
+  CHECK(digital_output(1).number == 2);
   CHECK(job.events[1].after_segment == 1);
-  CHECK(job.events[2].block.number == 1);
-  CHECK_FALSE(job.events[2].block.on);
-  CHECK(job.events[3].block.number == 5);
+  CHECK(digital_output(2).number == 1);
+  CHECK_FALSE(digital_output(2).on);
+  CHECK(digital_output(3).number == 5);
   CHECK(job.path.segments[1].stop_at_end);
   REQUIRE(diagnostics.list().size() == 1);
   CHECK(diagnostics.list()[0].code == Code::output_without_motion);
@@ -155,9 +142,7 @@ TEST_CASE("a thread begins at rest, and the next cut of the same thread does not
   Job job = make_job("", test_machine(1));
   Diagnostics diagnostics;
   ProgramReader reader(job, diagnostics, {});
-  Block start = of_kind(BlockKind::sync_start);
-  start.value = 1.5;
-  const Block stop = of_kind(BlockKind::sync_stop);
+  const Block start{{}, gcode::SyncStart{1.5}}, stop{{}, gcode::SyncStop{}};
   reader.take(feed_to(10, 0));
   reader.take(start);
   reader.take(feed_to(20, 10));

@@ -121,18 +121,17 @@ TEST_CASE("rounded corners and dense lines run from the program to the last step
     axis.junction_accel_u_s2 = 500;
   }
   planner::PathBuilder builder(machine, {});
-  gcode::Block block;
-  block.kind = gcode::BlockKind::feed;
+  gcode::Feed block;
   block.feed_u_s = 30;
   block.path_mode = gcode::PathMode::continuous;
   block.path_tolerance_mm = 0.05;
   for (int i = 1; i <= 40; ++i) {
     const SinCos at = exact_sincos(2 * kPi * i / 40);
     block.end = {5 - 5 * at.cos, 5 * at.sin, 0.01 * i, 0, 0, 0, 0, 0, 0};
-    builder.add(block);
+    builder.add({{}, block});
   }
   block.end[0] -= 4;
-  builder.add(block);
+  builder.add({{}, block});
   const planner::Path path = builder.take();
   CHECK(path.smoothing.corners == 1);
   CHECK(path.smoothing.curves == 40);

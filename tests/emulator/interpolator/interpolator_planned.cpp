@@ -13,8 +13,7 @@ namespace {
 
 /// Arc blocks as a program gives them: coordinates with three decimals, so that both radii differ by rounding.
 gcode::Block random_block(Dice& dice, const AxisValues& at) {
-  gcode::Block block;
-  block.kind = gcode::BlockKind::feed;
+  gcode::Arc block;
   block.feed_u_s = dice.between(5.0, 80.0);
   block.end = at;
   const auto rounded = [&dice](double low, double high) {
@@ -24,9 +23,8 @@ gcode::Block random_block(Dice& dice, const AxisValues& at) {
   if (dice.chance(0.5)) {
     block.end[0] = rounded(-5, 5);
     block.end[1] = rounded(-5, 5);
-    return block;
+    return {{}, gcode::Feed{block}};
   }
-  block.kind = gcode::BlockKind::arc;
   block.center_first_mm = at[0] + rounded(0.5, 3);
   block.center_second_mm = at[1] + rounded(-3, 3);
   const double dx = at[0] - block.center_first_mm, dy = at[1] - block.center_second_mm;
@@ -34,7 +32,7 @@ gcode::Block random_block(Dice& dice, const AxisValues& at) {
   block.end[0] = std::floor((block.center_first_mm + dx * turned.cos - dy * turned.sin) * 1e3 + 0.5) * 1e-3;
   block.end[1] = std::floor((block.center_second_mm + dx * turned.sin + dy * turned.cos) * 1e3 + 0.5) * 1e-3;
   block.turns = dice.whole(1, 2) * (dice.chance(0.5) ? 1 : -1);
-  return block;
+  return {{}, block};
 }
 
 }  // namespace
@@ -52,7 +50,7 @@ TEST_CASE(
     for (int n = dice.whole(1, 10); n > 0; --n) {
       const gcode::Block block = random_block(dice, at);
       builder.add(block);
-      at = block.end;
+      at = gcode::move_of(block)->end;
     }
     const planner::Path path = builder.take();
     const Run run = run_path(path, machine, drive(path.length_u(), 40.0, machine, Feed::wild, i));
@@ -83,9 +81,9 @@ TEST_CASE(
     planner::PathBuilder builder(machine, at);
     for (int n = dice.whole(1, 10); n > 0; --n) {
       gcode::Block block = random_block(dice, at);
-      if (dice.chance(0.2)) block.path_mode = gcode::PathMode::exact_stop;
+      if (dice.chance(0.2)) gcode::move_of(block)->path_mode = gcode::PathMode::exact_stop;
       builder.add(block);
-      at = block.end;
+      at = gcode::move_of(block)->end;
     }
     const planner::Path path = builder.take();
     const auto plan = planner::plan(path, machine);
