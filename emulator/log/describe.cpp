@@ -101,9 +101,10 @@ std::string field_tables() {
                        channel_name(channel.title), channel.title.type);
     for (const FieldInfo& field : channel.fields)
       out += fmt::format("| `{}{}` | {} | {} | {} |\n", field.name, extent_text(field),
-                         kWires.word(field.wire), unit_symbol(field.unit), field.sentence);
+                         kWires.word(field.wire), unit_symbol(field.unit), in_table(field.sentence));
     out += '\n';
   }
+  out.pop_back();
   return out;
 }
 
