@@ -35,7 +35,8 @@ bool has_operator(const Job& job, const SessionOptions& options) {
 std::unique_ptr<planner::MotionSource> make_source(const Job& job, const SessionOptions& options) {
   const machine::MachineModel& machine = job.machine.model;
   if (!has_operator(job, options)) return std::make_unique<planner::LawSource>(job.plan.law, machine);
-  const double most = std::max(job.most_override.value_or(most_override(job.operator_steps)), options.most_override.value_or(1.0));
+  const double most = std::max(job.most_override.value_or(most_override(job.operator_steps)),
+                               options.most_override.value_or(1.0));
   return planner::override_source(job.path, job.plan, machine, most);
 }
 
