@@ -8,8 +8,8 @@ namespace kadr::plant {
 namespace {
 
 /// CVODE as the textbook uses it at discontinuities: stopped at every pulse and restarted behind it. Slow (5
-/// to 10 us per pulse) and plain; the states are relative to the current node, so no precision is lost with
-/// the position.
+/// to 10 us per pulse) and plain; the states are relative to the current node, so no
+/// precision is lost with the position.
 class Reference final : public Integrator {
  public:
   Reference(AxisMotion& axis, double tolerance_um)

@@ -111,9 +111,8 @@ int sweep_tube(const Arguments& arguments, const TimeLawProblem& problem, const 
 int solve_tube(const Arguments& arguments, Console& console) {
   const std::string& path = arguments.files.front();
   const std::string name = program_text(path);
-  emulator::Job job;
-  load_program(path, job);
-  SourceSet& sources = job.sources;
+  SourceSet sources;
+  const std::uint32_t file = load_program(path, sources);
   const auto refuse = [&](const Diagnostics& diagnostics) {
     if (console.options().json)
       console.document({{"kadr", KADR_VERSION},
@@ -125,7 +124,7 @@ int solve_tube(const Arguments& arguments, Console& console) {
       console.diagnostics(diagnostics, sources, name, Console::Where::errors);
     return kNotStarted;
   };
-  const auto problem = emulator::read_time_law_problem(sources, job.program);
+  const auto problem = emulator::read_time_law_problem(sources, file);
   if (!problem) return refuse(problem.error());
   if (!problem->warnings.list().empty())
     console.diagnostics(problem->warnings, sources, name, Console::Where::errors);

@@ -15,7 +15,7 @@
 /// sound_plan.cpp verifies the plan.
 ///
 /// The run: Session advances control tick by control tick; run() is a loop over it. In each tick
-/// OperatorPanel says what is asked for, a MotionSource how the path moves, CrossingInterpolator which pulses
-/// fire, the plant how the machine answers. BlockStarts and ProgramClock find what begins. monitor/ watches
-/// command and plant, OperatorWatch and LostTime what the override costs, sound_nodes.cpp checks the pulses
+/// OperatorPanel gives the requests, a MotionSource the motion along the path, CrossingInterpolator the pulses,
+/// fire, the plant the machine's response. BlockStarts and ProgramClock find what begins. monitor/ watches
+/// command and plant, OperatorWatch and LostTime the cost of the override, sound_nodes.cpp checks the pulses
 /// of some ticks. RecordWriter hands the records to a RunLog.

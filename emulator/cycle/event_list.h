@@ -12,7 +12,7 @@ class Path;
 
 namespace kadr::emulator {
 
-/// Events of the control tick under way, in the order in which they are made. Each one is of the block and
+/// Events of the current control tick, in the order in which they are made. Each one is of the block and
 /// the program line where the run is.
 class EventList {
  public:
@@ -33,7 +33,7 @@ class EventList {
   EventRecord& add_at(std::size_t segment, Ticks tick, EventKind kind);
   /// An alarm at the segment where the run is, of no axis.
   void alarm(Ticks tick, Code code, double value, double limit, std::string text);
-  /// An event that names its own place, or none.
+  /// An event that names its own position, or none.
   void append(EventRecord event) { list_.push_back(std::move(event)); }
 
   const std::vector<EventRecord>& list() const { return list_; }

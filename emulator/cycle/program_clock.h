@@ -9,7 +9,7 @@
 namespace kadr::emulator {
 
 /// Makes the program's events as the path reaches their joints, one after the other: a dwell, a wait or a
-/// tool change holds up those behind it.
+/// tool change delays those after it.
 class ProgramClock {
  public:
   /// @param program_events  ascending in after_segment; outlives this, as do path, machine and list
@@ -29,7 +29,7 @@ class ProgramClock {
   const machine::MachineModel& machine_;
   EventList& list_;
   std::size_t next_ = 0;
-  std::optional<std::size_t> joint_;  // reached last, by the segment behind it
+  std::optional<std::size_t> joint_;  // reached last, by the segment after it
   Ticks held_until_;                  // the events made so far hold the machine until then
 };
 

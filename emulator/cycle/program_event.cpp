@@ -14,13 +14,13 @@ namespace {
 
 using gcode::Block;
 
-/// What an action is to the motion.
+/// Role of an action for the motion.
 enum class Role : std::uint8_t {
   move,
   setting,      ///< in force in each move already: no event
-  on_the_move,  ///< the machine need not stand still
+  on_the_move,  ///< the machine need not stop
   with_motion,  ///< as the next motion begins
-  at_rest,      ///< the machine stands still
+  at_rest,      ///< the machine stops
 };
 
 struct RoleOf {

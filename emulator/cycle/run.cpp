@@ -8,15 +8,15 @@ namespace {
 constexpr std::int64_t kProgressTicks = 1000;
 
 void report_progress(const Job& job, const Session& session, const RunOptions& options) {
-  const machine::ClockModel& clock = job.machine.model.clock;
-  const double length_u = job.path.length_u();
+  const machine::ClockModel& clock = job.given.machine.model.clock;
+  const double length_u = job.read.path.length_u();
   const auto base_ticks = static_cast<double>(session.ticks().value * clock.control_tick.value);
   options.progress(length_u > 0 ? session.motion().s_end_u / length_u : 1.0, session.line(),
                    base_ticks / static_cast<double>(clock.base_hz));
 }
 
 tl::expected<RunSummary, RunFailure> run_session(const Job& job, RunLog* log, const RunOptions& options) {
-  const double tau_s = job.machine.model.clock.tau_s();
+  const double tau_s = job.given.machine.model.clock.tau_s();
   Session session(job, log, static_cast<const SessionOptions&>(options));
   while (!session.ended()) {
     if (options.interrupt && options.interrupt->load(std::memory_order_relaxed))

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "emulator/cycle/block_starts.h"
+#include "emulator/cycle/input_timeline.h"
 #include "emulator/cycle/monitor/monitor.h"
 #include "emulator/cycle/operator/operator_panel.h"
 #include "emulator/cycle/operator/operator_watch.h"
@@ -24,26 +25,27 @@ using planner::LimitedBy;
 
 namespace {
 
-// every so many control ticks the interpolator is checked; a prime, so that no repeating program hides from
-// it
+/// The interpolator is checked in every control tick with a multiple of this number: a prime, so that no
+/// program repeats itself in step with it.
 constexpr std::int64_t kNodeCheckTicks = 127;
 
 bool has_operator(const Job& job, const SessionOptions& options) {
-  return options.most_override || !job.operator_steps.empty();
+  return options.most_override || !job.given.operator_steps.empty();
 }
 
 std::unique_ptr<planner::MotionSource> make_source(const Job& job, const SessionOptions& options) {
-  const machine::MachineModel& machine = job.machine.model;
-  if (!has_operator(job, options)) return std::make_unique<planner::LawSource>(job.plan.law, machine);
-  const double most = std::max(job.most_override.value_or(most_override(job.operator_steps)),
-                               options.most_override.value_or(1.0));
-  return planner::override_source(job.path, job.plan, machine, most);
+  const machine::MachineModel& machine = job.given.machine.model;
+  if (!has_operator(job, options)) return std::make_unique<planner::LawSource>(job.planned.plan.law, machine);
+  const double prepared = job.given.most_override.value_or(most_override(job.given.operator_steps));
+  const double most = std::max(prepared, options.most_override.value_or(1.0));
+  return planner::override_source(job.read.path, job.planned.plan, machine, most);
 }
 
 std::vector<double> start_u(const Job& job) {
   std::vector<double> position_u;
-  for (std::size_t a = 0; a < job.machine.model.axis.size(); ++a)
-    position_u.push_back(job.path.size() > 0 ? job.path.node(0)[a] : job.machine.model.axis[a].home_u);
+  for (std::size_t a = 0; a < job.given.machine.model.axis.size(); ++a)
+    position_u.push_back(job.read.path.size() > 0 ? job.read.path.node(0)[a]
+                                                  : job.given.machine.model.axis[a].home_u);
   return position_u;
 }
 
@@ -55,18 +57,19 @@ class Session::Cycle {
  public:
   Cycle(const Job& job, RunLog* log, SessionOptions options)
       : job_(job),
-        machine_(job.machine.model),
+        machine_(job.given.machine.model),
         options_(std::move(options)),
         log_(log, machine_.clock),
         has_operator_(has_operator(job, options_)),
         source_(make_source(job, options_)),
-        events_(job.path),
-        panel_(job.operator_steps, job.step_places_u, machine_, events_),
-        operator_watch_(job.plan.law, machine_.clock.tau_s(), events_),
-        program_(job.events, job.path, machine_, events_),
+        events_(job.read.path),
+        panel_(job.given.operator_steps, job.planned.step_places_u, machine_, events_),
+        operator_watch_(job.planned.plan.law, machine_.clock.tau_s(), events_),
+        inputs_(job.given.inputs, machine_.clock, events_),
+        program_(job.read.events, job.read.path, machine_, events_),
         block_starts_(job),
-        interpolator_(job.path, machine_),
-        monitor_(job.path, machine_, events_, block_ends_) {
+        interpolator_(job.read.path, machine_),
+        monitor_(job.read.path, machine_, events_, block_ends_) {
     batch_.axis.resize(machine_.axis.size());
     const bool has_plant = std::any_of(machine_.axis.begin(), machine_.axis.end(),
                                        [](const machine::AxisModel& a) { return a.has_plant; });
@@ -84,7 +87,7 @@ class Session::Cycle {
     move_interpolator();
     events_.move_to(segment());
     ++ticks_;
-    add_inputs();
+    inputs_.tick(motion_.tick);
     block_starts_.tick(motion_);
     program_.tick(motion_);
     if (plant_)
@@ -125,7 +128,7 @@ class Session::Cycle {
   bool at_program_end() const { return source_->finished() && program_.finished(now()); }
   Ticks now() const { return begin_of(ticks_, machine_.clock); }
   std::size_t segment() const {
-    return job_.path.size() == 0 ? 0 : std::min(interpolator_.segment(), job_.path.size() - 1);
+    return job_.read.path.size() == 0 ? 0 : std::min(interpolator_.segment(), job_.read.path.size() - 1);
   }
 
   /// How the path moves in this control tick, under what the operator asks for.
@@ -144,23 +147,8 @@ class Session::Cycle {
     batch_.tick = motion_.tick;
     interpolator_.set_self_check(check);
     interpolator_.advance(motion_, batch_);
-    if (check) require_sound_nodes(ticks_.value, interpolator_, job_);
+    if (check) require_sound_nodes(ticks_, interpolator_, job_);
     hash_.add(batch_);
-  }
-
-  /// Steps of the timeline that set an input: each stands at the beginning of its control tick.
-  void add_inputs() {
-    for (; next_input_ < job_.inputs.size() && job_.inputs[next_input_].tick <= motion_.tick; ++next_input_) {
-      const InputStep& step = job_.inputs[next_input_];
-      EventRecord e;
-      e.tick = begin_of(step.tick, machine_.clock);
-      e.block = events_.block();
-      e.kind = EventKind::input;
-      e.value = step.value;
-      e.text =
-          fmt::format("{} input {} = {:.6g}", step.analog ? "analog" : "digital", step.number, step.value);
-      events_.append(std::move(e));
-    }
   }
 
   void watch() {
@@ -172,7 +160,7 @@ class Session::Cycle {
 
   /// Why a run under an operator ends before the program does, or nothing.
   std::optional<Outcome> ended_by_operator() {
-    const double at_u = motion_.s_end_u, length_u = job_.path.length_u();
+    const double at_u = motion_.s_end_u, length_u = job_.read.path.length_u();
     if (source_->stopped()) {
       operator_alarm(Code::emergency_stopped, fmt::format("stands at {:.6g} of {:.6g}", at_u, length_u));
       return Outcome::emergency_stop;
@@ -186,7 +174,7 @@ class Session::Cycle {
     return Outcome::held;
   }
   void operator_alarm(Code code, std::string text) {
-    events_.alarm(now(), code, motion_.s_end_u, job_.path.length_u(), std::move(text));
+    events_.alarm(now(), code, motion_.s_end_u, job_.read.path.length_u(), std::move(text));
     ++end_alarms_;
   }
 
@@ -197,7 +185,7 @@ class Session::Cycle {
     e.code = Code::plant_numerics;
     e.axis = error.axis;
     e.text = fmt::format("{}: {}", error.flag, error.detail);
-    if (job_.path.size() > 0) e.span = job_.path.segments[segment()].span;
+    if (job_.read.path.size() > 0) e.span = job_.read.path.segments[segment()].span;
     events_.append(std::move(e));
     ++end_alarms_;
     outcome_ = Outcome::plant_error;
@@ -220,6 +208,7 @@ class Session::Cycle {
   std::vector<BlockEndRecord> block_ends_;
   OperatorPanel panel_;
   OperatorWatch operator_watch_;
+  InputEvents inputs_;
   ProgramClock program_;
   BlockStarts block_starts_;
   CrossingInterpolator interpolator_;
@@ -230,7 +219,6 @@ class Session::Cycle {
   StepBatch batch_;
   TickMotion motion_{};
   ControlTicks ticks_, motion_ticks_;
-  std::size_t next_input_ = 0;
   std::size_t end_alarms_ = 0;  // that ended the run, and are no monitor's
   std::optional<Outcome> outcome_;
 };
@@ -260,12 +248,12 @@ std::optional<RunFailure> Session::Cycle::log_tick() {
 }
 
 RunSummary Session::Cycle::summary() const {
-  const planner::Path& path = job_.path;
+  const planner::Path& path = job_.read.path;
   RunSummary summary;
   summary.outcome = *outcome_;
   summary.ticks = now();
   summary.control_ticks = ticks_;
-  summary.blocks = job_.blocks;
+  summary.blocks = job_.read.blocks;
   monitor_.summarize(summary);
   const std::vector<double> begin_u = start_u(job_);
   for (std::size_t a = 0; a < summary.axis.size(); ++a)
@@ -277,11 +265,11 @@ RunSummary Session::Cycle::summary() const {
     summary.path_u += done * path.segments[i].feed_length_u;
   }
   summary.motion_s = static_cast<double>(motion_ticks_.value) * machine_.clock.tau_s();
-  summary.dwell_s = job_.dwell_s;
+  summary.dwell_s = job_.planned.plan.pause_s;
   summary.mean_feed_u_s = summary.motion_s > 0 ? summary.path_u / summary.motion_s : 0.0;
   summary.steps_hash = hash_.digest();
-  summary.limited_by = limit_shares(job_);
-  summary.planned_s = job_.motion_s;
+  summary.limited_by = limit_shares(job_.planned.plan.law, machine_);
+  summary.planned_s = job_.planned.plan.motion_s;
   if (has_operator_) summary.lost_by = operator_watch_.lost_by();
   summary.alarms += end_alarms_ + operator_watch_.alarms();
   summary.warnings = options_.warnings;

@@ -18,12 +18,11 @@ class Session {
   ~Session();
 
   /// Advances by up to `n` control ticks. Plant failures are logged and end the run.
-  /// @return control ticks made: fewer than n if the run has ended; or an I/O error of the log: call nothing
-  /// any more
+  /// @return control ticks made: fewer than n if the run has ended; or an I/O error of the log: call nothing any more
   tl::expected<ControlTicks, RunFailure> advance(ControlTicks n);
   /// Does a step of a live operator: it comes into force with the coming control tick. The same step of a
   /// timeline at that tick gives the same run, if both have the same most_override.
-  /// @param step  its tick and place do not count
+  /// @param step  its tick and position do not count
   /// @return false without SessionOptions::most_override and for a feed override above it: nothing changes
   bool operate(const OperatorStep& step);
   /// Ends the run and writes its summary.

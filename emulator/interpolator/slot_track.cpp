@@ -13,7 +13,7 @@ namespace {
 
 using lattice::Method;
 
-constexpr double kOnNode = 1e-6;  // steps: a centre that is a node but for rounding
+constexpr double kOnNode = 1e-6;  // steps: a centre that is a node up to rounding
 constexpr double kOneTurn_rad = 2 * kPi * (1 + 1e-9);
 
 const lattice::MethodEntry::Followers& followers_of(Method asked) {
@@ -22,7 +22,7 @@ const lattice::MethodEntry::Followers& followers_of(Method asked) {
   return *followers;
 }
 
-/// A coordinate that is a node but for rounding.
+/// A coordinate that is a node up to rounding.
 std::optional<std::int64_t> node_of(double position_u, double step_u) {
   const double steps = position_u / step_u, node = std::floor(steps + 0.5);
   if (std::fabs(steps - node) > kOnNode) return {};
@@ -88,7 +88,7 @@ lattice::Made SlotTrack::make() const { return lattice::make_stepper(curve_, met
 
 void SlotTrack::advance() {
   has_next_ = stepper_->next(slot_);
-  // a slot's pulses stand in its middle
+  // a slot's pulses are in its middle
   s_u_ = length_u_ * (static_cast<double>(passed_++) + 0.5) / static_cast<double>(slots_);
 }
 

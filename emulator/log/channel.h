@@ -36,7 +36,7 @@ template <class R>
 struct Channel;
 
 /// LCM's fingerprint of a struct of scalars and arrays, as lcm-gen computes it (lcmgen.c, lcm_struct_hash):
-/// of each member its name, type and extents. So it tells which fields a message has.
+/// of each member its name, type and extents. It identifies the fields of a message.
 /// @param count  of the first fields
 template <class R>
 constexpr std::int64_t fingerprint(std::size_t count = Channel<R>::fields.size()) {

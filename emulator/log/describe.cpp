@@ -22,6 +22,13 @@ std::string extent_text(const FieldInfo& field) {
   return text;
 }
 
+/// A text in a Markdown table: a bar ends a cell.
+std::string in_table(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
+  return out;
+}
+
 /// Appends words to a line, going on below its comment where it gets too long.
 std::string commented(std::string line, std::size_t column, std::string_view words) {
   std::string out;
@@ -94,9 +101,10 @@ std::string field_tables() {
                        channel_name(channel.title), channel.title.type);
     for (const FieldInfo& field : channel.fields)
       out += fmt::format("| `{}{}` | {} | {} | {} |\n", field.name, extent_text(field),
-                         kWires.word(field.wire), unit_symbol(field.unit), field.sentence);
+                         kWires.word(field.wire), unit_symbol(field.unit), in_table(field.sentence));
     out += '\n';
   }
+  out.pop_back();
   return out;
 }
 

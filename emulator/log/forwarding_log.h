@@ -3,8 +3,8 @@
 
 namespace kadr::emulator {
 
-/// Stands between the cycle and a log (which may be missing) and hands everything on. A listener overrides
-/// what it wants to hear, and hands that on too.
+/// Passes everything from the cycle to a log, which may be missing. A listener overrides the records it needs,
+/// and passes them on too.
 class ForwardingLog : public RunLog {
  public:
   using Written = tl::expected<void, LogError>;

@@ -8,7 +8,7 @@
 
 #include "emulator/log/log_reader.h"
 
-/// What `kadr info LOG` tells: found by reading the whole file, not believed.
+/// What `kadr info LOG` reports, found by reading the whole file; nothing in it is taken on trust.
 namespace kadr::emulator {
 
 struct ChannelInfo {

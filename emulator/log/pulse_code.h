@@ -43,7 +43,7 @@ class PulseEncoder {
   int sign_ = 1;
 };
 
-/// What KADR_STEPS says about one axis beside the code.
+/// What KADR_STEPS says about one axis in addition to the code.
 struct PulseCounts {
   std::int32_t pulses = 0;
   std::int32_t reversals = 0;

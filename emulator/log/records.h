@@ -13,7 +13,7 @@ namespace kadr::machine {
 struct MachineModel;
 }
 
-/// What the cycle tells the log, in tick order; a pure function of the inputs: no clock, address, locale or
+/// What the cycle reports to the log, in tick order; a pure function of the inputs: no clock, address, locale or
 /// thread.
 namespace kadr::emulator {
 
@@ -43,10 +43,10 @@ struct BlockRecord {
   std::string limited_by;         ///< e.g. "program", "axis X speed"
   double entry_u_s = 0;           ///< feed at its beginning, as run
   double planned_entry_u_s = 0;   ///< F_KK of the block before, as planned at 100 %
-  ControlTicks deferred_ticks{};  ///< that a percent has been waiting for the motion before it
+  ControlTicks deferred_ticks{};  ///< that an override has waited for the motion before it
 };
 
-/// What a motion block did, at the first control tick at which another block has begun; only of blocks that
+/// What a motion block did, at the first control tick at which another block has begun; only for blocks that
 /// were under way at the end of at least one control tick.
 struct BlockEndRecord {
   Ticks tick;

@@ -9,7 +9,7 @@
 
 namespace kadr::emulator {
 
-/// The world's fault while writing: path, reason, and up to which tick the file is valid.
+/// An I/O error while writing: path, reason, and up to which tick the file is valid.
 struct LogError {
   std::string path;
   std::string reason;
@@ -39,7 +39,7 @@ std::int64_t estimate_log_bytes(const machine::MachineModel& machine, double pla
 struct LcmLogOptions {
   std::string path;  ///< event log to write ("" : none). Written as path + ".part", renamed by end() unless
                      ///< the outcome is "interrupted"
-  std::string publish_url;  ///< LCM provider to publish to besides ("" : none); "ttl=0" is added to a udpm
+  std::string publish_url;  ///< LCM provider to publish to as well ("" : none); "ttl=0" is added to a udpm
                             ///< URL without a ttl
 };
 

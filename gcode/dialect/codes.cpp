@@ -124,7 +124,7 @@ constexpr std::array<MCode, kMTableSize> make_m_table() {
   for (const MEntry& e : kRunM) table[static_cast<std::size_t>(e.number)] = {Standing::runs, e.group};
   return table;
 }
-/// Each code of the group `inputs` except M66 says what it switches, and the other way round.
+/// Each code of the group `inputs` except M66 names the output it switches, and vice versa.
 constexpr bool outputs_complete() {
   std::size_t outputs = 0;
   for (const MEntry& e : kRunM) {

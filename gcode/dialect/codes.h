@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-/// Which G and M codes there are, which of them kadr runs, and which may not stand together on a line.
+/// The G and M codes, those that kadr runs, and those that exclude each other on a line.
 namespace kadr::gcode {
 
 /// The codes that kadr runs, by the names they have in a program. G codes count in tenths: G92.1 is 921.
@@ -74,11 +74,11 @@ struct MCode {
 GCode g_code(int tenths);
 MCode m_code(int number);
 
-/// What an M code does to an output.
+/// Effect of an M code on an output.
 struct OutputCode {
   int number;
   bool analog;       ///< E is the output and Q its value; otherwise P is the output
-  bool on;           ///< digital: what the output becomes
+  bool on;           ///< digital: the new state of the output
   bool with_motion;  ///< as the next motion begins, not at once
 };
 inline constexpr OutputCode kOutputCodes[] = {

@@ -13,7 +13,7 @@ constexpr std::array<DwellWord, 2> kMarlin = {{{'S', 1}, {'P', kMillisecond_s}}}
 constexpr std::array<DwellWord, 3> kFanuc = {{{'X', 1}, {'U', 1}, {'P', kMillisecond_s}}};
 constexpr std::int64_t kProgramNumbers = 10'000;  // four digits
 
-/// A code of a dialect that RS-274/NGC writes in another way; G codes in tenths.
+/// A code of a dialect that RS-274/NGC writes differently; G codes in tenths.
 struct Meaning {
   Dialect dialect;
   char letter;

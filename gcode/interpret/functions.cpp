@@ -92,7 +92,7 @@ void Interpreter::dwell() {
   emit(g_span(GGroup::nonmodal), Dwell{words_.value('P')});
 }
 
-/// A word or setting beside M98 P L or M99, none: null.
+/// A word or setting on the line of M98 P L or M99, none: null.
 const Item* Interpreter::words_beside_call() const {
   for (const Item& item : line_->items) {
     if (item.kind == ItemKind::setting) return &item;
@@ -103,7 +103,7 @@ const Item* Interpreter::words_beside_call() const {
   return nullptr;
 }
 
-/// LinuxCNC runs nothing of a line that begins with M98 but the call.
+/// LinuxCNC runs only the call of a line that begins with M98.
 bool Interpreter::calls_only() const {
   return words_.m(MGroup::call) == code::m98 && options_.dialect != Dialect::fanuc;
 }
@@ -117,7 +117,7 @@ void Interpreter::call() {
   request.alone = !words_beside_call();
   int whole = 0;
   if (words_.has('P') && near_integer(words_.value('P'), whole)) {
-    // beside L, all of P is the number
+    // with L, all of P is the number
     const SubprogramCall meant =
         words_.has('L') ? SubprogramCall{whole} : subprogram_call(options_.dialect, whole);
     request.number = meant.number;

@@ -42,7 +42,7 @@ struct Nurbs {
   std::vector<SplinePoint> points;
   Span span;             ///< of its first line
   double inverse_f = 0;  ///< F of one of its lines under G93
-  bool faulty = false;   ///< an error was told
+  bool faulty = false;   ///< an error was reported
   bool doubtful = false;
 };
 

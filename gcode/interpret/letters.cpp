@@ -25,7 +25,7 @@ constexpr CodeLetters kGLetters[] = {
     {code::g82, "RLP"},    {code::g83, "RLQ"},  {code::g84, "RLP"},        {code::g85, "RL"},
     {code::g86, "RLP"},    {code::g89, "RLP"},  {code::g96, "D$"},         {code::g97, "$"}};
 
-/// Output codes apart, which say themselves what they read (kOutputCodes).
+/// Except output codes, which have their own table (kOutputCodes).
 constexpr CodeLetters kMLetters[] = {{code::m3, "$"},     {code::m4, "$"},  {code::m5, "$"},
                                      {code::m19, "RPQ$"}, {code::m50, "P"}, {code::m51, "P$"},
                                      {code::m52, "P"},    {code::m53, "P"}, {code::m61, "Q"},

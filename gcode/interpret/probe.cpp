@@ -45,9 +45,9 @@ void Interpreter::probe() {
   emit(action_span(), probe);
 }
 
-/// As in LinuxCNC a probing move has no time of its own: it goes on at the feed of the move before it, or at
+/// As in LinuxCNC a probing move has no time of its own: it continues at the feed of the previous move, or at
 /// the last F before G93.
-/// @return mm/min, 0 if there is none: an error was told
+/// @return mm/min, 0 if there is none: an error was reported
 double Interpreter::probe_feed_under_inverse_time() {
   if (state_.feed_linear_mm_min > 0) return state_.feed_linear_mm_min;
   if (state_.feed_linear_mm_rev > 0) return state_.feed_linear_mm_rev;
@@ -69,7 +69,7 @@ bool Interpreter::probe_allowed() {
   return true;
 }
 
-/// Finds where the probe changes on the way to its end, and what part of the way that is.
+/// Finds where the probe changes on the way to its end, and at which fraction of the move.
 /// @return false: an error was reported
 bool Interpreter::find_contact(Probe& probe, double& travelled) {
   probe.contact = probe.end;
@@ -84,11 +84,11 @@ bool Interpreter::find_contact(Probe& probe, double& travelled) {
   }
   const StockPlane& stock = *options_.stock;
   const auto axis = static_cast<std::size_t>(stock.axis);
-  // what meets the plane is the tip: the controlled point less its tool offset
+  // the tip meets the plane: the controlled point minus its tool offset
   const double plane_u = stock.position_u + state_.tool_offset[axis];
   const double from_u = state_.position[axis], to_u = probe.end[axis];
   const auto inside = [&](double at_u) { return stock.below ? at_u <= plane_u : at_u >= plane_u; };
-  // a probe that has just lost contact stands on the plane and does not touch it
+  // a probe that has just lost contact is on the plane and does not touch it
   const bool just_left = probe_left_ && same_point(*probe_left_, state_.position);
   const bool touching = inside(from_u) && !just_left;
   if (touching != probe.away) return refuse_probe_start(probe, from_u - plane_u);

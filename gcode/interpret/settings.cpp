@@ -42,7 +42,7 @@ void Interpreter::comment() {
   emit(span, Comment{text});
 }
 
-/// (TECH s_max=200): a technological limit of speed at the place where it stands.
+/// (TECH s_max=200): a technological limit of speed at this position.
 void Interpreter::technology(std::string_view text, Span span) {
   constexpr double kFastest_mm_s = 1e6;
   const std::size_t equals = text.find('=');

@@ -29,8 +29,7 @@ std::pair<double, double> circle_derivative(const ArcShape& arc, double u, int o
   }
 }
 
-/// Where an extreme of one circular coordinate lies near u: zero of its derivative, Newton with a fixed
-/// count.
+/// Where an extreme of one circular coordinate lies near u: zero of its derivative, Newton with a fixed count.
 double polish_extreme(const ArcShape& arc, double u, bool first) {
   for (int i = 0; i < 4; ++i) {
     const auto d1 = circle_derivative(arc, u, 1);

@@ -19,7 +19,7 @@ namespace {
 
 double norm(double a, double b) { return std::sqrt(a * a + b * b); }
 
-/// Signed angle of an arc. End points that coincide but for rounding leave it open whether a full turn or
+/// Signed angle of an arc. End points that coincide up to rounding leave it open whether a full turn or
 /// none is meant; the length that the program's reader gave decides.
 double signed_sweep(double from_first, double from_second, double to_first, double to_second, int turns,
                     double planar_length_u, double mean_radius_u) {
@@ -166,7 +166,7 @@ void PathBuilder::add_arc(PathSegment segment, const gcode::Arc& programmed) {
   segment.length_u = std::sqrt(squares + planar * planar);
   set_feed(segment, programmed, std::sqrt(xyz_squares + planar * planar));
   settle();
-  // a circle of radius zero is a point: what is left is the straight motion of the other axes
+  // a circle of radius zero is a point: only the straight motion of the other axes remains
   append(segment, end, planar > 0.0 ? SegmentShape(arc) : SegmentShape());
 }
 
@@ -257,7 +257,7 @@ bool PathBuilder::add_curve(PathSegment segment, const gcode::Spline& spline, co
 }
 
 void PathBuilder::set_feed(PathSegment& segment, const gcode::Move& move, double xyz_u) {
-  // what F measures; a reader that gave no length leaves it to the geometry
+  // length that F measures; without one the geometry gives it
   segment.path_limits = xyz_u > 0.0;
   segment.feed_length_u = move.length_u > 0.0 ? move.length_u : xyz_u > 0.0 ? xyz_u : segment.length_u;
   if (segment.path_limits && move.feed_length != gcode::FeedLength::xyz) segment.feed_length_u = xyz_u;

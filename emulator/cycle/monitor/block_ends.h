@@ -11,7 +11,7 @@ class Path;
 
 namespace kadr::emulator {
 
-/// What each motion block did to the machine: one record at the first control tick at whose end another block
+/// Effect of each motion block on the machine: one record at the first control tick at whose end another block
 /// is under way. Blocks that pass within one tick have none.
 class BlockEnds {
  public:

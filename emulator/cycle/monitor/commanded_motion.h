@@ -20,7 +20,7 @@ struct CommandedAxis {
   bool at_rest = true;  ///< in this tick as in the one before: nothing about it has changed
 };
 
-/// Derives what each axis is commanded to do from path and tick motion: speed is dx/ds * ds/dt at the tick's
+/// Derives the command of each axis from path and tick motion: speed is dx/ds * ds/dt at the tick's
 /// end, acceleration and jerk are its first and second differences over tau.
 class CommandedMotion {
  public:

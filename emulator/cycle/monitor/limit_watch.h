@@ -10,8 +10,8 @@ namespace kadr::emulator {
 /// Watches the commanded motion for overruns of an axis's limits: position, speed, acceleration and jerk.
 ///
 /// An overrun is one alarm when it begins and one "alarm end" with its worst value when it is over. In a tick
-/// that holds a joint between segments, the corner's step of speed is allowed besides. An axis at rest is not
-/// looked at.
+/// that contains a joint between segments, the corner's step of speed is allowed on top. An axis
+/// at rest is not checked.
 class LimitWatch {
  public:
   /// @param machine, commanded (of each tick before tick() is called), events  outlive this

@@ -14,8 +14,8 @@
 namespace kadr::emulator {
 
 /// Watches a run, control tick by control tick: the command for overruns of limits, the plant for vibration
-/// and lost steps. Each subject is a class of its own; this one calls them in the order in which the log has
-/// their events.
+/// and lost steps. Each subject is a class of its own; this one calls them in the order in
+/// which the log has their events.
 class Monitor {
  public:
   /// @param path, machine, events, block_ends  outlive this

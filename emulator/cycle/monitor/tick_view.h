@@ -9,7 +9,7 @@
 
 namespace kadr::emulator {
 
-/// One control tick after it was advanced: what the monitors look at.
+/// One control tick after it was advanced, for the monitors.
 struct TickView {
   const TickMotion& motion;
   const StepBatch& batch;
@@ -26,7 +26,7 @@ inline double tool_error_u(const AxisState& state, const AxisPulses& pulses) {
   return state.base_u + state.link_u - pulses.command.position_end_u;
 }
 
-/// What the motor gave while it drove less its total work: the work that the load gave back, J.
+/// Work of the motor while driving minus its total work: the work that the load gave back, J.
 inline double recuperated_J(const plant::EnergyBalance& e) { return e.positive_work_J - e.motor_work_J; }
 
 }  // namespace kadr::emulator

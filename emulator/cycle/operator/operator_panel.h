@@ -9,15 +9,15 @@
 
 namespace kadr::emulator {
 
-/// What the operator's panel and the spindle ask of each control tick: steps of a timeline, and live ones.
+/// Requests of the operator's panel and the spindle for each control tick: steps of a timeline, and live ones.
 class OperatorPanel {
  public:
   /// @param steps     of the timeline, by tick those that have one; outlives this, as do machine and events
-  /// @param places_u  [steps] of those that stand on the path (place_on_path)
+  /// @param places_u  [steps] of those at path positions (place_on_path)
   OperatorPanel(const std::vector<OperatorStep>& steps, std::vector<double> places_u,
                 const machine::MachineModel& machine, EventList& events);
-  /// A live step: it comes into force with the next control tick, behind the timeline's steps for that tick.
-  /// Its own tick and place do not count.
+  /// A live step: it takes effect with the next control tick, after the timeline's steps for that tick.
+  /// Its own tick and position do not count.
   void operate(const OperatorStep& step) { live_.push_back(step); }
   /// The input of the control tick that begins at `tick` and path length `s_u`. Every step that comes into
   /// force becomes an event.
@@ -39,12 +39,12 @@ class OperatorPanel {
   SpindleReactor reactor_;
   planner::OperatorInput input_{};
   std::size_t next_ = 0, timed_ = 0;  // next of the steps with a tick, and how many they are
-  std::vector<std::size_t> placed_;   // steps that stand on the path and have not come
+  std::vector<std::size_t> placed_;   // steps at path positions not reached yet
   std::vector<OperatorStep> live_;    // for the next control tick
   double operator_override_ = 1, spindle_override_ = 1, load_ = 0;
 };
 
-/// Highest feed override that a timeline asks for, ratio, at least 1.
+/// Highest feed override that a timeline requests, ratio, at least 1.
 double most_override(const std::vector<OperatorStep>& steps);
 
 }  // namespace kadr::emulator

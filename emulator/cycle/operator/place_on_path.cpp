@@ -25,7 +25,7 @@ std::optional<std::size_t> first_segment(const PathPlace& place, const planner::
   return {};
 }
 
-/// Path length s at a distance behind the beginning of a segment, the distance as feeds measure it.
+/// Path length s at a distance after the beginning of a segment, the distance as feeds measure it.
 std::optional<double> ahead_of(const planner::Path& path, std::size_t segment, double distance_u) {
   for (; segment < path.size(); ++segment) {
     const planner::PathSegment& s = path.segments[segment];

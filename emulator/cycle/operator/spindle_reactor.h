@@ -4,7 +4,7 @@
 
 namespace kadr::emulator {
 
-/// The feed override that a spindle's load asks for, control tick by control tick (machine::SpindleReaction):
+/// The feed override that the spindle's load requests, control tick by control tick (machine::SpindleReaction):
 /// down step by step while the load is high, up again while it is low.
 class SpindleReactor {
  public:

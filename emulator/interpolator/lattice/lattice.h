@@ -15,16 +15,16 @@ namespace kadr::emulator::lattice {
 enum class Refusal : std::uint8_t {
   none,
   no_length,     ///< both ends are the same node and the curve is no full turn
-  range,         ///< coordinates beyond what the method's integers hold: most_steps()
+  range,         ///< coordinates beyond the range of the method's integers: most_steps()
   other_curve,   ///< the method doesn't know this kind of curve
-  off_curve,     ///< an end lies more than half a step beside the curve
+  off_curve,     ///< an end is more than half a step off the curve
   one_quadrant,  ///< printed_half_step: begin and end lie in different quadrants
   in_line,       ///< a quadratic Bezier whose control points are in line is no conic
 };
 
 /// Largest coordinate for a method and kind of curve, in steps:
 ///   lines 2^60 (products of n axes in 128 bits), arcs and parabolas 2^29, Beziers by events 2^40, as conics
-///   2^29; F(x, y) = 0: what keeps 2^degree F below 2^125.
+///   2^29; F(x, y) = 0: coordinates that keep 2^degree F below 2^125.
 std::int64_t most_steps(const Curve& curve);
 
 struct Made {

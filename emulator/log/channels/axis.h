@@ -8,7 +8,7 @@ namespace kadr::emulator {
 
 /// KADR_AXIS_*
 struct AxisSample {
-  int axis = -1;  ///< index in the header; the channel's name tells it
+  int axis = -1;  ///< index in the header; from the channel's name
   Ticks tick;
   double t_s = 0;
   std::int64_t steps = 0;
@@ -23,7 +23,7 @@ template <std::same_as<AxisSample> R>
 struct Channel<R> {
   static constexpr ChannelTitle info{
       "KADR_AXIS_", "axis_t",
-      "for viewers, one channel an axis, at the same moments; scalars only, so that "
+      "for viewers, one channel per axis, at the same moments; scalars only, so that "
       "a viewer draws each field by name",
       true};
   static constexpr std::size_t first_fields = 10;

@@ -28,8 +28,8 @@ struct Channel<R> {
       field::text<&R::limited_by>("limited_by", "\"program\", \"axis X speed\""),
       field::real<&R::entry_u_s>("entry_u_s", FieldUnit::path_speed, "feed at its beginning, as run"),
       field::real<&R::planned_entry_u_s>("planned_entry_u_s", FieldUnit::path_speed, "as planned at 100 %"),
-      field::i32<&R::deferred_ticks>(
-          "deferred_ticks", "control ticks that an override has been waiting for the motion before it"),
+      field::i32<&R::deferred_ticks>("deferred_ticks",
+                                     "control ticks that an override has waited for the motion before it"),
   };
 };
 

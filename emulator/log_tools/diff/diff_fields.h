@@ -12,7 +12,7 @@
 /// What of a log is compared, by the tables of its channels (emulator/log/channels/).
 namespace kadr::emulator {
 
-/// Where a difference stands, in the order of comparison within a control tick.
+/// Where a difference is, in the order of comparison within a control tick.
 enum class DiffChannel : std::uint8_t {
   event,       ///< KADR_EVENT
   block,       ///< KADR_BLOCK

@@ -33,7 +33,7 @@ std::string_view without_indent(std::string_view line) {
   return begin == std::string_view::npos ? std::string_view{} : line.substr(begin);
 }
 
-/// "[feed] " of the table that a line of a TOML text stands in; of an array's entry with its name:
+/// "[feed] " of the table that contains a line of a TOML text; of an array's entry with its name:
 /// "[axis.plant] of "X" ".
 std::string section_of(const std::vector<std::string_view>& lines, std::size_t at) {
   std::string section, name;

@@ -54,7 +54,7 @@ std::string units_of(Quantity quantity) {
   return names;
 }
 
-/// The keys that a name stands for.
+/// The keys that a name means.
 std::vector<Key> keys_of(std::string_view name) {
   if (name == "load") return {Key::base, Key::link};
   const auto key = kToleranceWords.find(name);

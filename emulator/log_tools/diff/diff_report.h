@@ -20,7 +20,7 @@ std::string render_block_difference(const BlockDifference& difference, const Log
 std::string render_feed_span(const FeedSpan& span, const PathDiff& diff);
 std::string render_path_diff(const PathDiff& diff);
 
-/// The same for programs; keys carry units, `_u` is mm or deg as "unit" beside it says.
+/// The same for programs; keys carry units, `_u` is mm or deg, as its "unit" says.
 Json json_of(const std::vector<InputDifference>& inputs);
 Json json_of(const LogSide& side);
 Json json_of(const TickDifference& difference, const LogHeader& header);

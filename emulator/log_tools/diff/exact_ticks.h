@@ -20,7 +20,7 @@ using TickMessages = detail::OptionalsOf<TickChannels>::Type;
 /// A block of control ticks with all their exact data: that of KADR_TICKS, and what other channels have of
 /// the same control ticks.
 struct ExactTicks : TickBlock {
-  TickMessages others;  ///< but for KADR_TICKS
+  TickMessages others;  ///< except KADR_TICKS
 
   /// Null: the log does not have that channel.
   template <class R>

@@ -119,7 +119,7 @@ class TickDiff {
     return known.place;
   }
 
-  /// An event stands on its own line, not on that of the motion.
+  /// An event has its own program line, not that of the motion.
   void place_event(const FramePair& pair, TickDifference& d) const {
     const auto line = [&](const LogFrame& frame) {
       for (const LogItem& item : frame.items)

@@ -14,7 +14,7 @@
 
 namespace kadr::emulator {
 
-/// What stands in a log between its ticks and is compared in order.
+/// Records between the ticks of a log, compared in order.
 using LogItem = std::variant<BlockRecord, EventRecord, LogDiagnostic>;
 
 /// Everything that a log says of one control tick. Copies are cheap: the exact data are shared.
@@ -64,7 +64,7 @@ class LogFrames {
   bool ended_ = false;
 };
 
-/// Base tick at which an item stands, 0 to 2^62; a diagnostic of before the run has 0.
+/// Base tick of an item, 0 to 2^62; 0 for a diagnostic from before the run.
 Ticks tick_of(const LogItem& item);
 /// A stamp of a log of unknown origin, brought into 0 to 2^62.
 Ticks sane_tick(Ticks tick);

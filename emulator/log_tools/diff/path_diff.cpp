@@ -131,7 +131,7 @@ class PathCompare {
                      text(a), text(b)};
   }
 
-  /// Events that only one log has are told only if both ran to the same end.
+  /// Events that only one log has are reported only if both ran to the same end.
   void finish_events() {
     if (result_.paths_differ() || result_.event) return;
     for (int side = 0; side < 2; ++side) {

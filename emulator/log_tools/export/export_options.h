@@ -8,7 +8,7 @@ namespace kadr::emulator {
 
 /// What of a log is wanted.
 struct SampleChoice {
-  std::string signals;  ///< comma-separated, `*` stands for any text: "feed.*,axis.X.load_mm"; empty: all
+  std::string signals;  ///< comma-separated, `*` matches any text: "feed.*,axis.X.load_mm"; empty: all
   double from_s = 0;
   double to_s = std::numeric_limits<double>::infinity();
   double rate_hz =

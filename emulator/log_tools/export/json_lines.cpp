@@ -101,7 +101,7 @@ void write_json_lines(LogSamples& log, const Sink& sink) {
   const LogHeader& header = log.header();
   const auto line = [&](const Json& json) { sink(json_line(json) + '\n'); };
   line(run_json(header, log));
-  // events of control ticks that a lower rate leaves out are told all the same
+  // events are written at full rate, also where a lower rate leaves out their control ticks
   log.watch([&](const LogFrame& frame) {
     for (const LogItem& item : frame.items)
       std::visit([&](const auto& record) { line(json_of(record, header)); }, item);

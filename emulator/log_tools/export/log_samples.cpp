@@ -133,7 +133,7 @@ bool LogSamples::next(Sample& sample) {
     if (!m.now.ticks) continue;
     m.skip_gap();
     advance(m.context, m.now, m.tau_s);
-    // the first control tick is number 0 and its sample stands at its end
+    // the first control tick is number 0 and its sample is taken at its end
     sample.control_tick = m.now.control_tick;
     sample.end = Ticks{(m.now.control_tick + 1) * header().control_tick_ticks};
     sample.t_s = header().seconds(sample.end);

@@ -21,7 +21,7 @@ struct Signal {
   std::string unit;                  ///< "mm/s"; empty: a count or a code
   bool whole = false;                ///< a whole number
   std::vector<std::string> words{};  ///< of a code: what its values 0, 1 ... mean; else empty
-  bool further = false;              ///< a column of the log as it stands, which has no chart of its own
+  bool further = false;              ///< a column straight from the log, without a chart designed for it
 };
 
 /// One control tick, at its end.
@@ -66,7 +66,7 @@ class LogSamples {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Fits a name to a pattern in which `*` stands for any text.
+/// Whether a name fits a pattern in which `*` matches any text.
 bool matches_pattern(std::string_view name, std::string_view pattern);
 
 }  // namespace kadr::emulator

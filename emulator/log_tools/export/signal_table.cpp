@@ -69,7 +69,7 @@ void add_feed(Table& table, const std::string& unit, bool has_override) {
   table.real("path.length", unit, [](const TickContext& c) { return c.ticks().path_u[c.at()]; });
 }
 
-/// Distance of the tool from the command over the axes X Y Z, across the way of the control tick: what lies
+/// Distance of the tool from the command over the axes X Y Z, across the motion of the control tick: what lies
 /// along it is delay, not a wrong contour. At rest all of it.
 void add_path_error(Table& table, const LogHeader& header) {
   std::vector<std::size_t> axes;

@@ -14,7 +14,7 @@ struct CommandedAxis {
   double speed_u_s = 0, accel_u_s2 = 0, jerk_u_s3 = 0;
 };
 
-/// What a signal is taken from.
+/// The source of a signal's value.
 struct TickContext {
   const LogHeader* header = nullptr;
   const LogFrame* frame = nullptr;
@@ -24,7 +24,7 @@ struct TickContext {
   std::size_t at() const { return frame->tick_index; }
 };
 
-/// A signal with its way to a number.
+/// A signal and how its value is found.
 struct SignalSource {
   Signal signal;
   std::function<double(const TickContext&)> value;

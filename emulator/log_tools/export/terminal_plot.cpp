@@ -84,8 +84,9 @@ std::string framed(const Canvas& canvas, int rows, const ChartRange& y) {
     const double value = r == 0          ? y.high
                          : r == rows - 1 ? y.low
                                          : y.low + (y.high - y.low) * (rows - 1 - r) / (rows - 1);
-    const bool told = r == 0 || r == rows - 1 || 2 * r == rows - 1;
-    out += pad_left(told ? significant(value) : "", kMargin - 2) + (told ? " ┤" : " │") + canvas.row(r);
+    const bool labelled = r == 0 || r == rows - 1 || 2 * r == rows - 1;
+    out +=
+        pad_left(labelled ? significant(value) : "", kMargin - 2) + (labelled ? " ┤" : " │") + canvas.row(r);
     while (!out.empty() && out.back() == ' ') out.pop_back();
     out += '\n';
   }
@@ -98,7 +99,7 @@ std::string footing(const std::string& left, const std::string& right, int width
   return std::string(kMargin, ' ') + left + std::string(used < inner ? inner - used : 1, ' ') + right + '\n';
 }
 
-/// An end of a range that is zero but for rounding beside the other end.
+/// An end of a range that is zero except for rounding, compared with the other end.
 ChartRange without_dust(ChartRange range) {
   const double least = kNoDigit * (range.high - range.low);
   if (std::fabs(range.low) < least) range.low = 0;

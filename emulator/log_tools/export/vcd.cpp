@@ -174,7 +174,7 @@ class Dump {
   const Sink& sink_;
   const LogHeader& header_;
   Timescale scale_;
-  std::vector<int> level_;     // of every wire; -1: not told yet
+  std::vector<int> level_;     // of every wire; -1: not written yet
   std::vector<double> shown_;  // of every real
   std::vector<Change> changes_;
   std::string text_;

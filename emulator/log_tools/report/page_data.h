@@ -12,7 +12,7 @@
 #include "machine/machine.h"
 
 /// What a report page shows of a run, gathered in one pass over its log; memory does not grow with the log
-/// beyond kMostPieces values a signal.
+/// beyond kMostPieces values per signal.
 namespace kadr::emulator {
 
 inline constexpr std::size_t kMostPieces = std::size_t{1} << 20;

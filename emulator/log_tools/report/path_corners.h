@@ -16,7 +16,7 @@ struct PathCorners {
 /// the line between its neighbouring corners.
 ///
 /// From the last corner on the line is stretched as long as no node on its way is farther off, and no longer
-/// than kLongest nodes, so that a corner also tells what happened on the way. Too many corners double the
+/// than kLongest nodes, so that a corner also shows what happened before it. Too many corners double the
 /// tolerance; what is kept is then thinned in the same way, within twice the tolerance in the end.
 class CornerFinder {
  public:

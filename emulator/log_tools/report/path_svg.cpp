@@ -115,7 +115,7 @@ class Picture {
  private:
   std::array<Side, 2> sides_;
   std::array<ChartRange, 2> shown_;
-  double scale_ = 1;  // pixels a mm
+  double scale_ = 1;  // pixels per mm
 };
 
 constexpr std::string_view kLegend =

@@ -15,17 +15,20 @@ namespace {
 constexpr const char* kProgram =
     "G21 G90 G94 G64\nM3 S500\nG1 X20 F6000\nG1 Y20\nG4 P0.1\nM62 P1\nG2 X40 I10 J0\nM2\n";
 
-Job prepared_job(const std::vector<OperatorStep>& steps = {}, const char* program = kProgram) {
-  Job job = make_job(program, test_machine(2));
-  job.operator_steps = steps;
-  Diagnostics diagnostics;
-  REQUIRE(prepare(job, diagnostics));
-  return job;
-}
+/// The program, prepared, under a timeline.
+struct Prepared {
+  RunResult r;
+  explicit Prepared(const std::vector<OperatorStep>& steps = {}) {
+    r.in = make_inputs(kProgram, test_machine(2));
+    r.in.given.operator_steps = steps;
+    prepare_run(r);
+  }
+  const Job& job() const { return *r.job; }
+};
 
 void begin(RecordingLog& log, const Job& job) {
   RunHeader header;
-  header.machine = &job.machine.model;
+  header.machine = &job.given.machine.model;
   REQUIRE(log.begin(header).has_value());
 }
 
@@ -77,7 +80,8 @@ OperatorStep operator_step(std::int64_t tick, OperatorAction action, double valu
 }  // namespace
 
 TEST_CASE("a session advanced by 1, by 7 or by all its control ticks at once gives the records of run()") {
-  const Job job = prepared_job();
+  const Prepared prepared;
+  const Job& job = prepared.job();
   RecordingLog whole;
   begin(whole, job);
   REQUIRE(run(job, &whole, {}).has_value());
@@ -93,7 +97,8 @@ TEST_CASE("a session advanced by 1, by 7 or by all its control ticks at once giv
 }
 
 TEST_CASE("advance() makes fewer control ticks than asked for where the run ends, and none after it") {
-  const Job job = prepared_job();
+  const Prepared prepared;
+  const Job& job = prepared.job();
   Session session(job, nullptr);
   CHECK(*session.advance(ControlTicks{0}) == ControlTicks{0});
   CHECK(*session.advance(ControlTicks{100}) == ControlTicks{100});
@@ -107,7 +112,8 @@ TEST_CASE("advance() makes fewer control ticks than asked for where the run ends
 }
 
 TEST_CASE("a session shows motion, pulses and plant of its last control tick") {
-  const Job job = prepared_job();
+  const Prepared prepared;
+  const Job& job = prepared.job();
   RecordingLog log;
   begin(log, job);
   Session session(job, &log);
@@ -132,12 +138,14 @@ TEST_CASE("a live operator's steps give the run of a timeline with the same step
                                            operator_step(400, OperatorAction::resume),
                                            operator_step(400, OperatorAction::rapid_override, 0.5),
                                            operator_step(500, OperatorAction::spindle_load, 1.3)};
-  const Job timeline = prepared_job(steps);
+  const Prepared with_steps(steps);
+  const Job& timeline = with_steps.job();
   RecordingLog planned;
   begin(planned, timeline);
   REQUIRE(run(timeline, &planned, {}).has_value());
 
-  const Job job = prepared_job();
+  const Prepared prepared;
+  const Job& job = prepared.job();
   RecordingLog live;
   begin(live, job);
   SessionOptions options;
@@ -158,7 +166,8 @@ TEST_CASE("a live operator's steps give the run of a timeline with the same step
 }
 
 TEST_CASE("an override above the session's most and an operator of a session without one are refused") {
-  const Job job = prepared_job();
+  const Prepared prepared;
+  const Job& job = prepared.job();
   Session closed(job, nullptr);
   CHECK_FALSE(closed.operate(operator_step(0, OperatorAction::hold)));
   SessionOptions options;
@@ -176,7 +185,8 @@ TEST_CASE("an override above the session's most and an operator of a session wit
 TEST_CASE(
     "a live hold lasts until the operator ends it; an emergency stop ends the run; an unfinished run says "
     "how") {
-  const Job job = prepared_job();
+  const Prepared prepared;
+  const Job& job = prepared.job();
   SessionOptions options;
   options.plant = false;
   options.most_override = 1.0;
@@ -198,4 +208,21 @@ TEST_CASE(
   CHECK(cut.finish()->outcome == Outcome::interrupted);
   Session until(job, nullptr, options);
   CHECK(until.finish(Outcome::stopped_by_until)->outcome == Outcome::stopped_by_until);
+}
+
+TEST_CASE(
+    "a step that sets an input is an event at the beginning of its control tick, in the block under way") {
+  RunResult r;
+  r.in = make_inputs("G21 G90 G94\nG1 X20 F6000\nG1 X21\nM2\n", test_machine(1));
+  r.in.given.inputs = {{ControlTicks{0}, false, 3, 1, {}}, {ControlTicks{270}, true, 1, 2.5, {}}};
+  prepare_run(r);
+  run_prepared(r);
+  const auto inputs = r.log.of_kind("input");
+  REQUIRE(inputs.size() == 2);
+  CHECK(inputs[0].tick == Ticks{0});
+  CHECK(inputs[0].text == "digital input 3 = 1");
+  CHECK(inputs[0].block == 0);
+  CHECK(inputs[1].tick == Ticks{2'700'000});
+  CHECK(inputs[1].text == "analog input 1 = 2.5");
+  CHECK(inputs[1].block == 1);
 }

@@ -148,7 +148,7 @@ TEST_CASE("a log of format 2 is read to its last bit, and its messages are encod
     REQUIRE(same);
     ++compared;
   }
-  CHECK(compared == 171);
+  CHECK(compared == 177);
   const auto info = log_info(kFormat2);
   REQUIRE(info);
   CHECK(info->end.state == LogState::complete);

@@ -32,15 +32,15 @@ class KeyTable {
     std::apply([&](const auto&... key) { (add(key), ...); }, keys);
   }
   void add(const NumberKey& key) { row(key.name, machine::bounds_text(key.bounds, key.name), key.sentence); }
-  void add(const machine::PlainKey& key) {
-    row(key.name,
-        std::string(key.allowed) + (key.otherwise.empty() ? "" : "; default: ") + std::string(key.otherwise),
-        key.sentence);
+  static std::string takes(std::string_view allowed, std::string_view otherwise) {
+    if (otherwise.empty()) return std::string(allowed);
+    return fmt::format("{}; {}{}", allowed, otherwise.starts_with("required") ? "" : "default: ", otherwise);
   }
+  void add(const machine::PlainKey& key) { row(key.name, takes(key.allowed, key.otherwise), key.sentence); }
   template <class Model, class Value>
   void add(const machine::Key<Model, Value>& key) {
     const machine::KeyDocument d = machine::document(key);
-    row(d.name, d.allowed + (d.otherwise.empty() ? "" : "; default: " + d.otherwise), d.sentence);
+    row(d.name, takes(d.allowed, d.otherwise), d.sentence);
   }
   void add(const ActionKey& key) {
     row(key.name,
