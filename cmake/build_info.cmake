@@ -1,4 +1,4 @@
-# What `kadr version` says: compiler, flags and libraries as configured, the commit as found at each build.
+# The output of `kadr version`: compiler, flags and libraries as configured, the commit as found at each build.
 # header_version(OUT FILE NAME ...): "1.3.1" of a header's #define NAME <number> lines, in that order
 function(header_version out file)
   set(parts)

@@ -40,7 +40,7 @@ endif()
 
 # kadr_batches(TARGET MOST): compiles the sources of one folder together, at most MOST at a time: a build reads headers
 # a tenth as often. Names of a file's own (anonymous namespaces) differ from those of its neighbours. For work on
-# single files -DKADR_BATCHES=OFF; the matrix builds do without, so that every file stands alone.
+# single files -DKADR_BATCHES=OFF; the matrix builds do without, so that every file compiles on its own.
 function(kadr_batches target most)
   if(NOT KADR_BATCHES)
     return()

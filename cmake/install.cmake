@@ -9,7 +9,7 @@ foreach(paper README.md LICENSE CHANGELOG.md CONTRIBUTING.md SECURITY.md CITATIO
     install(FILES ${paper} DESTINATION ${CMAKE_INSTALL_DOCDIR})
   endif()
 endforeach()
-# the examples that documents name lie beside them
+# the examples that documents name are next to them
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING
   PATTERN *.md PATTERN *.toml PATTERN *.csv PATTERN *.ngc PATTERN *.png PATTERN *.svg)
 

@@ -7,7 +7,7 @@ function(kadr_missing what package purpose)
   message(FATAL_ERROR "missing for ${purpose}: ${what}. Install the Debian package ${package} (`tools/setup` installs all)")
 endfunction()
 
-# kadr_package(NAME PACKAGE PURPOSE [find_package arguments]): a library with a CMake package of its own.
+# kadr_package(NAME PACKAGE PURPOSE [find_package arguments]): a library with its own CMake package.
 macro(kadr_package name package purpose)
   find_package(${name} ${ARGN} QUIET)
   if(NOT ${name}_FOUND)

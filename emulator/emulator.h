@@ -52,7 +52,7 @@ enum class OperatorAction : std::uint8_t {
   emergency_stop,
 };
 
-/// Where on the path a step of the timeline stands; found when the path is known.
+/// Position on the path at which a step of the timeline comes into force.
 struct PathPlace {
   enum class Kind : std::uint8_t { line, block, length } kind = Kind::length;
   double number = 0;   ///< line from 1, running block number from 0, or length of path, mm or deg
@@ -67,8 +67,7 @@ struct OperatorStep {
   double value = 1;
   ControlTicks tick;  ///< unless place is given
   std::optional<PathPlace> place;
-  double path_u = 0;  ///< of the place, once the path is known
-  Span span;          ///< in the scenario file
+  Span span;  ///< in the scenario file
 };
 
 /// A technology point where the first motion of a program line begins.
@@ -76,7 +75,6 @@ struct LineLimit {
   std::uint32_t line = 0;
   double max_u_s = 0;
   Span span;
-  bool met = false;  ///< set by prepare()
 };
 
 /// A technology point at a length of the path.
@@ -86,22 +84,40 @@ struct PlaceLimit {
   Span span;
 };
 
-/// A program read, planned and verified-ready; everything the cycle needs.
-struct Job {
-  SourceSet sources;
-  std::uint32_t program = 0;  ///< index of the program in sources
+/// What a job is given. Nothing changes it from then on.
+struct JobInputs {
+  std::uint32_t program = 0;  ///< file in the sources
   machine::MachineFile machine;
   gcode::Reading reading;                    ///< of the program
   std::vector<InputStep> inputs;             ///< what M66 meets; ascending by tick
   std::vector<OperatorStep> operator_steps;  ///< by tick those that have one, in the file's order the others
-  std::vector<LineLimit> line_limits;        ///< technology points of a scenario
+  /// Highest override that the run is prepared for, a ratio from 1 to 2; empty: the highest of operator_steps. The
+  /// record of a live run (SessionOptions::most_override) gives the same run only with the same number.
+  std::optional<double> most_override;
+  std::vector<LineLimit> line_limits;  ///< technology points of a scenario
   std::vector<PlaceLimit> place_limits;
-  std::vector<std::uint32_t> called_files;  ///< indices in sources, in the order of their first call
+};
+
+/// What the program says: made of the inputs by lay_out().
+struct ReadProgram {
+  planner::Path path;                       ///< technology points included
   std::vector<ProgramEvent> events;         ///< ascending in after_segment
-  planner::Path path{0};
-  planner::FeedPlan plan;    ///< pauses included
-  std::uint32_t blocks = 0;  ///< motion blocks
-  double motion_s = 0, dwell_s = 0;
+  std::uint32_t blocks = 0;                 ///< motion blocks
+  std::vector<std::uint32_t> called_files;  ///< in the sources, in the order of their first call
+};
+
+/// How the program will move: made of what was read by plan_program().
+struct PlannedProgram {
+  planner::FeedPlan plan;             ///< pauses included
+  std::vector<double> step_places_u;  ///< [operator_steps] path length of those that have a place
+};
+
+/// A program that can be run: given, read, planned and verified.
+struct Job {
+  const SourceSet& sources;
+  const JobInputs& given;
+  ReadProgram read;
+  PlannedProgram planned;
 };
 
 /// Whether a soft limit that the program leaves is an error (`kadr check`: the answer is no) or a warning
@@ -112,27 +128,36 @@ enum class SoftLimitRule : std::uint8_t { error, warning };
 using PlanFunction = std::function<tl::expected<planner::FeedPlan, planner::PlanError>(
     const planner::Path&, const machine::MachineModel&, std::span<const planner::Pause>)>;
 
-/// Reads and interprets job.sources[job.program] for job.machine, checks soft limits, plans it, and verifies
-/// the plan (require_sound_plan). Diagnostics go to `diagnostics`, all of the program at once.
-/// @return false if there were errors before planning; job.plan is not valid then
+/// Reads and interprets the program for the machine: path, events, technology points; soft limits are
+/// checked. Diagnostics are of the program as a whole.
+/// @param sources  files that the program calls are added
+/// @return nothing if there were errors before the soft limits were looked at
+std::optional<ReadProgram> lay_out(const JobInputs& given, SourceSet& sources, Diagnostics& diagnostics,
+                                   SoftLimitRule soft_limits = SoftLimitRule::error);
+
+/// Plans what was read, verifies the plan (require_sound_plan), and finds the operator's steps on the path.
+/// @return nothing if it can't be planned, or a step's place is not on the path
 /// @throws BrokenPromise for a plan that breaks a limit or its own law
-bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = SoftLimitRule::error,
-             const PlanFunction& plan = {});
+std::optional<PlannedProgram> plan_program(const JobInputs& given, const SourceSet& sources,
+                                           const ReadProgram& read, Diagnostics& diagnostics,
+                                           const PlanFunction& plan = {});
 
-/// planner::verify() of job.plan with its pauses, as planner::production_check() says.
+/// lay_out() and plan_program(). The job refers to `given` and `sources`.
+std::optional<Job> prepare(const JobInputs& given, SourceSet& sources, Diagnostics& diagnostics,
+                           SoftLimitRule soft_limits = SoftLimitRule::error, const PlanFunction& plan = {});
+
+/// planner::verify() of a plan with its pauses, as planner::production_check() says.
 /// @throws BrokenPromise with program line, place on the path, and what was measured and allowed
-void require_sound_plan(const Job& job);
-
-/// The first part of it: path and events of the program, soft limits checked; nothing is planned.
-/// @return false if there were errors before the soft limits were looked at
-bool lay_out(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits = SoftLimitRule::error);
+void require_sound_plan(const JobInputs& given, const SourceSet& sources, const ReadProgram& read,
+                        const planner::FeedPlan& plan);
 
 /// Time that a dwell, a wait or a tool change holds the machine, seconds; a whole number of control ticks
 /// where motions end on them too. 0 for everything else.
 double hold_time_s(const ProgramEvent& event, const machine::MachineModel& machine);
 
 /// The standstills that the program asks of plan(), ascending.
-std::vector<planner::Pause> pauses(const Job& job);
+std::vector<planner::Pause> pauses(const std::vector<ProgramEvent>& events,
+                                   const machine::MachineModel& machine);
 
 /// What one motion block comes to, over all of its segments.
 struct BlockSummary {
@@ -147,32 +172,39 @@ struct BlockSummary {
   std::int8_t limiting_axis = -1;
 };
 /// @param segment  the first one of a block
-BlockSummary block_summary(const Job& job, std::size_t segment);
+BlockSummary block_summary(const planner::Path& path, const planner::FeedPlan& plan, std::size_t segment);
 
 /// Planned time by what held the feed, longest first; dwells count as "dwell".
-std::vector<LimitShare> limit_shares(const Job& job);
+std::vector<LimitShare> limit_shares(const planner::MotionLaw& law, const machine::MachineModel& machine);
 /// "program", "junction", "axis X speed", ...
 std::string limited_by_text(planner::LimitedBy reason, int axis, const machine::MachineModel& machine);
 
-struct RunOptions {
+/// How a session is run (emulator/cycle/session.h).
+struct SessionOptions {
   bool plant = true;
-  int threads = 1;                      ///< 1, or 2: the second encodes and writes; same bytes
-  double until_s = machine::kInfinity;  ///< stop after that much machine time
-  std::size_t warnings = 0;             ///< of the program: RunSummary::warnings
+  /// Highest feed override that a live operator may ask for, ratio >= 1; none: the run has no live operator.
+  /// The override keeps every limit up to it, so it is part of what the run gives.
+  std::optional<double> most_override;
+  std::size_t warnings = 0;  ///< of the program: RunSummary::warnings
   /// What the run's command will answer to the shell: RunSummary::exit_code. None: 0.
   std::function<int(const RunSummary&)> exit_code;
+};
+
+/// How a program is run to its end.
+struct RunOptions : SessionOptions {
+  int threads = 1;                      ///< 1, or 2: the second encodes and writes; same bytes
+  double until_s = machine::kInfinity;  ///< stop after that much machine time
   std::function<void(double done_fraction, std::uint32_t line, double sim_s)>
       progress;                                  ///< called about every 1000 ticks
   const std::atomic<bool>* interrupt = nullptr;  ///< set by a signal handler
 };
 
-/// How a run ended apart from its summary.
+/// I/O error that ended a run: its log could not be written.
 struct RunFailure {
-  std::string what;    ///< sentence for the user
-  bool world = false;  ///< disk, network (exit 2); else numerics (exit 3)
+  std::string what;  ///< sentence for the user
 };
 
-/// Runs a prepared job; records go to `log` (may be null).
+/// Runs a prepared job to its end: a loop over a Session. Records go to `log` (may be null).
 tl::expected<RunSummary, RunFailure> run(const Job& job, RunLog* log, const RunOptions& options);
 
 }  // namespace kadr::emulator

@@ -9,7 +9,7 @@ struct PlanePoint {
   double second_mm = 0;
 };
 
-/// How far an arc's end may lie off the circle through its start, in the way rs274 decides it.
+/// Allowed distance of an arc's end from the circle through its start, decided as in rs274.
 struct ArcLimits {
   double least_mm = 0;    ///< always accepted
   double relative = 0;    ///< accepted as part of the larger radius
@@ -18,15 +18,13 @@ struct ArcLimits {
   double allowed_mm(double radius_mm) const;
 };
 
-/// Limits of the dialect for lengths written in mm or inches, with least and relative widened by the machine
-/// file.
+/// Limits of the dialect for lengths written in mm or inches, with least and relative widened by the machine file.
 ArcLimits arc_limits(bool inches, double tolerance_mm, double tolerance_relative);
 
-/// Radii and R words closer to zero than this are no arcs; an R word may be short of the half distance by as
-/// much.
+/// Radii and R words closer to zero than this are not arcs; an R word may be short of the half distance by as much.
 inline constexpr double kRadiusTolerance_mm = 0.00127;
 
-/// A radius short by no more than decimals round off is a half circle without a word.
+/// A radius short only by decimal rounding is a half circle, without a message.
 inline constexpr double kHalfCircleNoise_mm = 1e-6;
 
 enum class ArcFault : std::uint8_t {
@@ -34,7 +32,7 @@ enum class ArcFault : std::uint8_t {
   zero_radius,       ///< centre on start or end
   off_circle,        ///< |radius_start - radius_end| > allowed
   radius_too_small,  ///< R can't span start to end
-  no_chord,          ///< R format with start = end: any centre would do
+  no_chord,          ///< R format with start = end: any centre fits
 };
 
 struct ArcGeometry {
@@ -55,8 +53,7 @@ ArcGeometry arc_about(PlanePoint start, PlanePoint end, PlanePoint center, const
 ///   R < 0
 ArcGeometry arc_of_radius(PlanePoint start, PlanePoint end, double radius_mm, bool clockwise);
 
-/// Angle travelled, > 0, in radians: (0, 2 pi] for one turn (start = end: a whole one), 2 pi more for each
-/// further.
+/// Angle travelled, > 0, in radians: (0, 2 pi] for one turn (start = end: a whole one), 2 pi more for each further.
 double arc_sweep_rad(PlanePoint start, PlanePoint end, PlanePoint center, bool clockwise, int turns);
 
 }  // namespace kadr::gcode

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "gcode/block_kind.h"
+#include "gcode/wait_mode.h"
 #include "machine/base/axes.h"
 #include "machine/base/diagnostic.h"
 
-/// What a control program means: one Block per canonical machining call, in mm, degrees and seconds, in machine
+/// The meaning of a control program: one Block per canonical machining call, in mm, degrees and seconds, in machine
 /// coordinates of the controlled point (offsets, units, planes, tool length applied). No modal state is left.
 ///
 /// A new kind of block is an enumerator and a word in block_kind.h, a struct and its place in Action here. What
@@ -31,7 +32,7 @@ constexpr PlaneAxes plane_axes(Plane p) {
   return p == Plane::xy ? PlaneAxes{0, 1, 2} : p == Plane::zx ? PlaneAxes{2, 0, 1} : PlaneAxes{1, 2, 0};
 }
 
-/// What F measures for one move (NIST rule): X Y Z length if one of them moves, else U V W, else A B C in degrees.
+/// Length measured by F for one move (NIST rule): X Y Z length if one of them moves, else U V W, else A B C in degrees.
 enum class FeedLength : std::uint8_t { xyz, uvw, rotary };
 
 // --- moves ---
@@ -40,10 +41,11 @@ enum class FeedLength : std::uint8_t { xyz, uvw, rotary };
 struct Move {
   AxisValues end{};  ///< mm, deg; machine coordinates; every axis, moved or not
   FeedLength feed_length = FeedLength::xyz;
-  double length_u = 0;     ///< length that F measures, mm or deg (arc: along the helix)
-  double feed_u_s = 0;     ///< programmed feed in mm/s or deg/s along length_u; 0 for a traverse
-  double duration_s = 0;   ///< inverse time (G93): seconds for the whole move; 0 otherwise
-  double pitch_u_rev = 0;  ///< feed that follows the spindle: mm or deg per turn along length_u; 0: it does not
+  double length_u = 0;    ///< length that F measures, mm or deg (arc: along the helix)
+  double feed_u_s = 0;    ///< programmed feed in mm/s or deg/s along length_u; 0 for a traverse
+  double duration_s = 0;  ///< inverse time (G93): seconds for the whole move; 0 otherwise
+  /// feed that follows the spindle: mm or deg per turn along length_u; 0: it does not
+  double pitch_u_rev = 0;
   PathMode path_mode = PathMode::exact_path;
   double path_tolerance_mm = 0;  ///< G64 P
   bool feed_override_enabled = true;
@@ -88,7 +90,7 @@ struct Spline : Move {
 /// Straight towards `end` until the probe changes. length_u is the part up to `contact`.
 struct Probe : Move {
   static constexpr BlockKind kKind = BlockKind::probe;
-  bool away = false;      ///< G38.4 G38.5: ends as contact is lost
+  bool away = false;      ///< G38.4 G38.5: ends when contact is lost
   bool must_trip = true;  ///< G38.2 G38.4: reaching `end` is an error
   bool tripped = true;    ///< whether the stock plane was met (or left)
   AxisValues contact{};   ///< machine coordinates where the move ends
@@ -187,7 +189,7 @@ struct ChangeTool {
   static constexpr BlockKind kKind = BlockKind::change_tool;
   int tool = 0;
 };
-/// M61: no change, another number for the tool in the spindle.
+/// M61: no change, a new number for the tool in the spindle.
 struct SetToolNumber {
   static constexpr BlockKind kKind = BlockKind::set_tool_number;
   int tool = 0;
@@ -206,17 +208,6 @@ struct AnalogOutput {
   double value = 0;
   bool with_motion = false;  ///< changes as the next motion begins, not at once
 };
-
-/// What M66 waits for, in the order of its L word.
-enum class WaitMode : std::uint8_t { immediate, rise, fall, high, low };
-inline constexpr Vocabulary<WaitMode, 5> kWaitModes{{
-    {WaitMode::immediate, "immediate", "reads the input and goes on"},
-    {WaitMode::rise, "rise"},
-    {WaitMode::fall, "fall"},
-    {WaitMode::high, "high"},
-    {WaitMode::low, "low"},
-}};
-static_assert(kWaitModes.complete());
 
 struct InputWait {
   static constexpr BlockKind kKind = BlockKind::wait_input;
@@ -264,14 +255,13 @@ struct Comment {
 
 // --- the block ---
 
-using Action =
-    std::variant<Traverse, Feed, Arc, Spline, Probe, RigidTap,                                       // moves
-                 Dwell, SetFeedRate, SetFeedMode, SetPathMode,                                       //
-                 SpindleSpeed, SpindleClockwise, SpindleCounterclockwise, SpindleStop,               //
-                 MistOn, MistOff, FloodOn, FloodOff, SyncStart, SyncStop, SpindleMode,               //
-                 SelectTool, ChangeTool, SetToolNumber, DigitalOutput, AnalogOutput, InputWait,      //
-                 Message, ProgramStop, OptionalStop, ProgramEnd, FeedOverride, SpeedOverride,        //
-                 SpeedPoint, Comment>;
+using Action = std::variant<Traverse, Feed, Arc, Spline, Probe, RigidTap,                          // moves
+                            Dwell, SetFeedRate, SetFeedMode, SetPathMode,                          //
+                            SpindleSpeed, SpindleClockwise, SpindleCounterclockwise, SpindleStop,  //
+                            MistOn, MistOff, FloodOn, FloodOff, SyncStart, SyncStop, SpindleMode,  //
+                            SelectTool, ChangeTool, SetToolNumber, DigitalOutput, AnalogOutput, InputWait,  //
+                            Message, ProgramStop, OptionalStop, ProgramEnd, FeedOverride, SpeedOverride,    //
+                            SpeedPoint, Comment>;
 
 template <class A>
 concept MoveAction = std::derived_from<A, Move>;

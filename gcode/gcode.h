@@ -9,24 +9,12 @@
 #include "gcode/block.h"
 #include "gcode/dialect/dialect.h"
 #include "gcode/read/tool_table.h"
+#include "gcode/reading_bounds.h"
 #include "machine/base/diagnostic.h"
 
 /// The G-code front end: text -> parse tree (what was written, with spans) -> Blocks (what it means).
-/// Dialect: RS-274/NGC. Every mistake of a program is told in one run; an unknown word is never skipped.
+/// Dialect: RS-274/NGC. Every mistake of a program is reported in one run; an unknown word is never skipped.
 namespace kadr::gcode {
-
-/// Bounds that a program may not exceed; each message names the setting. 0: no bound.
-struct ReadingBounds {
-  std::uint64_t blocks = 0;
-  std::uint32_t call_depth = 100;          ///< subroutines within each other
-  std::uint64_t loop_passes = 10'000'000;  ///< passes of all loops together
-  std::uint64_t file_bytes = 4ULL << 30;   ///< of the program and of each file that it calls
-  std::uint32_t line_bytes = 1U << 20;
-};
-
-inline constexpr std::string_view kBoundNames = "blocks call_depth loop_passes file_bytes line_bytes";
-/// Sets a bound by its name. @return false if there is no such bound or the value is beyond its type
-bool set_bound(ReadingBounds& bounds, std::string_view name, std::uint64_t value);
 
 /// Material that a probe meets: the half space below (or above) a plane across one axis, machine coordinates.
 struct StockPlane {
@@ -35,16 +23,16 @@ struct StockPlane {
   bool below = true;  ///< the material lies where the axis reads less
 };
 
-/// What an input reads as M66 ends. `reached` is false if the time ran out.
+/// Reading of an input when M66 ends. `reached` is false if the time ran out.
 struct InputReading {
   bool reached = false;
   double value = 0;
 };
 
-/// How a user wants a program to be read, on whatever machine.
+/// The user's options for reading a program, whatever the machine.
 struct Reading {
   Dialect dialect = Dialect::linuxcnc;
-  bool block_delete = false;  ///< leave out lines that begin with '/'
+  bool block_delete = false;  ///< skip lines that begin with '/'
   ReadingBounds bounds;
   std::vector<std::string> sub_folders;  ///< where called files are looked for after the program's own folder
   std::optional<ToolTable> tools;        ///< none: tools have no length and no radius
@@ -63,19 +51,18 @@ struct InterpretOptions : Reading {
 
 /// Reads and interprets sources[file], handing each Block to `sink` in program order. Streaming: memory does
 /// not grow with the program. After the first error blocks are still made where possible, so that later
-/// mistakes are told too; the caller moves nothing if diagnostics.has_errors(). The file that ends without
+/// mistakes are reported too; the caller moves nothing if diagnostics.has_errors(). The file that ends without
 /// M2/M30/% still gets a program_end block.
 void interpret(SourceSet& sources, std::uint32_t file, const InterpretOptions& options,
                const std::function<void(const Block&)>& sink, Diagnostics& diagnostics);
 
 /// One line of the canonical trace for a block (without line end), e.g.
 /// "STRAIGHT_FEED 10.000000 0.000000 ... @12"; empty if the block is not part of the trace.
-/// @param called_file  name of the file that the block stands in, where that is not the program: "...
-/// @name:12"
+/// @param called_file  name of the file that the block stands in, where that is not the program: "... @name:12"
 void append_canon(std::string& out, const Block& block, std::string_view called_file = {});
 
 /// Adds a program in its normal form (gcode/format/format.h) to `out`: line for line, with the same meaning.
-/// A line that can't be read stays as it is, and its mistake is told.
+/// A line that can't be read stays as it is, and its mistake is reported.
 /// @return false if there was a mistake
 bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics, std::string& out);
 

@@ -17,7 +17,7 @@ inline double length_of(const AxisValues& from, const AxisValues& to, std::size_
   return std::sqrt(sum);
 }
 
-/// Sets what F measures along a straight move. The NIST rule, in this one place: X Y Z if one of them moves,
+/// Sets the length that F measures along a straight move. The NIST rule, in this one place: X Y Z if one of them moves,
 /// else U V W, else A B C.
 inline void measure_straight(const AxisValues& from, Move& move) {
   constexpr std::size_t kA = 3, kU = 6;
@@ -35,7 +35,7 @@ inline void measure_straight(const AxisValues& from, Move& move) {
   }
 }
 
-/// Sets what F measures along an arc or helix: sqrt((sweep · radius)² + rise²), the radius being the mean of
+/// Sets the length that F measures along an arc or helix: sqrt((sweep · radius)² + rise²), the radius being the mean of
 /// those at the start and the end.
 inline void measure_arc(double sweep_rad, double mean_radius_mm, double rise_mm, Move& move) {
   const double around = sweep_rad * mean_radius_mm;

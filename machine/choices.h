@@ -10,7 +10,6 @@ enum class TickFeed : std::uint8_t { linear, constant };
 enum class AxisLimitRule : std::uint8_t { enforce, report };
 enum class OnAlarm : std::uint8_t { report, stop };
 enum class SchedulerKind : std::uint8_t { chained, blockwise };
-enum class PlanMethod : std::uint8_t { scheduler, tube, certified, jerk_limited };
 /// How a G0 gets from rest to rest where a flexible link vibrates (paper 001).
 enum class RapidShape : std::uint8_t { scurve, t_zero, zv, zvd, automatic };
 enum class RampLaw : std::uint8_t { jerk_limited, quintic };

@@ -1,6 +1,7 @@
 #pragma once
 #include "machine/choices.h"
 #include "machine/infinity.h"
+#include "machine/plan_method.h"
 
 /// The settings of a machine file for planner, override, plant and log.
 /// Units: `_u` is the axis's own unit, mm for a linear and degrees for a rotary axis.
@@ -31,7 +32,7 @@ struct PlannerSettings {
   RapidShape rapid_law = RapidShape::scurve;         ///< scurve: a rapid is planned as any other move
   double rapid_frequency_pct = 1;                    ///< automatic: links' frequencies are known to +- this
   /// Whether plans keep the jerk limits of axes and path: the laws of paper 000 have none.
-  bool keeps_jerk() const { return method == PlanMethod::scheduler || method == PlanMethod::jerk_limited; }
+  bool keeps_jerk() const { return facts(method).keeps_jerk; }
   bool operator==(const PlannerSettings&) const = default;
 };
 

@@ -45,15 +45,6 @@ inline constexpr Vocabulary<SchedulerKind, 2> kSchedulers{{
 }};
 static_assert(kSchedulers.complete());
 
-inline constexpr Vocabulary<PlanMethod, 4> kPlanMethods{{
-    {PlanMethod::scheduler, "scheduler", "ramps between block speeds"},
-    {PlanMethod::tube, "tube", "time law of paper 000: dynamic programmes in a narrowing tube"},
-    {PlanMethod::certified, "certified",
-     "time law of paper 000: the greedy law, polished, with a proof; no jerk limit"},
-    {PlanMethod::jerk_limited, "jerk-limited", "time law that keeps the jerk limits"},
-}};
-static_assert(kPlanMethods.complete());
-
 inline constexpr Vocabulary<RapidShape, 5> kRapidShapes{{
     {RapidShape::scurve, "scurve", "planned as any other move"},
     {RapidShape::t_zero, "t-zero", "ramps or the time between them last whole periods of the link"},

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "machine/base/require.h"
@@ -9,19 +7,11 @@
 #include "planner/laws/pauses.h"
 #include "planner/limits/limits.h"
 #include "planner/planner.h"
-#include "planner/positioning/positioning.h"
+#include "planner/run_maker.h"
 #include "planner/scheduler/scheduler.h"
-#include "planner/time_law/jerk_plan.h"
-#include "planner/time_law/path_law.h"
 
 namespace kadr::planner {
 namespace {
-
-bool all_trapezoids(const PathLimitTable& table, const Run& run) {
-  return std::all_of(table.jerk_u_s3.begin() + static_cast<std::ptrdiff_t>(run.first),
-                     table.jerk_u_s3.begin() + static_cast<std::ptrdiff_t>(run.last + 1),
-                     [](double j) { return !(j < machine::kInfinity); });
-}
 
 PlanError too_long(const Path& path, const Run& run, double time_s) {
   // the slowest segment is where the user has to look
@@ -38,120 +28,6 @@ PlanError too_long(const Path& path, const Run& run, double time_s) {
   d.help = "check the feed and the units of the program";
   return {std::move(d)};
 }
-
-double sum_of_times_s(const std::vector<Element>& run) {
-  double sum = 0.0;
-  for (const Element& e : run) sum += e.time_s();
-  return sum;
-}
-
-double sum_of_times_s(const std::vector<JerkPiece>& run) {
-  double sum = 0.0, lost = 0.0;  // compensated: the last piece ends a run exactly
-  for (const JerkPiece& p : run) {
-    const double y = p.duration_s - lost;
-    const double next = sum + y;
-    lost = (next - sum) - y;
-    sum = next;
-  }
-  return sum;
-}
-
-/// Plans the runs of a path, from rest to rest, one after the other.
-class RunMaker {
- public:
-  RunMaker(const Path& path, const machine::MachineModel& machine, const PathLimitTable& table)
-      : path_(path), machine_(machine), table_(table), valley_(path, table), rapids_(machine) {}
-
-  /// Plans the next run; false after the last one, or where it can't be planned: error().
-  bool next() {
-    if (behind_ >= path_.size()) return false;
-    run_.first = run_.last = behind_;
-    while (table_.cap_u_s[2 * run_.last + 2] > 0.0) ++run_.last;
-    behind_ = run_.last + 1;
-    elements_.clear();
-    pieces_.clear();
-    positioned_.reset();
-    if (is_positioning(path_, run_.first, machine_)) {
-      position();
-      return true;
-    }
-    if (machine_.planner.method == machine::PlanMethod::jerk_limited && !all_trapezoids(table_, run_))
-      return next_jerk_limited();
-    if (machine_.planner.method != machine::PlanMethod::scheduler) {
-      auto planned = plan_time_law(path_, table_, run_, machine_, elements_);
-      if (!planned) {
-        error_ = std::move(planned.error());
-        return false;
-      }
-    } else if (all_trapezoids(table_, run_))
-      plan_trapezoids(path_, table_, run_, elements_);
-    else
-      valley_.plan(run_, elements_);
-    time_s_ = sum_of_times_s(elements_);
-    whole_ = {};
-    if (machine_.planner.whole_ticks && time_s_ < kLongest_s)
-      whole_ = fill_whole_ticks(elements_, machine_.clock.tau_s());
-    return true;
-  }
-
-  const Run& run() const { return run_; }
-  /// Writes it, to end at a prescribed time or, negative, as it is.
-  void write(PieceWriter& writer, double end_time_s) const {
-    if (pieces_.empty())
-      writer.add(elements_, whole_.stretch, end_time_s);
-    else
-      writer.add(pieces_, whole_.stretch, end_time_s);
-  }
-  /// What the plan tells of a run that is a rapid of planner.rapid_law.
-  const std::optional<PositionedSegment>& positioned() const { return positioned_; }
-  /// What the elements last before they fill whole control ticks.
-  double time_s() const { return time_s_; }
-  const WholeTicks& whole() const { return whole_; }
-  std::optional<PlanError>& error() { return error_; }
-
- private:
-  void position() {
-    const std::size_t i = run_.first;
-    require(run_.last == i, "a positioning move is a run of its own");
-    const Positioning rapid =
-        rapids_.plan(path_, i, table_.cap_u_s[2 * i + 1], table_.accel_u_s2[i], table_.jerk_u_s3[i]);
-    append_pieces(rapid.law, path_.start_s_u[i], table_.signature[2 * i + 1], pieces_);
-    time_s_ = rapid.law.duration_s();
-    whole_ = {};
-    if (machine_.planner.whole_ticks)
-      whole_.ticks = static_cast<std::int64_t>(std::floor(time_s_ / machine_.clock.tau_s() + 0.5));
-    positioned_ = {static_cast<std::uint32_t>(i), rapid.shape, rapid.reason, rapid.loss_s, {}};
-    for (const ExcitedMode& m : rapids_.excited(path_, i))
-      positioned_->residual_u[static_cast<std::size_t>(m.axis)] += residual_u(rapid.law, m);
-  }
-
-  bool next_jerk_limited() {
-    auto planned = plan_jerk_law(path_, table_, run_, machine_, pieces_);
-    if (!planned) {
-      error_ = std::move(planned.error());
-      return false;
-    }
-    time_s_ = sum_of_times_s(pieces_);
-    whole_ = {};
-    if (machine_.planner.whole_ticks && time_s_ < kLongest_s)
-      whole_ = stretched_to_ticks(time_s_, machine_.clock.tau_s());
-    return true;
-  }
-
-  const Path& path_;
-  const machine::MachineModel& machine_;
-  const PathLimitTable& table_;
-  ValleyPlanner valley_;
-  PositioningPlanner rapids_;
-  std::optional<PositionedSegment> positioned_;
-  Run run_;
-  std::size_t behind_ = 0;
-  std::vector<Element> elements_;
-  std::vector<JerkPiece> pieces_;  // of a run that has no elements
-  double time_s_ = 0;
-  WholeTicks whole_;
-  std::optional<PlanError> error_;
-};
 
 /// Plans all motion of a path, block by block.
 tl::expected<void, PlanError> plan_blocks(const Path& path, const machine::MachineModel& machine,

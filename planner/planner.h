@@ -36,7 +36,8 @@ tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineM
                                        std::span<const Pause> pauses = {});
 
 /// Time that plan() gives to the segments from `first` to the path's end, where the machine stops, without
-/// pauses. Segment `first` begins at rest. Runs are planned one by one, so the times of parts add up to that of the whole.
+/// pauses. Segment `first` begins at rest. Runs are planned one by one, so the times of parts add up to that
+/// of the whole.
 tl::expected<double, PlanError> motion_time_s(const Path& path, const machine::MachineModel& machine,
                                               std::size_t first);
 

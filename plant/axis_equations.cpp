@@ -21,7 +21,7 @@ double AxisEquations::rate() const { return std::sqrt(a) + std::sqrt(p + p1) + B
 
 bool AxisEquations::usable() const {
   const double all = B + p + q + p1 + q1;
-  const bool whole_teeth = motor.tooth_u() == 0 || pitch_steps > 0;
+  const bool whole_teeth = motor.tooth_u() == 0 || pitch_steps > Steps{};
   return all > 0 && all < machine::kInfinity && model.base_mass_kg > 0 && model.link_mass_kg > 0 &&
          model.link_stiffness_N_per_m > 0 && step_m > 0 && pull.usable() && whole_teeth;
 }
@@ -56,7 +56,7 @@ AxisEquations axis_equations(const machine::AxisModel& axis, const machine::Cloc
   e.a = e.pull.stiffness();
   e.pitch_m = e.motor.tooth_u() * e.metre_per_unit;
   const double steps = e.motor.tooth_u() / axis.step_u;
-  if (steps < 1e9) e.pitch_steps = static_cast<std::int64_t>(std::floor(steps + 0.5));
+  if (steps < 1e9) e.pitch_steps = Steps{static_cast<std::int64_t>(std::floor(steps + 0.5))};
   return e;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
-#include <cstdint>
-
 #include "machine/axis.h"
+#include "machine/base/count.h"
 #include "machine/clock.h"
 #include "machine/motor.h"
 #include "plant/matrix.h"
@@ -28,9 +27,9 @@ struct AxisEquations {
   double p1 = 0;         // k tau^2 / m1
   double q1 = 0;         // c tau / m1
 
-  double step_m = 0;   // one step
-  double pitch_m = 0;  // one tooth; 0 if the motor has none
-  std::int64_t pitch_steps = 0;
+  double step_m = 0;          // one step
+  double pitch_m = 0;         // one tooth; 0 if the motor has none
+  Steps pitch_steps;          // of one tooth
   double metre_per_unit = 0;  // 1e-3 m per mm, pi/180 rad per degree
   double tau_s = 0;
   double control_ticks = 0;  // base ticks per control tick
@@ -53,8 +52,7 @@ struct AxisEquations {
 /// From the machine's units to those of the equations (the border inwards).
 AxisEquations axis_equations(const machine::AxisModel& axis, const machine::ClockModel& clock);
 
-/// From the equations to axis units (the border outwards). The equilibrium is the lattice node plus slipped
-/// teeth.
+/// From the equations to axis units (the border outwards). The equilibrium is the lattice node plus slipped teeth.
 AxisState axis_state(const AxisEquations& equations, const Vector4& z, double equilibrium_u);
 
 }  // namespace kadr::plant

@@ -22,8 +22,7 @@ template <int N>
 struct FixedOperations {
   static double* data(N_Vector v) { return NV_DATA_S(v); }
 
-  // results are made aside and stored at the end: z may be x or y, and the loops must still become vector
-  // code
+  // results are made aside and stored at the end: z may be x or y, and the loops must still become vector code
   static void store(const double (&result)[N], N_Vector vz) { std::copy_n(result, N, data(vz)); }
 
   static void linear_sum(realtype a, N_Vector vx, realtype b, N_Vector vy, N_Vector vz) {
@@ -49,8 +48,7 @@ struct FixedOperations {
     for (int i = 0; i < N; ++i) z[i] = x[i] * y[i];
     store(z, vz);
   }
-  // root mean square over each axis's four states, the worst axis counts: a group is as exact as its axes
-  // alone
+  // root mean square over each axis's four states, the worst axis counts: a group is as exact as its axes alone
   static realtype weighted_rms(N_Vector vx, N_Vector vw) {
     const double *x = data(vx), *w = data(vw);
     double worst = 0;
@@ -61,7 +59,7 @@ struct FixedOperations {
         square[j] = weighted * weighted;
       }
       const double sum = (square[0] + square[1]) + (square[2] + square[3]);
-      // written so that a NaN is kept and told as CVODE's failure
+      // written so that a NaN is kept and reported as CVODE's failure
       worst = sum <= worst ? worst : sum;
     }
     return std::sqrt(worst / 4);

@@ -24,7 +24,7 @@ class Cvode {
   using Equations = void (*)(const void* self, double t, const double* y, double* dydt);
 
   /// @param tolerance  [n], absolute local error allowed per state; n is a multiple of 4 up to 36
-  /// Any failure of SUNDIALS while making it is kept and told by the first start().
+  /// Any failure of SUNDIALS while making it is kept and reported by the first start().
   Cvode(const std::vector<double>& tolerance, Equations equations, const void* self);
   Cvode(const Cvode&) = delete;
   Cvode& operator=(const Cvode&) = delete;

@@ -2,6 +2,7 @@
 #include <memory>
 #include <vector>
 
+#include "machine/base/count.h"
 #include "machine/step_batch.h"
 #include "plant/axis_equations.h"
 #include "plant/cvode.h"
@@ -21,6 +22,18 @@ struct AxisWork {
   }
 };
 
+/// Teeth of a motor, signed.
+using Teeth = Count<struct TeethTag>;
+
+/// A batch describes the motion of an axis twice, as pulses and as a command. Which of the two its integrator
+/// reads is decided here alone, and Plant checks before each tick that it can be read:
+///
+///   pulses    all motors driven by pulses: reference, oracle and Taylor series. Smooth takes the command as
+///   a
+///             hint besides, to shape the smooth part of its motion; its result does not depend on it.
+///   command   a motor that follows its command, and an axis without a plant. Pulses only count its node.
+enum class Reads : std::uint8_t { pulses, command };
+
 /// One machine axis under integration. The motor's equilibrium is the lattice node of the steps so far, moved
 /// by the teeth that it has slipped; the equilibrium of a motor that follows its command is that command.
 struct AxisMotion {
@@ -29,22 +42,24 @@ struct AxisMotion {
   double origin_u = 0;  ///< position of node 0
   double step_u = 0;
   double pitch_u = 0;
+  Reads reads() const { return equations.motor.follows_command() ? Reads::command : Reads::pulses; }
 
   Vector4 z{};               ///< at the end of the last tick, relative to its equilibrium
-  std::int64_t node = 0;     ///< steps since the reset
-  std::int64_t slipped = 0;  ///< teeth, since the reset
+  Steps node;                ///< since the reset
+  Teeth slipped;             ///< since the reset
   double equilibrium_u = 0;  ///< absolute
   double motor_force_N = 0;
-  AxisWork work;  ///< kept only if asked for
+  AxisWork work;  ///< kept only if requested
 
   /// Takes a tick's net steps into node and equilibrium.
-  void move_node(std::int64_t steps) {
+  void move_node(Steps steps) {
     node += steps;
-    equilibrium_u = origin_u + static_cast<double>(node) * step_u + static_cast<double>(slipped) * pitch_u;
+    equilibrium_u =
+        origin_u + static_cast<double>(node.value) * step_u + static_cast<double>(slipped.value) * pitch_u;
   }
 };
 
-/// What every integrator does: moves its axes from one tick end to the next.
+/// Moves its axes from one tick end to the next.
 class Integrator {
  public:
   virtual ~Integrator() = default;

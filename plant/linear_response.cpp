@@ -6,7 +6,7 @@ namespace kadr::plant {
 
 namespace {
 
-// theta^q / q! as a chain of integrators behind the axis: u = chain[0], chain[i]' = chain[i + 1]
+// theta^q / q! as a chain of integrators after the axis: u = chain[0], chain[i]' = chain[i + 1]
 std::array<Vector4, 6> monomial_responses(const AxisEquations& eq) {
   const Matrix4 a = eq.system();
   Matrix<10> chained;
@@ -34,11 +34,11 @@ bool same(const AxisEquations& a, const AxisEquations& b) {
 }  // namespace
 
 LinearResponse::LinearResponse(const AxisEquations& eq) : monomial(monomial_responses(eq)) {
-  const auto control_tick = static_cast<std::int64_t>(eq.control_ticks);
+  const Ticks control_tick{static_cast<std::int64_t>(eq.control_ticks)};
   const Propagator propagator(eq.system(), control_tick);
   whole_tick = exponential(eq.system());
-  row.reserve(static_cast<std::size_t>(control_tick));
-  for (std::int64_t offset = 0; offset < control_tick; ++offset) {
+  row.reserve(static_cast<std::size_t>(control_tick.value));
+  for (Ticks offset; offset < control_tick; ++offset) {
     // a step leaves the base one step behind; what remains of that lag is missing from the whole step
     const Vector4 lag = propagator.apply(control_tick - offset, {1, 0, 0, 0});
     row.push_back(

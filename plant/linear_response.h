@@ -12,8 +12,7 @@ namespace kadr::plant {
 ///
 ///   z(T) = whole_tick z(0) + sum_i d_i row[t_i] - sum_q monomial[q] c_q
 ///
-/// for the input sum_i d_i step H(t - t_i) - sum_q c_q theta^q, both taken from the node at the tick's
-/// beginning.
+/// for the input sum_i d_i step H(t - t_i) - sum_q c_q theta^q, both taken from the node at the tick's beginning.
 struct LinearResponse {
   struct alignas(32) Row {
     double at[4];

@@ -15,7 +15,7 @@ using machine::IntegratorKind;
 namespace {
 
 // offsets index tables, so the batch's promises are checked and not trusted
-void check_pulses(const AxisPulses& pulses, std::int64_t control_tick) {
+void check_pulses(const AxisPulses& pulses, Ticks control_tick) {
   const std::vector<std::uint16_t>& offset = pulses.offset_ticks;
   if (offset.empty()) return;
   std::uint16_t descents = 0;  // as wide as the offsets, so that the loop becomes vector code
@@ -23,7 +23,7 @@ void check_pulses(const AxisPulses& pulses, std::int64_t control_tick) {
     descents = static_cast<std::uint16_t>(descents | (offset[i - 1] > offset[i] ? 1 : 0));
   }
   require(descents == 0, "pulse offsets never decrease");
-  require(offset.back() < control_tick, "pulse offsets lie within the control tick");
+  require(offset.back() < control_tick.value, "pulse offsets lie within the control tick");
 }
 
 bool finite(const AxisState& s) {
@@ -39,10 +39,10 @@ bool finite(const AxisCommand& c) {
 }  // namespace
 
 struct Plant::Impl {
-  std::int64_t control_tick = 0;
+  Ticks control_tick;
   PlantOptions options;
   std::vector<std::unique_ptr<AxisMotion>> motion;  // [axes], null without plant
-  std::vector<std::optional<TaylorAxis>> meter;     // [axes], motors driven by pulses, if energy is asked for
+  std::vector<std::optional<TaylorAxis>> meter;     // [axes], motors driven by pulses, if energy is requested
   std::vector<std::unique_ptr<Integrator>> integrator;
   std::vector<AxisState> state;
   std::vector<LostSteps> lost;
@@ -52,6 +52,7 @@ struct Plant::Impl {
   void make_integrators(const machine::MachineModel& machine);
   Outcome meter_energy(const StepBatch& batch);
   void find_lost_steps(ControlTicks tick);
+  Outcome check_input(const AxisPulses& input, std::size_t a) const;
   Outcome finish(const StepBatch& batch);
   Outcome advance(const StepBatch& batch);
 };
@@ -65,7 +66,7 @@ void Plant::Impl::make_integrators(const machine::MachineModel& machine) {
     const machine::Motor& motor = axis->equations.motor;
     if (!axis->equations.usable() || !(tolerance_um > 0)) {
       unusable = Fault{"BAD_PARAMETERS", "masses, stiffnesses or the tolerance are not positive", axis->axis};
-    } else if (motor.follows_command()) {
+    } else if (axis->reads() == Reads::command) {
       integrator.push_back(make_rigid(*axis, options.energy));
     } else if (kind == IntegratorKind::reference) {
       integrator.push_back(make_reference(*axis, tolerance_um));
@@ -100,9 +101,10 @@ void Plant::Impl::find_lost_steps(ControlTicks tick) {
     const double teeth = std::floor(axis->z[kLag] / axis->equations.pitch_m + 0.5);
     if (teeth == 0 || !(std::fabs(teeth) < 1e9)) continue;
     axis->z[kLag] -= teeth * axis->equations.pitch_m;
-    axis->slipped += static_cast<std::int64_t>(teeth);
-    axis->move_node(0);
-    lost.push_back({axis->axis, tick, Steps{static_cast<std::int64_t>(teeth) * axis->equations.pitch_steps}});
+    const Teeth whole{static_cast<std::int64_t>(teeth)};
+    axis->slipped += whole;
+    axis->move_node({});
+    lost.push_back({axis->axis, tick, Steps{whole.value * axis->equations.pitch_steps.value}});
   }
 }
 
@@ -123,14 +125,23 @@ Outcome Plant::Impl::finish(const StepBatch& batch) {
   return {};
 }
 
+// whether the description that the axis reads (Reads) can be followed
+Outcome Plant::Impl::check_input(const AxisPulses& input, std::size_t a) const {
+  check_pulses(input, control_tick);
+  const AxisMotion* axis = motion[a].get();
+  if (axis && axis->reads() == Reads::pulses) return {};
+  if (!finite(input.command))
+    return tl::unexpected(Fault{"NOT_FINITE", "the command is not a finite number", static_cast<int>(a)});
+  if (axis && std::fabs(input.command.position_begin_u - axis->equilibrium_u) > axis->step_u)
+    return tl::unexpected(
+        Fault{"COMMAND_JUMP", "a rigid axis can't follow a command that jumps", static_cast<int>(a)});
+  return {};
+}
+
 Outcome Plant::Impl::advance(const StepBatch& batch) {
   require(batch.axis.size() == motion.size(), "a step batch has the machine's axes");
   for (std::size_t a = 0; a < motion.size(); ++a) {
-    check_pulses(batch.axis[a], control_tick);
-    const bool follows_command = !motion[a] || motion[a]->equations.motor.follows_command();
-    if (follows_command && !finite(batch.axis[a].command)) {
-      return tl::unexpected(Fault{"NOT_FINITE", "the command is not a finite number", static_cast<int>(a)});
-    }
+    if (auto outcome = check_input(batch.axis[a], a); !outcome) return outcome;
   }
   if (auto outcome = meter_energy(batch); !outcome) return outcome;
   for (auto& one : integrator) {
@@ -142,7 +153,7 @@ Outcome Plant::Impl::advance(const StepBatch& batch) {
 
 Plant::Plant(const machine::MachineModel& machine, PlantOptions options) : impl_(std::make_unique<Impl>()) {
   Impl& m = *impl_;
-  m.control_tick = machine.clock.control_tick.value;
+  m.control_tick = machine.clock.control_tick;
   m.options = options;
   const std::size_t axes = machine.axis.size();
   m.motion.resize(axes);
@@ -159,10 +170,9 @@ Plant::Plant(const machine::MachineModel& machine, PlantOptions options) : impl_
     m.motion[a]->axis = static_cast<int>(a);
     m.motion[a]->step_u = axis.step_u;
     m.motion[a]->pitch_u = m.motion[a]->equations.motor.tooth_u();
-    if (options.energy && !m.motion[a]->equations.motor.follows_command())
-      m.meter[a].emplace(m.motion[a]->equations);
+    if (options.energy && m.motion[a]->reads() == Reads::pulses) m.meter[a].emplace(m.motion[a]->equations);
   }
-  if (m.control_tick < 1 || m.control_tick > 65536 || machine.clock.base_hz < 1) {
+  if (m.control_tick < Ticks{1} || m.control_tick > Ticks{65536} || machine.clock.base_hz < 1) {
     m.unusable = Fault{"BAD_PARAMETERS", "a control tick has 1 to 65536 base ticks", -1};
   } else {
     m.make_integrators(machine);
@@ -207,11 +217,11 @@ void Plant::reset(const std::vector<double>& position_u) {
     if (AxisMotion* axis = m.motion[a].get()) {
       axis->origin_u = position_u[a];
       axis->z = {};
-      axis->node = 0;
-      axis->slipped = 0;
+      axis->node = {};
+      axis->slipped = {};
       axis->motor_force_N = 0;
       axis->work = {};
-      axis->move_node(0);
+      axis->move_node({});
     }
   }
   m.lost.clear();

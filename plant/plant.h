@@ -35,14 +35,12 @@ struct PlantError {
 struct LostSteps {
   int axis = 0;
   ControlTicks tick;
-  /// Whole teeth in steps, since the last report; negative if the rotor stayed behind a motion in plus
-  /// direction.
+  /// Whole teeth in steps, since the last report; negative if the rotor stayed behind a motion in plus direction.
   Steps steps;
 };
 
 /// Per axis energy since the reset, joules; closes: motor work = kinetic + spring + dissipated, to 1e-9 of
-/// the work with a tolerance of 1e-8 um. motor_damping is part of the motor, so its losses are negative motor
-/// work.
+/// the work with a tolerance of 1e-8 um. motor_damping is part of the motor, so its losses are negative motor work.
 struct EnergyBalance {
   double motor_work_J = 0;
   /// Where the motor drives; positive_J - motor_work_J is what the load gives back to it (recuperated), their

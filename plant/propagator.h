@@ -1,7 +1,7 @@
 #pragma once
-#include <cstdint>
 #include <vector>
 
+#include "machine/base/count.h"
 #include "plant/matrix.h"
 
 namespace kadr::plant {
@@ -11,12 +11,12 @@ namespace kadr::plant {
 class Propagator {
  public:
   /// @param system        A, per control tick
-  /// @param control_tick  base ticks per control tick, 1..65536
-  Propagator(const Matrix4& system, std::int64_t control_tick);
+  /// @param control_tick  length of a control tick, 1..65536
+  Propagator(const Matrix4& system, Ticks control_tick);
   /// e^{A t} z after `base_ticks`, 0..control_tick; error a few units in the last place of |z|.
-  Vector4 apply(std::int64_t base_ticks, const Vector4& z) const {
-    return coarse_[static_cast<std::size_t>(base_ticks >> 8)] *
-           (fine_[static_cast<std::size_t>(base_ticks & 255)] * z);
+  Vector4 apply(Ticks base_ticks, const Vector4& z) const {
+    return coarse_[static_cast<std::size_t>(base_ticks.value >> 8)] *
+           (fine_[static_cast<std::size_t>(base_ticks.value & 255)] * z);
   }
 
  private:

@@ -7,9 +7,9 @@ namespace kadr::plant {
 
 namespace {
 
-/// CVODE as the textbook uses it at discontinuities: stopped at every pulse and begun anew behind it. Slow (5
-/// to 10 us per pulse) and plain; the states are relative to the current node, so no precision is lost with
-/// the position.
+/// CVODE as the textbook uses it at discontinuities: stopped at every pulse and restarted behind it. Slow (5
+/// to 10 us per pulse) and plain; the states are relative to the current node, so no
+/// precision is lost with the position.
 class Reference final : public Integrator {
  public:
   Reference(AxisMotion& axis, double tolerance_um)
@@ -29,7 +29,7 @@ class Reference final : public Integrator {
     if (outcome)
       outcome = integrate((axis_.equations.control_ticks - static_cast<double>(now)) * tick_per_base);
     if (!outcome) return outcome;
-    axis_.move_node(pulses.net_steps().value);
+    axis_.move_node(pulses.net_steps());
     axis_.motor_force_N = axis_.equations.motor_force_N(axis_.z);
     return {};
   }

@@ -30,10 +30,6 @@ class Rigid final : public Integrator {
     const AxisPulses& pulses = batch.axis[static_cast<std::size_t>(axis_.axis)];
     const AxisCommand& command = pulses.command;
     const AxisEquations& eq = axis_.equations;
-    if (std::fabs(command.position_begin_u - axis_.equilibrium_u) > axis_.step_u) {
-      return tl::unexpected(
-          Fault{"COMMAND_JUMP", "a rigid axis can't follow a command that jumps", axis_.axis});
-    }
     const double speed_m = eq.metre_per_unit * eq.tau_s;  // m per tick of 1 unit per s
     const double moved_m = (command.position_end_u - command.position_begin_u) * eq.metre_per_unit;
     const double begin_m = command.speed_begin_u_s * speed_m;
@@ -48,7 +44,7 @@ class Rigid final : public Integrator {
     if (energy_) add_work(before_m, base);
     const Vector4 link = whole_tick_ * Vector4{z[kLink], z[kLinkSpeed], base.a0, base.a1};
     z = {0, end_m, link[0], link[1]};
-    axis_.node += pulses.net_steps().value;
+    axis_.node += pulses.net_steps();
     axis_.equilibrium_u = command.position_end_u;
     axis_.motor_force_N = force(base.a0 + base.a1, end_m, link[0], link[1]);
     return {};
@@ -56,7 +52,7 @@ class Rigid final : public Integrator {
   void reset() override {}
 
  private:
-  // what the motor must give to move the base so: m0 a + b0 v0 - k x1 - c v1
+  // force of the motor for this motion of the base: m0 a + b0 v0 - k x1 - c v1
   double force(double accel_m, double speed_m, double link_m, double link_speed_m) const {
     const machine::TwoMassModel& m = axis_.equations.model;
     const double tau_s = axis_.equations.tau_s;
@@ -64,8 +60,7 @@ class Rigid final : public Integrator {
            m.link_stiffness_N_per_m * link_m - m.link_damping_Ns_per_m * link_speed_m / tau_s;
   }
 
-  // work of that force and of the impulse at the tick's beginning, which changes the base's kinetic energy
-  // alone
+  // work of that force and of the impulse at the tick's beginning, which changes the base's kinetic energy alone
   void add_work(double before_m, const BaseMotion& base) {
     const machine::TwoMassModel& m = axis_.equations.model;
     const double tau_s = axis_.equations.tau_s;

@@ -9,14 +9,14 @@ namespace kadr::plant {
 
 namespace {
 
-constexpr std::int64_t kLookAhead = 3;         // ticks of the smooth command known beyond the current one
-constexpr std::size_t kRing = 4;               // pieces kept, a power of two > kLookAhead
-constexpr std::int64_t kRestartTicks = 16384;  // time is rebased: theta stays exact to 1e-11
-constexpr double kRestartRatio = 3.5e13;       // position over tolerance: a rounding stays below 1/256 of it
-constexpr double kCredibleSteps = 2;           // a command further off the lattice is not used
+constexpr ControlTicks kLookAhead{3};         // ticks of the smooth command known beyond the current one
+constexpr std::size_t kRing = 4;              // pieces kept, a power of two > kLookAhead
+constexpr ControlTicks kRestartTicks{16384};  // time is rebased: theta stays exact to 1e-11
+constexpr double kRestartRatio = 3.5e13;      // position over tolerance: a rounding stays below 1/256 of it
+constexpr double kCredibleSteps = 2;          // a command further off the lattice is not used
 
 /// The staircase of steps is u = s + r. s, a spline through the command some ticks late, is smooth, and CVODE
-/// integrates the response to it: it never meets a jump, is not begun anew while the axes move, and may look
+/// integrates the response to it: it never meets a jump, is not restarted while the axes move, and may look
 /// ahead (the delay is what makes the spline known there). The response to r = u - s is known in closed form:
 ///
 ///   z_r(T) = Phi z_r(0) + sum_i d_i R[T - t_i] - sum_q P_q c_q
@@ -41,12 +41,12 @@ class Smooth final : public Integrator {
     }
     y_.assign(tolerance.size(), 0.0);
     cvode_ = std::make_unique<Cvode>(tolerance, equations, this);
-    cvode_->set_max_step(static_cast<double>(kLookAhead));
+    cvode_->set_max_step(static_cast<double>(kLookAhead.value));
     reset();
   }
 
   void reset() override {
-    tick_ = 0;
+    tick_ = {};
     running_ = false;
     for (Axis& axis : axis_) {
       axis.residual = {};
@@ -85,27 +85,26 @@ class Smooth final : public Integrator {
     std::array<SplinePoint, 6> point{};                 // newest last
     std::array<SplinePiece, kRing> piece{};             // of tick k at k modulo kRing
     std::array<std::array<double, 6>, kRing> framed{};  // the same, from frame_node, for CVODE
-    std::int64_t frame_node = 0;                        // CVODE's x0 is counted from here
+    Steps frame_node;                                   // CVODE's x0 is counted from here
     double restart_m = 0;
   };
 
-  static std::size_t slot(std::int64_t tick) { return static_cast<std::size_t>(tick) & (kRing - 1); }
+  static std::size_t slot(ControlTicks tick) { return static_cast<std::size_t>(tick.value) & (kRing - 1); }
 
-  static double from_node(const SplinePiece& piece, std::int64_t node, double step_m) {
-    return piece.c[0] + static_cast<double>(piece.node - node) * step_m;
+  static double from_node(const SplinePiece& piece, Steps node, double step_m) {
+    return piece.c[0] + static_cast<double>((piece.node - node).value) * step_m;
   }
   static void frame_piece(Axis& axis, std::size_t at) {
     axis.framed[at] = axis.piece[at].c;
     axis.framed[at][0] = from_node(axis.piece[at], axis.frame_node, axis.motion->equations.step_m);
   }
 
-  // the command at this tick's end becomes the newest point of the spline, which reaches kLookAhead ticks
-  // ahead
+  // the command at this tick's end becomes the newest point of the spline, which reaches kLookAhead ticks ahead
   void take_command(Axis& axis, const AxisPulses& pulses) {
     const AxisMotion& motion = *axis.motion;
-    SplinePoint newest{motion.node + pulses.net_steps().value, 0};
-    const double off_u =
-        pulses.command.position_end_u - (motion.origin_u + static_cast<double>(newest.node) * motion.step_u);
+    SplinePoint newest{motion.node + pulses.net_steps(), 0};
+    const double off_u = pulses.command.position_end_u -
+                         (motion.origin_u + static_cast<double>(newest.node.value) * motion.step_u);
     if (std::fabs(off_u) <= kCredibleSteps * motion.step_u)
       newest.rest_m = off_u * motion.equations.metre_per_unit;
     for (std::size_t j = 0; j + 1 < axis.point.size(); ++j) axis.point[j] = axis.point[j + 1];
@@ -152,12 +151,13 @@ class Smooth final : public Integrator {
     if (far) {
       for (std::size_t a = 0; a < axis_.size(); ++a) {
         Axis& axis = axis_[a];
-        y_[4 * a] -= static_cast<double>(axis.motion->node - axis.frame_node) * axis.motion->equations.step_m;
+        y_[4 * a] -=
+            static_cast<double>((axis.motion->node - axis.frame_node).value) * axis.motion->equations.step_m;
         move_frame(axis);
       }
       if (auto outcome = start(); !outcome) return outcome;
     }
-    return cvode_->advance(static_cast<double>(tick_ + 1 - start_tick_), y_.data());
+    return cvode_->advance(static_cast<double>((tick_ + ControlTicks{1} - start_tick_).value), y_.data());
   }
 
   void finish(Axis& axis, std::size_t a, const AxisPulses& pulses) {
@@ -175,11 +175,11 @@ class Smooth final : public Integrator {
       residual[i] += staircase[i] - smooth;
     }
     axis.residual = residual;
-    motion.move_node(pulses.net_steps().value);
+    motion.move_node(pulses.net_steps());
     motion.z = residual;
     if (running_) {
       for (std::size_t i = 0; i < 4; ++i) motion.z[i] += y_[4 * a + i];
-      motion.z[kLag] -= static_cast<double>(motion.node - axis.frame_node) * step_m;
+      motion.z[kLag] -= static_cast<double>((motion.node - axis.frame_node).value) * step_m;
     } else {
       motion.z[kLag] += from_node(s, motion.node, step_m);
     }
@@ -189,10 +189,10 @@ class Smooth final : public Integrator {
   // response to s alone; x0 is counted from frame_node
   static void equations(const void* self, double t, const double* y, double* dydt) {
     const Smooth& group = *static_cast<const Smooth*>(self);
-    std::int64_t tick = static_cast<std::int64_t>(t) + group.start_tick_;
-    const std::int64_t last = group.tick_ + kLookAhead;
+    ControlTicks tick = ControlTicks{static_cast<std::int64_t>(t)} + group.start_tick_;
+    const ControlTicks last = group.tick_ + kLookAhead;
     if (tick > last) tick = last;
-    const double theta = t - static_cast<double>(tick - group.start_tick_);
+    const double theta = t - static_cast<double>((tick - group.start_tick_).value);
     const std::size_t at = slot(tick);
     for (const Axis& axis : group.axis_) {
       const AxisEquations& eq = axis.motion->equations;
@@ -212,8 +212,8 @@ class Smooth final : public Integrator {
   std::vector<Axis> axis_;
   std::vector<double> y_;  // CVODE's states at the last tick's end, [4 axes]
   std::unique_ptr<Cvode> cvode_;
-  std::int64_t tick_ = 0;        // since the reset
-  std::int64_t start_tick_ = 0;  // CVODE's time 0
+  ControlTicks tick_;        // since the reset
+  ControlTicks start_tick_;  // CVODE's time 0
   bool running_ = false;
 };
 

@@ -15,7 +15,7 @@ SplinePiece spline_piece(const std::array<SplinePoint, 6>& point, double step_m)
   piece.node = point[2].node;
   std::array<double, 6> p;
   for (std::size_t j = 0; j < 6; ++j) {
-    p[j] = static_cast<double>(point[j].node - piece.node) * step_m + point[j].rest_m;
+    p[j] = static_cast<double>((point[j].node - piece.node).value) * step_m + point[j].rest_m;
     piece.constant = piece.constant && point[j] == point[0];
   }
   if (piece.constant) {

@@ -1,20 +1,20 @@
 #pragma once
 #include <array>
-#include <cstdint>
+
+#include "machine/base/count.h"
 
 namespace kadr::plant {
 
 /// One control tick of the smooth command: s(theta) = node * step + sum c_i theta^i, theta in [0, 1].
 struct SplinePiece {
   std::array<double, 6> c{};
-  std::int64_t node = 0;
+  Steps node;
   bool constant = true;
 };
 
-/// A point of the smooth command, kept as a lattice node and a small rest, so that no precision goes with the
-/// position.
+/// A point of the smooth command, kept as a lattice node and a small rest, so that no precision goes with the position.
 struct SplinePoint {
-  std::int64_t node = 0;
+  Steps node;
   double rest_m = 0;
   friend bool operator==(const SplinePoint&, const SplinePoint&) = default;
 };

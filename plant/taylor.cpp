@@ -95,8 +95,7 @@ void TaylorAxis::add_work(AxisWork& work, const Products& of) const {
 
 Outcome TaylorAxis::advance(Vector4& z, double ticks, AxisWork* work) const {
   if (ticks == 0) return {};
-  // a motor that slips runs through its law at this rate; the speed it can gain on the way is covered by
-  // rate_
+  // a motor that slips runs through its law at this rate; the speed it can gain on the way is covered by rate_
   const double rate = rate_ + eq_.pull.bend_per_m() * std::fabs(z[kBaseSpeed]);
   const double parts = std::floor(ticks * rate) + 1;
   if (!(parts <= kMaxParts)) {
@@ -138,7 +137,7 @@ class TaylorIntegrator final : public Integrator {
     const AxisPulses& pulses = batch.axis[static_cast<std::size_t>(axis_.axis)];
     Outcome outcome = series_.advance_tick(axis_.z, pulses, nullptr);
     if (!outcome) return outcome;
-    axis_.move_node(pulses.net_steps().value);
+    axis_.move_node(pulses.net_steps());
     axis_.motor_force_N = axis_.equations.motor_force_N(axis_.z);
     return {};
   }

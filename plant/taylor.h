@@ -9,8 +9,7 @@ namespace kadr::plant {
 /// Moves an axis from pulse to pulse by the Taylor series of its solution. Between two pulses the equations
 /// are autonomous and analytic; the motor's law brings the series of its force (machine/motor.h). Terms are
 /// added until two in a row are below 1e-20 m, which takes 6 to 10 orders between dense pulses; an interval
-/// longer than the fastest rate allows is cut into equal parts. Error per interval: about 1e-14 um, rounding
-/// besides.
+/// longer than the fastest rate allows is cut into equal parts. Error per interval: about 1e-14 um, rounding besides.
 class TaylorAxis {
  public:
   explicit TaylorAxis(const AxisEquations& equations);

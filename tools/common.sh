@@ -8,7 +8,7 @@ export LC_ALL=C
 say() { printf '== %s\n' "$*" >&2; }
 fail() { printf '%s: %s\n' "${0##*/}" "$*" >&2; exit 2; }
 
-# every tool prints the comment at its head for --help
+# every tool prints its first comment for --help
 case ${1-} in
   -h | --help)
     sed -nE '2,/^[^#]/s/^# ?//p' "$0"
@@ -18,7 +18,7 @@ esac
 
 times=$project/build/times.tsv
 times_before=$(wc -l 2>/dev/null <"$times" || echo 0)
-# how many steps are under way around this tool; a tool that a step calls inherits it
+# number of steps running around this tool; a tool that a step calls inherits it
 export KADR_STEP_DEPTH=${KADR_STEP_DEPTH:-0}
 own_depth=$KADR_STEP_DEPTH
 
@@ -47,7 +47,7 @@ print_times() {
 build_preset() {
   local preset=$1 options=() option stale=no
   shift
-  # also as long as a page is left out: what it needs may be there by now
+  # also while a page is left out: its packages may be there by now
   [[ -f build/$preset/build.ninja && ! -f build/$preset/pages/missing ]] || stale=yes
   while [[ ${1-} == -D* ]]; do
     option=${1#-D}
@@ -63,7 +63,7 @@ build_preset() {
   timed "build $preset${*:+: $*}" ninja -C "build/$preset" --quiet "$@" >&2
 }
 
-# configure_preset PRESET [CMAKE ARGUMENTS]: what CMake has to say of missing or left out parts is shown, no more
+# configure_preset PRESET [CMAKE ARGUMENTS]: shows only what CMake reports about missing or omitted parts
 configure_preset() {
   local preset=$1 log=build/$1/configure.log
   shift

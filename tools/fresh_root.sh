@@ -3,7 +3,7 @@
 
 fresh=${KADR_FRESH:-$project/build/fresh}
 
-# need_root: what the functions below ask for, said once
+# need_root: checks the requirements of the functions below
 need_root() {
   [[ $(id -u) -eq 0 ]] || fail "a bare root is made with debootstrap and chroot: run this as root"
   tools/setup fresh
@@ -32,7 +32,7 @@ base_root() {
     [[ -e $line ]] && cp --parents -L "$line" "$base"
   done
   [[ ! -e $HOME/.npmrc ]] || cp "$HOME/.npmrc" "$base/root/.npmrc"
-  # and whom it trusts there: the package ca-certificates would write over its own place
+  # and the certificates it trusts there: the package ca-certificates would overwrite its own file
   if [[ -e /etc/ssl/certs/ca-certificates.crt ]]; then
     cp /etc/ssl/certs/ca-certificates.crt "$base/etc/machine-certificates.crt"
     sed -i 's|^cafile *=.*|cafile=/etc/machine-certificates.crt|' "$base/etc/npmrc" "$base/root/.npmrc" 2>/dev/null || true

@@ -44,7 +44,7 @@ build_and_test() {
   fi
 }
 
-# print_results: what was skipped and what failed, where the time went, and the line that counts; false if any failed
+# print_results: skipped and failed steps, their times, and the line with the counts; false if any failed
 print_results() {
   local name
   echo

@@ -27,16 +27,16 @@ bool outside(const AxisTravel& travel, const machine::AxisModel& axis) {
 
 CheckResult check_result(const Job& job) {
   CheckResult r;
-  r.motion_s = job.motion_s;
-  r.dwell_s = job.dwell_s;
-  r.time_s = job.motion_s + job.dwell_s;
-  r.blocks = job.blocks;
-  r.travel = axis_travel(job.path);
-  r.path_unit = path_unit(job.path, job.machine.model);
-  r.limited_by = limit_shares(job);
-  for (std::size_t i = 0; i < job.path.size(); ++i) {
-    const planner::PathSegment& segment = job.path.segments[i];
-    const planner::SegmentPlan& plan = job.plan.segments[i];
+  r.motion_s = job.planned.plan.motion_s;
+  r.dwell_s = job.planned.plan.pause_s;
+  r.time_s = job.planned.plan.motion_s + job.planned.plan.pause_s;
+  r.blocks = job.read.blocks;
+  r.travel = axis_travel(job.read.path);
+  r.path_unit = path_unit(job.read.path, job.given.machine.model);
+  r.limited_by = limit_shares(job.planned.plan.law, job.given.machine.model);
+  for (std::size_t i = 0; i < job.read.path.size(); ++i) {
+    const planner::PathSegment& segment = job.read.path.segments[i];
+    const planner::SegmentPlan& plan = job.planned.plan.segments[i];
     r.path_u += segment.feed_length_u;
     if (segment.rapid) {
       r.rapid_s += plan.end_time_s - plan.begin_time_s;

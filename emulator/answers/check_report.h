@@ -23,7 +23,6 @@ struct CheckResult {
   std::vector<LimitShare> limited_by;
 };
 
-/// @pre prepare(job) returned true
 CheckResult check_result(const Job& job);
 /// The table for people.
 std::string render_check(const CheckResult& result, const std::string& program,

@@ -21,7 +21,7 @@ std::size_t width_of(double largest, int decimals, std::size_t least) {
 }
 
 bool is_blockwise(const Job& job) {
-  return job.machine.model.planner.scheduler == machine::SchedulerKind::blockwise;
+  return job.given.machine.model.planner.scheduler == machine::SchedulerKind::blockwise;
 }
 
 /// Rule, kl and jump of a block of one or more segments: those furthest from none, 1 and 0.
@@ -29,8 +29,8 @@ void add_ticks(const Job& job, std::size_t first, std::size_t end, PlanRow& row)
   row.blockwise = true;
   auto rule = planner::TickRule::none;
   for (std::size_t i = first; i < end; ++i) {
-    const planner::SegmentPlan& plan = job.plan.segments[i];
-    const planner::PathSegment& segment = job.path.segments[i];
+    const planner::SegmentPlan& plan = job.planned.plan.segments[i];
+    const planner::PathSegment& segment = job.read.path.segments[i];
     rule = std::max(rule, plan.rule);
     row.kl = std::min(row.kl, plan.kl);
     const double jump_u_s = plan.end_jump_u_s * segment.feed_length_u / segment.length_u;
@@ -45,8 +45,8 @@ void add_rapid(const Job& job, const planner::PositionedSegment& rapid, planner:
   row.rapid_law = machine::kRapidShapes.word(rapid.shape);
   row.rapid_reason = rapid.reason;
   row.rapid_loss_s = rapid.loss_s;
-  const std::vector<machine::AxisModel>& axis = job.machine.model.axis;
-  for (const planner::ExcitedMode& m : planner.excited(job.path, rapid.segment))
+  const std::vector<machine::AxisModel>& axis = job.given.machine.model.axis;
+  for (const planner::ExcitedMode& m : planner.excited(job.read.path, rapid.segment))
     row.vibrations.push_back({axis[static_cast<std::size_t>(m.axis)].letter,
                               m.driven.mode.omega_rad_s / (2 * kPi), m.driven.mode.zeta});
   for (std::size_t c = 0; c < axis.size(); ++c)
@@ -68,16 +68,17 @@ std::string rapid_text(const PlanRow& row) {
 }  // namespace
 
 void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>& sink) {
-  const machine::MachineModel& machine = job.machine.model;
+  const machine::MachineModel& machine = job.given.machine.model;
   std::size_t next_event = 0;
   double time_s = 0;
-  auto rapid = job.plan.positioned.begin();
+  auto rapid = job.planned.plan.positioned.begin();
   planner::PositioningPlanner rapids(machine);
   const auto pauses_before = [&](std::size_t segment) {
-    for (; next_event < job.events.size() && job.events[next_event].after_segment <= segment; ++next_event) {
-      const gcode::Block& block = job.events[next_event].block;
+    for (; next_event < job.read.events.size() && job.read.events[next_event].after_segment <= segment;
+         ++next_event) {
+      const gcode::Block& block = job.read.events[next_event].block;
       PlanRow row;
-      row.time_s = hold_time_s(job.events[next_event], machine);
+      row.time_s = hold_time_s(job.read.events[next_event], machine);
       if (!(row.time_s > 0)) continue;
       row.line = block.span.line;
       row.text = job.sources[block.span.file].line(row.line);
@@ -88,15 +89,15 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
       sink(row);
     }
   };
-  for (std::size_t i = 0; i < job.path.size();) {
+  for (std::size_t i = 0; i < job.read.path.size();) {
     pauses_before(i);
-    const planner::PathSegment& segment = job.path.segments[i];
-    const BlockSummary block = block_summary(job, i);
+    const planner::PathSegment& segment = job.read.path.segments[i];
+    const BlockSummary block = block_summary(job.read.path, job.planned.plan, i);
     PlanRow row;
     row.line = segment.span.line;
     row.text = job.sources[segment.span.file].line(row.line);
     row.motion = planner::motion_name(segment);
-    row.unit = segment_unit(job.path, i, machine);
+    row.unit = segment_unit(job.read.path, i, machine);
     row.length_u = block.length_u;
     row.begin_s = block.begin_s;
     row.time_s = block.time_s;
@@ -105,16 +106,17 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
     row.end_u_s = block.end_u_s;
     row.limited_by = limited_by_text(block.limited_by, block.limiting_axis, machine);
     if (is_blockwise(job)) add_ticks(job, i, block.end_segment, row);
-    if (rapid != job.plan.positioned.end() && rapid->segment == i) add_rapid(job, *rapid++, rapids, row);
+    if (rapid != job.planned.plan.positioned.end() && rapid->segment == i)
+      add_rapid(job, *rapid++, rapids, row);
     time_s = block.begin_s + block.time_s;
     sink(row);
     i = block.end_segment;
   }
-  pauses_before(job.path.size());
+  pauses_before(job.read.path.size());
 }
 
 PlanTable::PlanTable(const Job& job)
-    : blockwise_(is_blockwise(job)), unit_(path_unit(job.path, job.machine.model)) {
+    : blockwise_(is_blockwise(job)), unit_(path_unit(job.read.path, job.given.machine.model)) {
   double longest_u = 0, fastest_u_s = 0, slowest_s = 0;
   std::uint32_t last_line = 1;
   for_each_plan_row(job, [&](const PlanRow& row) {
@@ -163,10 +165,11 @@ std::string PlanTable::row(const PlanRow& r) const {
 }
 
 std::string PlanTable::footer(const Job& job, std::size_t rows) const {
-  const planner::Smoothing& smoothing = job.path.smoothing;
-  std::string out = fmt::format(
-      "{}, {}: {} in motion, {} standing\n", counted(static_cast<std::int64_t>(rows), "row"),
-      duration_text(job.motion_s + job.dwell_s), duration_text(job.motion_s), duration_text(job.dwell_s));
+  const planner::Smoothing& smoothing = job.read.path.smoothing;
+  std::string out =
+      fmt::format("{}, {}: {} in motion, {} standing\n", counted(static_cast<std::int64_t>(rows), "row"),
+                  duration_text(job.planned.plan.motion_s + job.planned.plan.pause_s),
+                  duration_text(job.planned.plan.motion_s), duration_text(job.planned.plan.pause_s));
   if (smoothing.corners > 0)
     out += fmt::format("G64 P: {} rounded, at most {} {} from the program\n",
                        counted(static_cast<std::int64_t>(smoothing.corners), "corner"),

@@ -55,16 +55,15 @@ std::string call_json(std::string_view line, std::uint32_t source_line) {
 }  // namespace
 
 int canon_program(const Arguments& arguments, Console& console) {
-  emulator::Job job;
-  load_program(arguments.files.front(), job);
+  SourceSet sources;
+  const std::uint32_t program = load_program(arguments.files.front(), sources);
   const bool json = console.options().json;
   Diagnostics diagnostics;
   gcode::InterpretOptions options;
-  if (!load_reading(arguments, job, diagnostics)) {
-    console.diagnostics(diagnostics, job.sources, arguments.tools, Console::Where::errors);
+  if (!load_reading(arguments, sources, options, diagnostics)) {
+    console.diagnostics(diagnostics, sources, arguments.tools, Console::Where::errors);
     return kNotStarted;
   }
-  static_cast<gcode::Reading&>(options) = job.reading;
 
   if (json)
     console.data(
@@ -76,14 +75,14 @@ int canon_program(const Arguments& arguments, Console& console) {
   };
   bool first = true;
   gcode::interpret(
-      job.sources, job.program, options,
+      sources, program, options,
       [&](const gcode::Block& block) {
         // nothing moves after an error
         if (diagnostics.has_errors()) return;
         if (block.span.line < arguments.first_line || block.span.line > arguments.last_line) return;
         const std::size_t before = text.size();
-        const bool called = block.span.file != job.program;
-        gcode::append_canon(text, block, called ? job.sources[block.span.file].name() : std::string_view());
+        const bool called = block.span.file != program;
+        gcode::append_canon(text, block, called ? sources[block.span.file].name() : std::string_view());
         if (text.size() == before) return;
         if (json) {
           console.data((first ? "\n    " : ",\n    ") + call_json(text, block.span.line));
@@ -100,14 +99,13 @@ int canon_program(const Arguments& arguments, Console& console) {
 
   const int code = diagnostics.has_errors() ? kNo : kYes;
   if (json) {
-    emulator::Json list = emulator::json_of(diagnostics, job.sources);
+    emulator::Json list = emulator::json_of(diagnostics, sources);
     console.data(fmt::format("{}],\n  \"exit_code\": {},\n  \"diagnostics\": {}\n}}\n", first ? "" : "\n  ",
                              code, emulator::json_line(list)));
     return code;
   }
   if (diagnostics.has_errors()) console.data(error_line(first_error(diagnostics)));
-  console.diagnostics(diagnostics, job.sources, program_text(arguments.files.front()),
-                      Console::Where::errors);
+  console.diagnostics(diagnostics, sources, program_text(arguments.files.front()), Console::Where::errors);
   return code;
 }
 

@@ -16,55 +16,55 @@ namespace {
 
 using emulator::Json;
 
-Json head(const char* command, const std::string& program, const emulator::Job& job,
-          const Diagnostics& diagnostics) {
+Json head(const char* command, const std::string& program, const machine::MachineModel& machine,
+          const Diagnostics& diagnostics, const SourceSet& sources) {
   Json j;
   j["kadr"] = KADR_VERSION;
   j["command"] = command;
   j["program"] = program;
-  j["machine"] = job.machine.model.name;
-  j["diagnostics"] = emulator::json_of(diagnostics, job.sources);
+  j["machine"] = machine.name;
+  j["diagnostics"] = emulator::json_of(diagnostics, sources);
   return j;
 }
 
 /// The whole text of one program's check. `kadr: unreadable` goes to standard error, everything else is data.
 int check_one(const Arguments& arguments, const std::string& path, Console& console, Json& documents) {
   const std::string program = program_text(path);
-  emulator::Job job;
+  SourceSet sources;
+  emulator::JobInputs given;
   Diagnostics diagnostics;
-  if (!load_machine(arguments.machine, arguments.settings, job, diagnostics)) {
-    console.diagnostics(diagnostics, job.sources, "the machine file", Console::Where::errors);
+  if (!load_machine(arguments.machine, arguments.settings, sources, given.machine, diagnostics)) {
+    console.diagnostics(diagnostics, sources, "the machine file", Console::Where::errors);
     return kNotStarted;
   }
   try {
-    load_program(path, job);
+    given.program = load_program(path, sources);
   } catch (const WorldError& e) {
     // the other programs are still checked
     console.error(e.what());
     return kNotStarted;
   }
-  if (!load_reading(arguments, job, diagnostics)) {
-    console.diagnostics(diagnostics, job.sources, arguments.tools, Console::Where::errors);
+  if (!load_reading(arguments, sources, given.reading, diagnostics)) {
+    console.diagnostics(diagnostics, sources, arguments.tools, Console::Where::errors);
     return kNotStarted;
   }
-  const bool planned = emulator::prepare(job, diagnostics);
-  const int code = refused(diagnostics, arguments.strict) || !planned ? kNo : kYes;
+  const auto job = emulator::prepare(given, sources, diagnostics);
+  const int code = refused(diagnostics, arguments.strict) || !job ? kNo : kYes;
 
   if (console.options().json) {
-    Json j = head("check", program, job, diagnostics);
+    Json j = head("check", program, given.machine.model, diagnostics, sources);
     j["exit_code"] = code;
-    j["check"] = planned ? emulator::json_of(emulator::check_result(job), job.machine.model) : Json(nullptr);
+    j["check"] = job ? emulator::json_of(emulator::check_result(*job), given.machine.model) : Json(nullptr);
     documents.push_back(std::move(j));
     return code;
   }
-  console.diagnostics(diagnostics, job.sources, program, Console::Where::output);
-  const bool table =
-      planned && !console.options().quiet && console.options().format == DiagnosticFormat::human;
+  console.diagnostics(diagnostics, sources, program, Console::Where::output);
+  const bool table = job && !console.options().quiet && console.options().format == DiagnosticFormat::human;
   if (table) {
     if (!diagnostics.list().empty()) console.data("\n");
-    console.data(emulator::render_check(emulator::check_result(job), program,
-                                        machine_text(arguments.machine, job.machine.model),
-                                        job.machine.model));
+    console.data(emulator::render_check(emulator::check_result(*job), program,
+                                        machine_text(arguments.machine, given.machine.model),
+                                        given.machine.model));
   }
   return code;
 }
@@ -89,26 +89,27 @@ int check_programs(const Arguments& arguments, Console& console) {
 int plan_program(const Arguments& arguments, Console& console) {
   const std::string& path = arguments.files.front();
   const std::string program = program_text(path);
-  emulator::Job job;
+  SourceSet sources;
+  emulator::JobInputs given;
   Diagnostics diagnostics;
-  if (!load_machine(arguments.machine, arguments.settings, job, diagnostics)) {
-    console.diagnostics(diagnostics, job.sources, "the machine file", Console::Where::errors);
+  if (!load_machine(arguments.machine, arguments.settings, sources, given.machine, diagnostics)) {
+    console.diagnostics(diagnostics, sources, "the machine file", Console::Where::errors);
     return kNotStarted;
   }
-  load_program(path, job);
-  if (!load_reading(arguments, job, diagnostics)) {
-    console.diagnostics(diagnostics, job.sources, arguments.tools, Console::Where::errors);
+  given.program = load_program(path, sources);
+  if (!load_reading(arguments, sources, given.reading, diagnostics)) {
+    console.diagnostics(diagnostics, sources, arguments.tools, Console::Where::errors);
     return kNotStarted;
   }
   // a plan shows the program as written, even if the machine is too small: `kadr check` refuses that
-  const bool planned = emulator::prepare(job, diagnostics, emulator::SoftLimitRule::warning);
-  const int code = !planned || refused(diagnostics, arguments.strict) ? kNo : kYes;
+  const auto job = emulator::prepare(given, sources, diagnostics, emulator::SoftLimitRule::warning);
+  const int code = !job || refused(diagnostics, arguments.strict) ? kNo : kYes;
 
   if (console.options().json) {
-    Json j = head("plan", program, job, diagnostics);
+    Json j = head("plan", program, given.machine.model, diagnostics, sources);
     j["exit_code"] = code;
-    j["time_s"] = planned ? Json(job.motion_s + job.dwell_s) : Json(nullptr);
-    const planner::Smoothing& smoothing = job.path.smoothing;
+    j["time_s"] = job ? Json(job->planned.plan.motion_s + job->planned.plan.pause_s) : Json(nullptr);
+    const planner::Smoothing smoothing = job ? job->read.path.smoothing : planner::Smoothing{};
     j["smoothing"] = {{"corners", smoothing.corners},
                       {"corner_deviation_u", smoothing.corner_deviation_u},
                       {"curves", smoothing.curves},
@@ -119,8 +120,8 @@ int plan_program(const Arguments& arguments, Console& console) {
     text.erase(text.rfind("[]"));
     console.data(text + "[");
     bool first = true;
-    if (planned)
-      emulator::for_each_plan_row(job, [&](const emulator::PlanRow& row) {
+    if (job)
+      emulator::for_each_plan_row(*job, [&](const emulator::PlanRow& row) {
         console.data((first ? "\n    " : ",\n    ") + emulator::json_line(emulator::json_of(row)));
         first = false;
       });
@@ -128,23 +129,23 @@ int plan_program(const Arguments& arguments, Console& console) {
     return code;
   }
 
-  console.diagnostics(diagnostics, job.sources, program, Console::Where::errors);
+  console.diagnostics(diagnostics, sources, program, Console::Where::errors);
   if (code != kYes) return code;
   if (arguments.csv) {
-    console.data(emulator::plan_csv_title(job.machine.model));
-    emulator::for_each_plan_row(job, [&](const emulator::PlanRow& row) {
-      console.data(emulator::plan_csv_row(row, job.machine.model));
+    console.data(emulator::plan_csv_title(given.machine.model));
+    emulator::for_each_plan_row(*job, [&](const emulator::PlanRow& row) {
+      console.data(emulator::plan_csv_row(row, given.machine.model));
     });
     return code;
   }
-  const emulator::PlanTable table(job);
+  const emulator::PlanTable table(*job);
   std::size_t rows = 0;
   console.data(table.title());
-  emulator::for_each_plan_row(job, [&](const emulator::PlanRow& row) {
+  emulator::for_each_plan_row(*job, [&](const emulator::PlanRow& row) {
     console.data(table.row(row));
     ++rows;
   });
-  console.data(table.footer(job, rows));
+  console.data(table.footer(*job, rows));
   return code;
 }
 

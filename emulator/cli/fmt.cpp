@@ -74,17 +74,17 @@ int act(const Formatted& formatted, const std::string& path, const Arguments& ar
 
 /// One program; its exit code.
 int format_one(const std::string& path, const Arguments& arguments, Console& console, Json& documents) {
-  emulator::Job job;
+  SourceSet sources;
   Diagnostics diagnostics;
   Formatted formatted;
   try {
     if (path == "-" && arguments.in_place) throw WorldError("standard input can't be rewritten in place");
-    load_program(path, job);
-    formatted.readable = gcode::format_program(job.sources, job.program, diagnostics, formatted.text);
-    formatted.differs = formatted.text != job.sources[job.program].text();
+    const std::uint32_t program = load_program(path, sources);
+    formatted.readable = gcode::format_program(sources, program, diagnostics, formatted.text);
+    formatted.differs = formatted.text != sources[program].text();
     const int code = act(formatted, path, arguments, console);
     if (!console.options().json) {
-      console.diagnostics(diagnostics, job.sources, program_text(path), Console::Where::errors);
+      console.diagnostics(diagnostics, sources, program_text(path), Console::Where::errors);
       return code;
     }
     Json j;
@@ -92,7 +92,7 @@ int format_one(const std::string& path, const Arguments& arguments, Console& con
     j["exit_code"] = code;
     j["differs"] = formatted.differs;
     j["text"] = arguments.only_check || arguments.in_place ? Json(nullptr) : Json(formatted.text);
-    j["diagnostics"] = emulator::json_of(diagnostics, job.sources);
+    j["diagnostics"] = emulator::json_of(diagnostics, sources);
     documents.push_back(std::move(j));
     return code;
   } catch (const WorldError& e) {

@@ -30,8 +30,8 @@ std::string shipped_names() {
 
 }  // namespace
 
-bool load_machine(const std::string& name, const std::vector<std::string>& settings, emulator::Job& job,
-                  Diagnostics& diagnostics) {
+bool load_machine(const std::string& name, const std::vector<std::string>& settings, SourceSet& sources,
+                  machine::MachineFile& machine, Diagnostics& diagnostics) {
   const std::string wanted = name.empty() ? std::string(kDefaultMachine) : name;
   const std::string_view shipped = machine::shipped_machine(wanted);
   struct stat status {};
@@ -39,13 +39,13 @@ bool load_machine(const std::string& name, const std::vector<std::string>& setti
     throw WorldError(fmt::format("machine {}: {}; machines that ship with kadr: {}", wanted,
                                  std::strerror(errno), shipped_names()));
   auto file = machine::read_machine(
-      shipped.empty() ? open_text(wanted) : SourceText(wanted + ".toml", std::string(shipped)), job.sources,
+      shipped.empty() ? open_text(wanted) : SourceText(wanted + ".toml", std::string(shipped)), sources,
       settings);
   if (!file) {
     for (const Diagnostic& d : file.error().list()) diagnostics.add(d);
     return false;
   }
-  job.machine = std::move(*file);
+  machine = std::move(*file);
   return true;
 }
 
@@ -55,20 +55,20 @@ std::string machine_text(const std::string& name, const machine::MachineModel& m
   return fmt::format("{} ({})", model.name, name);
 }
 
-bool load_reading(const Arguments& arguments, emulator::Job& job, Diagnostics& diagnostics) {
-  if (arguments.dialect) job.reading.dialect = *arguments.dialect;
-  job.reading.block_delete = arguments.block_delete;
-  job.reading.bounds = arguments.bounds;
-  job.reading.sub_folders = arguments.sub_folders;
+bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading& reading,
+                  Diagnostics& diagnostics) {
+  if (arguments.dialect) reading.dialect = *arguments.dialect;
+  reading.block_delete = arguments.block_delete;
+  reading.bounds = arguments.bounds;
+  reading.sub_folders = arguments.sub_folders;
   if (arguments.tools.empty()) return true;
   const std::size_t errors = diagnostics.errors();
-  job.reading.tools =
-      gcode::read_tool_table(job.sources, job.sources.add(open_text(arguments.tools)), diagnostics);
+  reading.tools = gcode::read_tool_table(sources, sources.add(open_text(arguments.tools)), diagnostics);
   return diagnostics.errors() == errors;
 }
 
-void load_program(const std::string& path, emulator::Job& job) {
-  job.program = job.sources.add(open_text(path));
+std::uint32_t load_program(const std::string& path, SourceSet& sources) {
+  return sources.add(open_text(path));
 }
 
 std::string program_text(const std::string& path) { return path == "-" ? "standard input" : path; }

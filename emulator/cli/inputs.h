@@ -7,23 +7,24 @@
 
 namespace kadr::cli {
 
-/// Reads a machine into a job. An empty name is mill3; a shipped machine's name takes precedence over a file of that
+/// Reads a machine. An empty name is mill3; a shipped machine's name takes precedence over a file of that
 /// name.
 /// @return false if it has errors (in `diagnostics`)
 /// @throws WorldError for a name that is neither; std::system_error for a file that can't be read
-bool load_machine(const std::string& name, const std::vector<std::string>& settings, emulator::Job& job,
-                  Diagnostics& diagnostics);
+bool load_machine(const std::string& name, const std::vector<std::string>& settings, SourceSet& sources,
+                  machine::MachineFile& machine, Diagnostics& diagnostics);
 /// "mill3 (shipped, the default; -m names another)", "shop (shop.toml)"
 std::string machine_text(const std::string& name, const machine::MachineModel& model);
 
 /// Reads the tool table and takes over the dialect, if the command line gives them.
 /// @return false if the table has errors (in `diagnostics`)
 /// @throws WorldError for a table that can't be read
-bool load_reading(const Arguments& arguments, emulator::Job& job, Diagnostics& diagnostics);
+bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading& reading,
+                  Diagnostics& diagnostics);
 
-/// Opens a program into a job: `-` is standard input.
+/// Opens a program as a file of the sources: `-` is standard input.
 /// @throws WorldError with path and reason
-void load_program(const std::string& path, emulator::Job& job);
+std::uint32_t load_program(const std::string& path, SourceSet& sources);
 /// The program's name for people: "standard input" for `-`.
 std::string program_text(const std::string& path);
 /// Number of lines of a text.

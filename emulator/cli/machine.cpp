@@ -27,31 +27,33 @@ std::string description(std::string_view toml) {
   return emulator::one_line(line.substr(1), 100);
 }
 
-Json machine_json(const std::string& file, bool good, const emulator::Job& job,
-                  const Diagnostics& diagnostics) {
+Json machine_json(const std::string& file, bool good, const machine::MachineFile& machine,
+                  const Diagnostics& diagnostics, const SourceSet& sources) {
   Json j;
   j["file"] = file;
   j["exit_code"] = good ? kYes : kNo;
-  j["name"] = good ? Json(job.machine.model.name) : Json(nullptr);
-  j["axes"] = good ? Json(axis_letters(job.machine.model)) : Json(nullptr);
-  j["diagnostics"] = emulator::json_of(diagnostics, job.sources);
+  j["name"] = good ? Json(machine.model.name) : Json(nullptr);
+  j["axes"] = good ? Json(axis_letters(machine.model)) : Json(nullptr);
+  j["diagnostics"] = emulator::json_of(diagnostics, sources);
   return j;
 }
 
 }  // namespace
 
 int machine_show(const Arguments& arguments, Console& console) {
-  emulator::Job job;
+  SourceSet sources;
+  machine::MachineFile machine;
   Diagnostics diagnostics;
-  const bool good = load_machine(arguments.machine, arguments.settings, job, diagnostics);
+  const bool good = load_machine(arguments.machine, arguments.settings, sources, machine, diagnostics);
   if (console.options().json) {
-    Json j = machine_json(arguments.machine.empty() ? "mill3" : arguments.machine, good, job, diagnostics);
-    j["toml"] = good ? Json(machine::render_machine(job.machine)) : Json(nullptr);
+    Json j = machine_json(arguments.machine.empty() ? "mill3" : arguments.machine, good, machine, diagnostics,
+                          sources);
+    j["toml"] = good ? Json(machine::render_machine(machine)) : Json(nullptr);
     console.document(j);
   } else if (good) {
-    console.data(machine::render_machine(job.machine));
+    console.data(machine::render_machine(machine));
   } else {
-    console.diagnostics(diagnostics, job.sources, "the machine file", Console::Where::errors);
+    console.diagnostics(diagnostics, sources, "the machine file", Console::Where::errors);
   }
   return good ? kYes : kNotStarted;
 }
@@ -61,10 +63,11 @@ int machine_list(const Arguments&, Console& console) {
   emulator::TextTable table({{"machine", Align::left}, {"axes", Align::left}, {"what it is", Align::left}});
   Json list = Json::array();
   for (const std::string_view name : machine::shipped_machine_names()) {
-    emulator::Job job;
+    SourceSet sources;
+    machine::MachineFile machine;
     Diagnostics diagnostics;
-    load_machine(std::string(name), {}, job, diagnostics);
-    const std::string axes = axis_letters(job.machine.model);
+    load_machine(std::string(name), {}, sources, machine, diagnostics);
+    const std::string axes = axis_letters(machine.model);
     const std::string what = description(machine::shipped_machine(name));
     table.add({std::string(name), axes, what});
     list.push_back({{"name", name}, {"axes", axes}, {"description", what}});
@@ -116,11 +119,12 @@ int machine_check(const Arguments& arguments, Console& console) {
   int worst = kYes;
   Json documents = Json::array();
   for (const std::string& file : arguments.files) {
-    emulator::Job job;
+    SourceSet sources;
+    machine::MachineFile machine;
     Diagnostics diagnostics;
     bool good = false;
     try {
-      good = load_machine(file, {}, job, diagnostics);
+      good = load_machine(file, {}, sources, machine, diagnostics);
     } catch (const WorldError& e) {
       console.error(e.what());
       worst = kNotStarted;
@@ -128,13 +132,13 @@ int machine_check(const Arguments& arguments, Console& console) {
     }
     worst = std::max(worst, good ? kYes : kNo);
     if (console.options().json) {
-      documents.push_back(machine_json(file, good, job, diagnostics));
+      documents.push_back(machine_json(file, good, machine, diagnostics, sources));
       continue;
     }
-    console.diagnostics(diagnostics, job.sources, file, Console::Where::output);
+    console.diagnostics(diagnostics, sources, file, Console::Where::output);
     if (good && !console.options().quiet && console.options().format == DiagnosticFormat::human)
-      console.data(fmt::format("{}: machine {}, axes {}: no errors\n", file, job.machine.model.name,
-                               axis_letters(job.machine.model)));
+      console.data(fmt::format("{}: machine {}, axes {}: no errors\n", file, machine.model.name,
+                               axis_letters(machine.model)));
   }
   if (console.options().json) console.document(documents);
   return worst;

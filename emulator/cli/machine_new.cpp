@@ -262,22 +262,23 @@ void ask(DataSheetWords& words) {
 }
 
 int copy_machine(const Arguments& arguments, const std::string& name, Console& console) {
-  emulator::Job job;
+  SourceSet sources;
+  machine::MachineFile machine;
   Diagnostics diagnostics;
-  if (!load_machine(arguments.machine, {}, job, diagnostics)) {
-    console.diagnostics(diagnostics, job.sources, "the machine file", Console::Where::errors);
+  if (!load_machine(arguments.machine, {}, sources, machine, diagnostics)) {
+    console.diagnostics(diagnostics, sources, "the machine file", Console::Where::errors);
     return kNotStarted;
   }
   const std::string path = name + ".toml";
-  write_file(path, renamed(job.machine.text, name), arguments.force);
+  write_file(path, renamed(machine.text, name), arguments.force);
   if (console.options().json)
-    console.document(Json({{"file", path}, {"name", name}, {"copied_from", job.machine.model.name}}));
+    console.document(Json({{"file", path}, {"name", name}, {"copied_from", machine.model.name}}));
   else if (!console.options().quiet)
     console.data(fmt::format(
         "wrote {0}, a copy of {1}; change it, then: kadr machine check {0}\n"
         "from a data sheet instead: kadr machine new {2} --axes XYZ --travel 800,800,80 --max-speed "
         "5000mm/min ...\n",
-        path, job.machine.model.name, name));
+        path, machine.model.name, name));
   return kYes;
 }
 

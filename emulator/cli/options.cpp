@@ -3,15 +3,10 @@
 namespace kadr::cli {
 namespace {
 
-/// "blocks=", "call_depth=", ... of "blocks call_depth ..."
-std::vector<std::string> names_with_equals(std::string_view names) {
-  std::vector<std::string> list;
-  while (!names.empty()) {
-    const auto end = std::min(names.find(' '), names.size());
-    list.push_back(std::string(names.substr(0, end)) + '=');
-    names.remove_prefix(std::min(end + 1, names.size()));
-  }
-  return list;
+/// "blocks=", "call_depth=", ...
+std::vector<std::string> names_with_equals(std::vector<std::string> names) {
+  for (std::string& name : names) name += '=';
+  return names;
 }
 
 }  // namespace
@@ -96,7 +91,7 @@ void Options::reading(CLI::App* sub) {
              "Where controllers read codes differently, read them as this one does: {} (default linuxcnc)",
              gcode::kDialects.list("|")))
       ->type_name("WORD");
-  words(sub->get_option("--limit"), names_with_equals(gcode::kBoundNames));
+  words(sub->get_option("--limit"), names_with_equals(gcode::bound_names()));
   words(sub->get_option("--dialect"), gcode::kDialects.strings());
 }
 
@@ -107,7 +102,7 @@ void Options::limit(const std::string& text) {
   const bool number = equals != std::string::npos && read_number(text.substr(equals + 1), value);
   if (!number || !gcode::set_bound(arguments.bounds, name, value))
     throw CLI::ValidationError(fmt::format("--limit takes NAME=N with NAME one of {} (0: no bound); got '{}'",
-                                           gcode::kBoundNames, text));
+                                           fmt::join(gcode::bound_names(), " "), text));
 }
 
 void Options::strict(CLI::App* sub) {

@@ -47,16 +47,17 @@ void refuse_bad_log_path(const std::string& log, const Arguments& arguments, con
 /// Prints the expected size of the log before the run, and the free space if that is too little.
 void tell_expected_size(const emulator::Job& job, const Arguments& arguments, const std::string& log,
                         const emulator::RunHeader& header, Console& console) {
-  const machine::MachineModel& model = job.machine.model;
-  const double planned_s = job.motion_s + job.dwell_s;
+  const machine::MachineModel& model = job.given.machine.model;
+  const double planned_s = job.planned.plan.motion_s + job.planned.plan.pause_s;
   const double run_s = std::min(planned_s, arguments.until_s);
   const double part = planned_s > 0 ? run_s / planned_s : 1.0;
-  const auto pulses = static_cast<double>(emulator::estimate_pulses(emulator::axis_travel(job.path), model));
+  const auto pulses =
+      static_cast<double>(emulator::estimate_pulses(emulator::axis_travel(job.read.path), model));
   const std::size_t text_bytes = header.program_text.size() + header.machine_toml.size() +
                                  header.scenario_toml.size() + header.settings_toml.size();
   const std::int64_t bytes = emulator::estimate_log_bytes(
       model, run_s, static_cast<std::int64_t>(pulses * part),
-      static_cast<std::size_t>(static_cast<double>(job.blocks) * part), arguments.plant, text_bytes);
+      static_cast<std::size_t>(static_cast<double>(job.read.blocks) * part), arguments.plant, text_bytes);
   console.note(fmt::format("log {}, about {} for {} of machine time", log, emulator::bytes_text(bytes),
                            emulator::duration_text(run_s)));
   std::error_code error;
@@ -72,7 +73,8 @@ void tell_expected_size(const emulator::Job& job, const Arguments& arguments, co
 /// Program, machine and settings, from the command line or else from the scenario.
 struct RunInputs {
   Arguments arguments;  ///< completed by the scenario
-  emulator::Job job;
+  SourceSet sources;
+  emulator::JobInputs given;
   Diagnostics diagnostics;
   std::string program;  ///< as given, for people
   std::string scenario_toml;
@@ -83,7 +85,7 @@ struct RunInputs {
 };
 
 void take_scenario(RunInputs& in) {
-  auto scenario = emulator::read_scenario(in.arguments.scenario, in.job.sources);
+  auto scenario = emulator::read_scenario(in.arguments.scenario, in.sources);
   if (!scenario) {
     for (const Diagnostic& d : scenario.error().list()) in.diagnostics.add(d);
     return;
@@ -99,7 +101,7 @@ void take_scenario(RunInputs& in) {
   if (!in.arguments.dialect) in.arguments.dialect = scenario->dialect;
   if (!in.arguments.files.empty()) return;
   if (!scenario->generated_program.empty()) {
-    in.job.program = in.job.sources.add(SourceText(scenario->program_name, scenario->generated_program));
+    in.given.program = in.sources.add(SourceText(scenario->program_name, scenario->generated_program));
     in.program = scenario->program_name;
   } else {
     in.arguments.files.push_back(scenario->program_path);
@@ -109,18 +111,19 @@ void take_scenario(RunInputs& in) {
 void read_inputs(RunInputs& in) {
   if (!in.arguments.scenario.empty()) take_scenario(in);
   if (in.diagnostics.has_errors()) return;
-  in.machine_good = load_machine(in.arguments.machine, in.arguments.settings, in.job, in.diagnostics);
+  in.machine_good =
+      load_machine(in.arguments.machine, in.arguments.settings, in.sources, in.given.machine, in.diagnostics);
   if (!in.arguments.files.empty()) {
-    load_program(in.arguments.files.front(), in.job);
+    in.given.program = load_program(in.arguments.files.front(), in.sources);
     in.program = program_text(in.arguments.files.front());
   }
-  in.started = load_reading(in.arguments, in.job, in.diagnostics) && in.machine_good;
+  in.started = load_reading(in.arguments, in.sources, in.given.reading, in.diagnostics) && in.machine_good;
   if (!in.started || !in.scenario) return;
   const auto& steps = in.scenario->steps;
   const auto& points = in.scenario->technology;
   if (steps.empty() && points.empty()) return;
   const Span& place = steps.empty() ? points.front().span : steps.front().span;
-  emulator::place_inputs(*in.scenario, place.file, in.job, in.diagnostics);
+  emulator::place_inputs(*in.scenario, place.file, in.given, in.diagnostics);
   in.started = !in.diagnostics.has_errors();
 }
 
@@ -130,9 +133,9 @@ Json head(const RunInputs& in, int exit_code) {
   j["command"] = "run";
   j["exit_code"] = exit_code;
   j["program"] = in.program;
-  j["machine"] = in.machine_good ? Json(in.job.machine.model.name) : Json(nullptr);
+  j["machine"] = in.machine_good ? Json(in.given.machine.model.name) : Json(nullptr);
   j["scenario"] = in.scenario_name.empty() ? Json(nullptr) : Json(in.scenario_name);
-  j["diagnostics"] = emulator::json_of(in.diagnostics, in.job.sources);
+  j["diagnostics"] = emulator::json_of(in.diagnostics, in.sources);
   return j;
 }
 
@@ -146,7 +149,7 @@ int refuse(const RunInputs& in, int exit_code, Console& console) {
     const std::string subject = in.started        ? in.program
                                 : in.machine_good ? in.arguments.tools
                                                   : "the machine or scenario file";
-    console.diagnostics(in.diagnostics, in.job.sources, subject, Console::Where::errors);
+    console.diagnostics(in.diagnostics, in.sources, subject, Console::Where::errors);
   }
   return exit_code;
 }
@@ -172,11 +175,10 @@ int exit_code(const emulator::RunSummary& summary, int signal) {
   return summary.alarms > 0 || summary.outcome == emulator::Outcome::plant_error ? kAlarm : kYes;
 }
 
-int move(RunInputs& in, Console& console) {
+int move(const RunInputs& in, const emulator::Job& job, Console& console) {
   const Arguments& arguments = in.arguments;
-  const emulator::Job& job = in.job;
   std::string log_path = arguments.log_path;
-  if (log_path.empty()) log_path = default_log_path(in.job.sources[in.job.program].name());
+  if (log_path.empty()) log_path = default_log_path(in.sources[in.given.program].name());
   if (!arguments.log) log_path.clear();
 
   SignalGuard signals;
@@ -191,32 +193,28 @@ int move(RunInputs& in, Console& console) {
   };
   const emulator::RunHeader header = run_header(job, options, in.scenario_toml);
   if (!log_path.empty()) {
-    refuse_bad_log_path(log_path, arguments, job.sources[job.program].name());
+    refuse_bad_log_path(log_path, arguments, in.sources[in.given.program].name());
     tell_expected_size(job, arguments, log_path, header, console);
   }
   const auto log = open_log(in, header, log_path);
   emulator::AlarmList alarms(log.get());
 
-  Progress progress(arguments.output, count_lines(job.sources[job.program].text()));
+  Progress progress(arguments.output, count_lines(in.sources[in.given.program].text()));
   options.progress = [&](double done, std::uint32_t line, double sim_s) {
     progress.update(done, line, sim_s);
   };
   const auto result = emulator::run(job, &alarms, options);
   const double wall_s = progress.wall_s();
   progress.erase();
-  if (!result) {
-    if (result.error().world) fail(result.error().what);
-    console.error(result.error().what);
-    return kAlarm;
-  }
+  if (!result) fail(result.error().what);
 
   const int code = result->exit_code;
   emulator::SummaryContext context;
   context.program = in.program;
-  context.machine = machine_text(arguments.machine, job.machine.model);
+  context.machine = machine_text(arguments.machine, job.given.machine.model);
   context.scenario = in.scenario_name;
-  context.model = &job.machine.model;
-  context.path_unit = emulator::path_unit(job.path, job.machine.model);
+  context.model = &job.given.machine.model;
+  context.path_unit = emulator::path_unit(job.read.path, job.given.machine.model);
   context.plant = arguments.plant;
   context.program_warnings = in.diagnostics.warnings();
   context.alarms = alarms.alarms();
@@ -248,11 +246,11 @@ int run_program(const Arguments& arguments, Console& console) {
   in.arguments = arguments;
   read_inputs(in);
   if (!in.started) return refuse(in, kNotStarted, console);
-  const bool planned = emulator::prepare(in.job, in.diagnostics, emulator::SoftLimitRule::warning);
-  if (!planned || refused(in.diagnostics, arguments.strict)) return refuse(in, kNo, console);
+  const auto job = emulator::prepare(in.given, in.sources, in.diagnostics, emulator::SoftLimitRule::warning);
+  if (!job || refused(in.diagnostics, arguments.strict)) return refuse(in, kNo, console);
   if (!console.options().json)
-    console.diagnostics(in.diagnostics, in.job.sources, in.program, Console::Where::errors);
-  return move(in, console);
+    console.diagnostics(in.diagnostics, in.sources, in.program, Console::Where::errors);
+  return move(in, *job, console);
 }
 
 }  // namespace kadr::cli

@@ -41,29 +41,30 @@ std::string without_comments(std::string_view toml) {
 emulator::RunHeader run_header(const emulator::Job& job, const emulator::RunOptions& options,
                                const std::string& scenario_toml) {
   emulator::RunHeader header;
-  const SourceText& program = job.sources[job.program];
+  const SourceText& program = job.sources[job.given.program];
   header.program_name = file_name(program.name());
   header.program_text = program.text();
-  header.machine_toml = job.machine.text;
+  header.machine_toml = job.given.machine.text;
   header.scenario_toml = scenario_toml;
-  header.settings_toml = without_comments(machine::render_machine(job.machine));
+  header.settings_toml = without_comments(machine::render_machine(job.given.machine));
   header.settings_toml += fmt::format("[run]\nplant = {}\n", options.plant);
   if (options.until_s != machine::kInfinity)
     header.settings_toml += fmt::format("until_s = {}\n", options.until_s);
-  if (job.reading.block_delete) header.settings_toml += "block_delete = true\n";
-  if (job.reading.dialect != gcode::Dialect::linuxcnc)
-    header.settings_toml += fmt::format("dialect = \"{}\"\n", gcode::kDialects.word(job.reading.dialect));
-  if (job.reading.tools)
+  if (job.given.reading.block_delete) header.settings_toml += "block_delete = true\n";
+  if (job.given.reading.dialect != gcode::Dialect::linuxcnc)
     header.settings_toml +=
-        fmt::format("tools = \"\"\"\n{}\"\"\"\n", gcode::render_tool_table(*job.reading.tools));
-  for (const std::uint32_t file : job.called_files) {
+        fmt::format("dialect = \"{}\"\n", gcode::kDialects.word(job.given.reading.dialect));
+  if (job.given.reading.tools)
+    header.settings_toml +=
+        fmt::format("tools = \"\"\"\n{}\"\"\"\n", gcode::render_tool_table(*job.given.reading.tools));
+  for (const std::uint32_t file : job.read.called_files) {
     const SourceText& called = job.sources[file];
     Hash64 content;
     content.bytes(called.text().data(), called.text().size());
     header.settings_toml += fmt::format("[[called]]\nfile = \"{}\"\nhash = \"{:016x}\"\n",
                                         file_name(called.name()), content.digest());
   }
-  header.machine = &job.machine.model;
+  header.machine = &job.given.machine.model;
 
   Hash64 hash;
   for (const std::string* text :

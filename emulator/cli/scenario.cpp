@@ -89,29 +89,29 @@ int scenario_check(const Arguments& arguments, Console& console) {
   Json documents = Json::array();
   int worst = kYes;
   for (const std::string& path : scenarios_of(arguments)) {
-    emulator::Job job;
+    SourceSet sources;
+    emulator::JobInputs given;
     Diagnostics diagnostics;
-    const auto scenario = emulator::read_scenario(path, job.sources);
+    const auto scenario = emulator::read_scenario(path, sources);
     if (!scenario)
       for (const Diagnostic& d : scenario.error().list()) diagnostics.add(d);
     int code = scenario ? kYes : kNo;
     try {
-      if (scenario && !emulator::open_job(*scenario, job, diagnostics)) code = kNo;
+      if (scenario && !emulator::open_job(*scenario, given, sources, diagnostics)) code = kNo;
     } catch (const std::system_error& e) {
       console.error(fmt::format("{}: {}", path, e.what()));
       code = kNotStarted;
     }
     worst = std::max(worst, code);
     if (console.options().json) {
-      documents.push_back({{"file", path},
-                           {"exit_code", code},
-                           {"diagnostics", emulator::json_of(diagnostics, job.sources)}});
+      documents.push_back(
+          {{"file", path}, {"exit_code", code}, {"diagnostics", emulator::json_of(diagnostics, sources)}});
       continue;
     }
-    console.diagnostics(diagnostics, job.sources, path, Console::Where::output);
+    console.diagnostics(diagnostics, sources, path, Console::Where::output);
     if (code == kYes && tells)
       console.data(fmt::format("{}: scenario {}, program {}, machine {}: no errors\n", path, scenario->name,
-                               scenario->program_name, job.machine.model.name));
+                               scenario->program_name, given.machine.model.name));
   }
   if (console.options().json) console.document(documents);
   return worst;

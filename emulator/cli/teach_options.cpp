@@ -33,15 +33,13 @@ void bounded(CLI::App* sub, const std::string& name, T& value, double least, dou
 
 /// Words that may follow in a case.
 void case_words(Options& o, const CLI::App* sub) {
-  std::vector<std::string> names;
-  for (const emulator::TeachKind& k : emulator::teach_kinds()) names.emplace_back(k.name);
-  o.words(sub->get_option("CASE"), std::move(names));
+  o.words(sub->get_option("CASE"), emulator::kCaseKinds.strings());
 }
 
 void subject(Options& o, CLI::App* sub) {
   std::string kinds;
-  for (const emulator::TeachKind& k : emulator::teach_kinds())
-    kinds += fmt::format("\n  {} {}: {}", k.name, k.words, k.meaning);
+  for (const auto& k : emulator::kCaseKinds)
+    kinds += fmt::format("\n  {} {}: {}", k.word, emulator::case_numbers(k.value), k.sentence);
   sub->add_option("CASE", o.arguments.files, "What is interpolated, in whole steps:" + kinds)
       ->required()
       ->expected(1, 4096)

@@ -17,18 +17,18 @@ namespace kadr::cli {
 namespace {
 
 using emulator::Json;
-using emulator::LawMethod;
 using emulator::LawStudy;
+using emulator::PlanMethod;
 using emulator::TimeLawProblem;
 
 /// Methods of the command line, in the order of the table; all of the problem's if none is named.
-std::vector<LawMethod> chosen_methods(const Arguments& arguments, const TimeLawProblem& problem) {
-  std::vector<LawMethod> methods;
+std::vector<PlanMethod> chosen_methods(const Arguments& arguments, const TimeLawProblem& problem) {
+  std::vector<PlanMethod> methods;
   for (const std::string& name : arguments.methods) methods.push_back(*emulator::kLawMethods.find(name));
   if (methods.empty()) return emulator::methods_of(problem);
   std::sort(methods.begin(), methods.end());
   methods.erase(std::unique(methods.begin(), methods.end()), methods.end());
-  if (methods.back() == LawMethod::jerk_limited && !problem.jerk_mm_s3)
+  if (methods.back() == PlanMethod::jerk_limited && !problem.jerk_mm_s3)
     throw WorldError("--method jerk-limited: the problem gives no limit; write [jerk] with max_mm_s3 = ...");
   return methods;
 }
@@ -52,7 +52,7 @@ std::string tables(const Arguments& arguments, const LawStudy& study, const Time
   std::string out = emulator::render_problem(problem, name);
   const planner::LawSolution* law = nullptr;
   for (const emulator::MethodOutcome& o : study.outcomes)
-    if (o.method == LawMethod::tube && o.law) law = &*o.law;
+    if (o.method == PlanMethod::tube && o.law) law = &*o.law;
   if (!study.tube.passes.empty())
     out += '\n' + emulator::render_tube_log(study.tube, law, problem.law.length_u(), problem.tube);
   out += '\n' + emulator::render_law_table(study, arguments.timing);
@@ -111,9 +111,8 @@ int sweep_tube(const Arguments& arguments, const TimeLawProblem& problem, const 
 int solve_tube(const Arguments& arguments, Console& console) {
   const std::string& path = arguments.files.front();
   const std::string name = program_text(path);
-  emulator::Job job;
-  load_program(path, job);
-  SourceSet& sources = job.sources;
+  SourceSet sources;
+  const std::uint32_t file = load_program(path, sources);
   const auto refuse = [&](const Diagnostics& diagnostics) {
     if (console.options().json)
       console.document({{"kadr", KADR_VERSION},
@@ -125,15 +124,15 @@ int solve_tube(const Arguments& arguments, Console& console) {
       console.diagnostics(diagnostics, sources, name, Console::Where::errors);
     return kNotStarted;
   };
-  const auto problem = emulator::read_time_law_problem(sources, job.program);
+  const auto problem = emulator::read_time_law_problem(sources, file);
   if (!problem) return refuse(problem.error());
   if (!problem->warnings.list().empty())
     console.diagnostics(problem->warnings, sources, name, Console::Where::errors);
   const bool sweep = arguments.first_level > 0;
   TimeLawProblem sized = *problem;  // as large as it will get
   if (sweep) sized.tube.levels = arguments.last_level;
-  const std::vector<LawMethod> methods =
-      sweep ? std::vector{LawMethod::tube, LawMethod::optimum} : chosen_methods(arguments, *problem);
+  const std::vector<PlanMethod> methods =
+      sweep ? std::vector{PlanMethod::tube, PlanMethod::optimum} : chosen_methods(arguments, *problem);
   const bool keep_profiles = !arguments.page_path.empty();
   if (auto large = emulator::check_size(sized, methods, keep_profiles && !sweep)) {
     Diagnostics diagnostics;
@@ -143,7 +142,7 @@ int solve_tube(const Arguments& arguments, Console& console) {
   if (sweep) return sweep_tube(arguments, *problem, name, console);
   ProgressLine progress(arguments.output, ProgressLine::Elsewhere::nothing);
   const LawStudy study = emulator::study_laws(
-      *problem, methods, keep_profiles, [&](LawMethod method, std::string_view stage, double done) {
+      *problem, methods, keep_profiles, [&](PlanMethod method, std::string_view stage, double done) {
         tell(progress, fmt::format("{}: {}", emulator::kLawMethods.word(method), stage), done);
       });
   progress.erase();

@@ -1,6 +1,11 @@
 #include "emulator/cycle/input_timeline.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <utility>
+
+#include "emulator/cycle/tick_time.h"
 
 namespace kadr::emulator {
 namespace {
@@ -55,6 +60,19 @@ WaitOutcome wait_for(const gcode::InputWait& wait, double begin_s, const std::ve
   }
   outcome.waited_s = wait.timeout_s;
   return outcome;
+}
+
+void InputEvents::tick(ControlTicks tick) {
+  for (; next_ < steps_.size() && steps_[next_].tick <= tick; ++next_) {
+    const InputStep& step = steps_[next_];
+    EventRecord e;
+    e.tick = begin_of(step.tick, clock_);
+    e.block = events_.block();
+    e.kind = EventKind::input;
+    e.value = step.value;
+    e.text = fmt::format("{} input {} = {:.6g}", step.analog ? "analog" : "digital", step.number, step.value);
+    events_.append(std::move(e));
+  }
 }
 
 }  // namespace kadr::emulator

@@ -1,6 +1,8 @@
 #pragma once
+#include <cstddef>
 #include <vector>
 
+#include "emulator/cycle/event_list.h"
 #include "emulator/emulator.h"
 
 namespace kadr::emulator {
@@ -10,5 +12,20 @@ namespace kadr::emulator {
 /// @param steps  ascending by tick
 WaitOutcome wait_for(const gcode::InputWait& wait, double begin_s, const std::vector<InputStep>& steps,
                      double tau_s);
+
+/// Makes an event of each step of the timeline that sets an input, at the beginning of its control tick.
+class InputEvents {
+ public:
+  /// @param steps  ascending by tick; outlives this, as do clock and events
+  InputEvents(const std::vector<InputStep>& steps, const machine::ClockModel& clock, EventList& events)
+      : steps_(steps), clock_(clock), events_(events) {}
+  void tick(ControlTicks tick);
+
+ private:
+  const std::vector<InputStep>& steps_;
+  const machine::ClockModel& clock_;
+  EventList& events_;
+  std::size_t next_ = 0;
+};
 
 }  // namespace kadr::emulator

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "emulator/cycle/operator_panel.h"
+#include "emulator/cycle/operator/place_on_path.h"
 #include "emulator/cycle/place_limits.h"
 #include "emulator/cycle/program_reader.h"
 #include "emulator/cycle/soft_limits.h"
@@ -15,10 +15,10 @@ namespace {
 
 using gcode::Block;
 
-gcode::InterpretOptions interpret_options(const Job& job) {
-  const machine::MachineModel& machine = job.machine.model;
+gcode::InterpretOptions interpret_options(const JobInputs& given) {
+  const machine::MachineModel& machine = given.machine.model;
   gcode::InterpretOptions options;
-  static_cast<gcode::Reading&>(options) = job.reading;
+  static_cast<gcode::Reading&>(options) = given.reading;
   options.axis_letters.clear();
   for (const machine::AxisModel& axis : machine.axis) {
     options.axis_letters += axis.letter;
@@ -38,7 +38,7 @@ gcode::InterpretOptions interpret_options(const Job& job) {
 
 double hold_time_s(const ProgramEvent& event, const machine::MachineModel& machine) {
   const auto* dwell = std::get_if<gcode::Dwell>(&event.block.action);
-  const double wish_s = dwell != nullptr                               ? dwell->time_s
+  const double wish_s = dwell != nullptr                            ? dwell->time_s
                         : gcode::is<gcode::InputWait>(event.block)  ? event.wait.waited_s
                         : gcode::is<gcode::ChangeTool>(event.block) ? machine.planner.tool_change_s
                                                                     : 0.0;
@@ -48,64 +48,74 @@ double hold_time_s(const ProgramEvent& event, const machine::MachineModel& machi
   return std::ceil(wish_s / tau_s - 1e-9) * tau_s;
 }
 
-std::vector<planner::Pause> pauses(const Job& job) {
+std::vector<planner::Pause> pauses(const std::vector<ProgramEvent>& events,
+                                   const machine::MachineModel& machine) {
   std::vector<planner::Pause> pauses;
-  for (const ProgramEvent& event : job.events)
-    if (const double hold_s = hold_time_s(event, job.machine.model); hold_s > 0)
+  for (const ProgramEvent& event : events)
+    if (const double hold_s = hold_time_s(event, machine); hold_s > 0)
       pauses.push_back({event.after_segment, hold_s});
   return pauses;
 }
 
-bool lay_out(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits) {
-  gcode::InterpretOptions options = interpret_options(job);
-  ProgramReader reader(job, diagnostics, options.home);
+std::optional<ReadProgram> lay_out(const JobInputs& given, SourceSet& sources, Diagnostics& diagnostics,
+                                   SoftLimitRule soft_limits) {
+  gcode::InterpretOptions options = interpret_options(given);
+  ProgramReader reader(given, diagnostics, options.home);
   options.read_input = [&](const gcode::InputWait& wait) { return reader.read_input(wait); };
-  const std::size_t known_files = job.sources.size();
+  const std::size_t known_files = sources.size();
   gcode::interpret(
-      job.sources, job.program, options,
+      sources, given.program, options,
       [&](const Block& block) {
         if (!diagnostics.has_errors()) reader.take(block);
       },
       diagnostics);
-  reader.finish();
-  job.called_files.clear();
-  for (std::size_t file = known_files; file < job.sources.size(); ++file)
-    job.called_files.push_back(static_cast<std::uint32_t>(file));
-  if (diagnostics.has_errors()) return false;
+  ReadProgram read = reader.finish();
+  for (std::size_t file = known_files; file < sources.size(); ++file)
+    read.called_files.push_back(static_cast<std::uint32_t>(file));
+  if (diagnostics.has_errors()) return std::nullopt;
   const std::size_t errors = diagnostics.errors();
-  limit_places(job, diagnostics);
-  if (diagnostics.errors() != errors) return false;
-  check_soft_limits(job.path, job.machine.model, soft_limits, diagnostics);
-  return true;
+  limit_places(given.place_limits, read, diagnostics);
+  if (diagnostics.errors() != errors) return std::nullopt;
+  check_soft_limits(read.path, given.machine.model, soft_limits, diagnostics);
+  return read;
 }
 
-bool prepare(Job& job, Diagnostics& diagnostics, SoftLimitRule soft_limits, const PlanFunction& plan_path) {
-  if (!lay_out(job, diagnostics, soft_limits)) return false;
+std::optional<PlannedProgram> plan_program(const JobInputs& given, const SourceSet& sources,
+                                           const ReadProgram& read, Diagnostics& diagnostics,
+                                           const PlanFunction& plan_path) {
+  const machine::MachineModel& machine = given.machine.model;
   const std::size_t errors = diagnostics.errors();
-  place_on_path(job, diagnostics);
-  if (diagnostics.errors() != errors) return false;
-
-  const std::vector<planner::Pause> held = pauses(job);
-  auto plan = plan_path ? plan_path(job.path, job.machine.model, held)
-                        : planner::plan(job.path, job.machine.model, held);
+  PlannedProgram planned;
+  planned.step_places_u =
+      place_on_path(given.operator_steps, read.path, read.blocks, given.program, diagnostics);
+  if (diagnostics.errors() != errors) return std::nullopt;
+  const std::vector<planner::Pause> held = pauses(read.events, machine);
+  auto plan = plan_path ? plan_path(read.path, machine, held) : planner::plan(read.path, machine, held);
   if (!plan) {
     diagnostics.add(plan.error().diagnostic);
-    return false;
+    return std::nullopt;
   }
-  job.plan = std::move(*plan);
-  require_sound_plan(job);
-  job.motion_s = job.plan.motion_s;
-  job.dwell_s = job.plan.pause_s;
-  return true;
+  require_sound_plan(given, sources, read, *plan);
+  planned.plan = std::move(*plan);
+  return planned;
 }
 
-BlockSummary block_summary(const Job& job, std::size_t segment) {
+std::optional<Job> prepare(const JobInputs& given, SourceSet& sources, Diagnostics& diagnostics,
+                           SoftLimitRule soft_limits, const PlanFunction& plan) {
+  auto read = lay_out(given, sources, diagnostics, soft_limits);
+  if (!read) return std::nullopt;
+  auto planned = plan_program(given, sources, *read, diagnostics, plan);
+  if (!planned) return std::nullopt;
+  return Job{sources, given, std::move(*read), std::move(*planned)};
+}
+
+BlockSummary block_summary(const planner::Path& path, const planner::FeedPlan& plan, std::size_t segment) {
   BlockSummary summary;
-  summary.end_segment = job.path.block_end(segment);
-  summary.begin_s = job.plan.segments[segment].begin_time_s;
+  summary.end_segment = path.block_end(segment);
+  summary.begin_s = plan.segments[segment].begin_time_s;
   for (std::size_t i = segment; i < summary.end_segment; ++i) {
-    const planner::PathSegment& s = job.path.segments[i];
-    const planner::SegmentPlan& p = job.plan.segments[i];
+    const planner::PathSegment& s = path.segments[i];
+    const planner::SegmentPlan& p = plan.segments[i];
     const double feed_per_s = s.feed_length_u / s.length_u;
     summary.length_u += s.feed_length_u;
     if (!s.rapid) summary.programmed_u_s = s.feed_u_s * feed_per_s;
@@ -127,12 +137,11 @@ std::string limited_by_text(planner::LimitedBy reason, int axis, const machine::
   return text + " " + letter;
 }
 
-std::vector<LimitShare> limit_shares(const Job& job) {
+std::vector<LimitShare> limit_shares(const planner::MotionLaw& law, const machine::MachineModel& machine) {
   std::vector<LimitShare> shares;
-  for (const planner::JerkPiece& piece : job.plan.law.pieces) {
+  for (const planner::JerkPiece& piece : law.pieces) {
     const bool rest = piece.speed_u_s == 0 && piece.accel_u_s2 == 0 && piece.jerk_u_s3 == 0;
-    const std::string name =
-        rest ? "dwell" : limited_by_text(piece.limited_by, piece.limiting_axis, job.machine.model);
+    const std::string name = rest ? "dwell" : limited_by_text(piece.limited_by, piece.limiting_axis, machine);
     auto it =
         std::find_if(shares.begin(), shares.end(), [&](const LimitShare& s) { return s.limited_by == name; });
     if (it == shares.end()) it = shares.insert(shares.end(), LimitShare{name, 0.0});

@@ -6,9 +6,8 @@
 
 namespace kadr::emulator {
 
-/// Where a run under a percent takes longer than its plan at 100 %, tick by tick: the tick's length less the
-/// planned time for the path that it makes. The sum over all reasons is the difference of the two times but
-/// for dwells, which both have.
+/// Finds where a run under an override takes longer than its plan at 100 %, tick by tick: the tick's length less the
+/// planned time of the path it makes. The sum over all reasons is the difference of the two times; pauses are in both.
 class LostTime {
  public:
   /// @param law  outlives this

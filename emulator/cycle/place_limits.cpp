@@ -10,7 +10,7 @@
 
 namespace kadr::emulator {
 
-void limit_places(Job& job, Diagnostics& diagnostics) {
+void limit_places(const std::vector<PlaceLimit>& points, ReadProgram& read, Diagnostics& diagnostics) {
   const auto refuse = [&](const PlaceLimit& point, std::string label, const std::string& allowed,
                           std::string help) {
     Diagnostic d{};
@@ -22,26 +22,26 @@ void limit_places(Job& job, Diagnostics& diagnostics) {
     d.help = std::move(help);
     diagnostics.add(std::move(d));
   };
-  const bool waits = std::any_of(job.events.begin(), job.events.end(), [](const ProgramEvent& event) {
+  const bool waits = std::any_of(read.events.begin(), read.events.end(), [](const ProgramEvent& event) {
     return gcode::is<gcode::InputWait>(event.block);
   });
-  for (const PlaceLimit& point : job.place_limits) {
-    if (job.path.size() == 0 || point.at_u > job.path.length_u()) {
+  for (const PlaceLimit& point : points) {
+    if (read.path.size() == 0 || point.at_u > read.path.length_u()) {
       refuse(point, fmt::format("is at {:.6g} mm of the path", point.at_u),
-             fmt::format("0 to {:.6g} mm, its length", job.path.length_u()), "");
+             fmt::format("0 to {:.6g} mm, its length", read.path.length_u()), "");
       continue;
     }
     if (waits) {
       refuse(point, "the program waits for an input (M66)", "", "name the line of a move: at_line");
       continue;
     }
-    const std::size_t before = job.path.size(), segment = planner::cut_path(job.path, point.at_u);
-    if (segment == job.path.size()) continue;  // its end, at rest
-    planner::PathSegment& begins = job.path.segments[segment];
+    const std::size_t before = read.path.size(), segment = planner::cut_path(read.path, point.at_u);
+    if (segment == read.path.size()) continue;  // its end, at rest
+    planner::PathSegment& begins = read.path.segments[segment];
     begins.begin_limit_u_s =
         std::min(begins.begin_limit_u_s, point.max_u_s * (begins.length_u / begins.feed_length_u));
-    if (job.path.size() == before) continue;
-    for (ProgramEvent& event : job.events)
+    if (read.path.size() == before) continue;
+    for (ProgramEvent& event : read.events)
       if (event.after_segment >= segment) ++event.after_segment;
   }
 }

@@ -14,13 +14,13 @@ namespace {
 
 using gcode::Block;
 
-/// What an action is to the motion.
+/// Role of an action for the motion.
 enum class Role : std::uint8_t {
   move,
   setting,      ///< in force in each move already: no event
-  on_the_move,  ///< the machine need not stand still
+  on_the_move,  ///< the machine need not stop
   with_motion,  ///< as the next motion begins
-  at_rest,      ///< the machine stands still
+  at_rest,      ///< the machine stops
 };
 
 struct RoleOf {
@@ -38,9 +38,9 @@ struct RoleOf {
     return output.with_motion ? Role::with_motion : Role::at_rest;
   }
   Role operator()(const OneOf<gcode::Dwell, gcode::InputWait, gcode::SpindleClockwise,
-                              gcode::SpindleCounterclockwise, gcode::SpindleStop, gcode::MistOn, gcode::MistOff,
-                              gcode::FloodOn, gcode::FloodOff, gcode::ChangeTool, gcode::ProgramStop,
-                              gcode::OptionalStop, gcode::ProgramEnd> auto&) const {
+                              gcode::SpindleCounterclockwise, gcode::SpindleStop, gcode::MistOn,
+                              gcode::MistOff, gcode::FloodOn, gcode::FloodOff, gcode::ChangeTool,
+                              gcode::ProgramStop, gcode::OptionalStop, gcode::ProgramEnd> auto&) const {
     return Role::at_rest;
   }
 };
@@ -65,7 +65,8 @@ struct RecordOf {
   EventRecord operator()(const gcode::InputWait& wait) const {
     const std::string input = fmt::format("{} input {}", wait.analog ? "analog" : "digital", wait.number);
     const auto waited = [&](const char* mode) {
-      const std::string text = fmt::format("wait until {} {}, at most {:.6g} s: ", input, mode, wait.timeout_s);
+      const std::string text =
+          fmt::format("wait until {} {}, at most {:.6g} s: ", input, mode, wait.timeout_s);
       return text + (outcome.reached ? fmt::format("after {:.6g} s", outcome.waited_s) : "timed out");
     };
     switch (wait.mode) {
@@ -149,7 +150,9 @@ struct RecordOf {
     const std::size_t first = std::min(message.text.find_first_not_of(' '), message.text.size());
     return record(EventKind::message, 0, message.text.substr(first));
   }
-  EventRecord operator()(const gcode::ProgramStop&) const { return record(EventKind::stop, 0, "program stop"); }
+  EventRecord operator()(const gcode::ProgramStop&) const {
+    return record(EventKind::stop, 0, "program stop");
+  }
   EventRecord operator()(const gcode::OptionalStop&) const {
     return record(EventKind::stop, 0, "optional stop");
   }

@@ -4,15 +4,15 @@
 
 namespace kadr::emulator {
 
-/// Events at which the machine stands still: it waits for spindle, coolant, input or operator, or an output
+/// Events at which the machine stops: it waits for spindle, coolant, input or operator, or an output
 /// changes at once.
 bool needs_rest(const gcode::Block& block);
-/// What the log tells besides motion. Modal settings are in force in each motion block already: no events.
+/// The events of the log besides motion. Modal settings are part of each motion block: no events.
 bool is_event(const gcode::Block& block);
 /// An output that changes as the next motion begins: M62 M63 M67.
 bool waits_for_motion(const gcode::Block& block);
 
-/// Kind, value and text of the log's record; tick, block and place are left to the caller.
+/// Kind, value and text of the log's record; the caller adds tick, block and position.
 /// @pre is_event(event.block), or a probing move
 EventRecord event_record(const ProgramEvent& event);
 

@@ -26,12 +26,11 @@ int output_number(const Block& block) {
 
 }  // namespace
 
-ProgramReader::ProgramReader(Job& job, Diagnostics& diagnostics, const AxisValues& home)
-    : job_(job), diagnostics_(diagnostics), builder_(job.machine.model, home) {
-  job_.events.clear();
-  job_.blocks = 0;
-  for (LineLimit& point : job_.line_limits) point.met = false;
-}
+ProgramReader::ProgramReader(const JobInputs& given, Diagnostics& diagnostics, const AxisValues& home)
+    : given_(given),
+      diagnostics_(diagnostics),
+      builder_(given.machine.model, home),
+      line_limits_met_(given.line_limits.size()) {}
 
 void ProgramReader::take(const Block& block) {
   if (gcode::is_move(block))
@@ -44,16 +43,17 @@ void ProgramReader::take(const Block& block) {
 
 void ProgramReader::take_motion(const Block& block) {
   const std::uint32_t number = builder_.blocks();
-  for (LineLimit& point : job_.line_limits) {
-    if (point.met || point.line != block.span.line || block.span.file != job_.program) continue;
+  for (std::size_t i = 0; i < given_.line_limits.size(); ++i) {
+    const LineLimit& point = given_.line_limits[i];
+    if (line_limits_met_[i] || point.line != block.span.line || block.span.file != given_.program) continue;
     builder_.limit_speed(point.max_u_s);
-    point.met = true;
+    line_limits_met_[i] = true;
   }
   const bool moves = builder_.add(block);
-  ++job_.blocks;
+  ++blocks_;
   moved_by_angle_ = sync_by_angle_;
   if (moves) {
-    for (const Block& output : outputs_) job_.events.push_back({output, number});
+    for (const Block& output : outputs_) events_.push_back({output, number});
     outputs_.clear();
   }
   if (gcode::is<gcode::Probe>(block)) add_event(block);
@@ -82,15 +82,14 @@ void ProgramReader::take_wait(const Block& block, const gcode::InputWait& wait) 
     outcome = begin_wait(wait);
     for_program_ = outcome;
   }
-  job_.events.push_back({block, builder_.blocks(), outcome});
+  events_.push_back({block, builder_.blocks(), outcome});
   if (outcome.reached) return;
-  const std::string input =
-      fmt::format("{} input {}", wait.analog ? "analog" : "digital", wait.number);
-  diagnostics_.add(warning(
-      Code::wait_timed_out, block,
-      fmt::format("{} read {:.6g} for {:.6g} s; #5399 is -1", input, outcome.value, wait.timeout_s),
-      fmt::format("a scenario sets it: [[step]] at_s = 1.5 {} = {} value = 1",
-                  wait.analog ? "analog_input" : "input", wait.number)));
+  const std::string input = fmt::format("{} input {}", wait.analog ? "analog" : "digital", wait.number);
+  diagnostics_.add(
+      warning(Code::wait_timed_out, block,
+              fmt::format("{} read {:.6g} for {:.6g} s; #5399 is -1", input, outcome.value, wait.timeout_s),
+              fmt::format("a scenario sets it: [[step]] at_s = 1.5 {} = {} value = 1",
+                          wait.analog ? "analog_input" : "input", wait.number)));
 }
 
 gcode::InputReading ProgramReader::read_input(const gcode::InputWait& wait) {
@@ -109,23 +108,23 @@ WaitOutcome ProgramReader::begin_wait(const gcode::InputWait& wait) {
   // nothing moves after an error: what is waited for does not matter any more
   if (diagnostics_.has_errors()) return {true, 0, 0};
   builder_.stop();
-  return wait_for(wait, time_so_far_s(), job_.inputs, job_.machine.model.clock.tau_s());
+  return wait_for(wait, time_so_far_s(), given_.inputs, given_.machine.model.clock.tau_s());
 }
 
 double ProgramReader::time_so_far_s() {
-  const machine::MachineModel& machine = job_.machine.model;
+  const machine::MachineModel& machine = given_.machine.model;
   // a path that can't be planned is told when all of it is planned
   time_s_ += planner::motion_time_s(builder_.path(), machine, timed_segments_).value_or(0.0);
   timed_segments_ = builder_.path().size();
-  for (; timed_events_ < job_.events.size(); ++timed_events_)
-    time_s_ += hold_time_s(job_.events[timed_events_], machine);
+  for (; timed_events_ < events_.size(); ++timed_events_)
+    time_s_ += hold_time_s(events_[timed_events_], machine);
   return time_s_;
 }
 
 void ProgramReader::keep_output(const Block& block) {
   const auto* digital = std::get_if<gcode::DigitalOutput>(&block.action);
   const int number = output_number(block);
-  for (const machine::TechnologyRule& rule : job_.machine.model.technology)
+  for (const machine::TechnologyRule& rule : given_.machine.model.technology)
     if (rule.number == number && rule.analog == (digital == nullptr) && (!digital || rule.on == digital->on))
       builder_.limit_speed(rule.max_u_s);
   // the last setting of an output is the one that the next motion takes along
@@ -137,34 +136,35 @@ void ProgramReader::keep_output(const Block& block) {
 }
 
 /// The place of an event is the number of the motion block that follows, until place_events().
-void ProgramReader::add_event(const Block& block) { job_.events.push_back({block, builder_.blocks()}); }
+void ProgramReader::add_event(const Block& block) { events_.push_back({block, builder_.blocks()}); }
 
 /// From motion blocks to segments: a block may have none, or several.
-void ProgramReader::place_events() {
-  const std::vector<planner::PathSegment>& segments = job_.path.segments;
+void ProgramReader::place_events(const planner::Path& path) {
+  const std::vector<planner::PathSegment>& segments = path.segments;
   std::size_t segment = 0;
-  for (ProgramEvent& event : job_.events) {
+  for (ProgramEvent& event : events_) {
     while (segment < segments.size() && segments[segment].block < event.after_segment) ++segment;
     event.after_segment = segment;
   }
 }
 
-void ProgramReader::finish() {
-  for (const LineLimit& point : job_.line_limits)
-    if (!point.met)
+ReadProgram ProgramReader::finish() {
+  for (std::size_t i = 0; i < given_.line_limits.size(); ++i)
+    if (!line_limits_met_[i])
       diagnostics_.add({Code::scenario_technology,
                         Severity::error,
-                        point.span,
+                        given_.line_limits[i].span,
                         std::string(code_entry(Code::scenario_technology).title),
-                        fmt::format("no motion begins on line {}", point.line),
+                        fmt::format("no motion begins on line {}", given_.line_limits[i].line),
                         {},
                         "name the line of a move"});
   for (const Block& output : outputs_)
     diagnostics_.add(warning(Code::output_without_motion, output, "no motion follows: it never changes",
                              "M64, M65 and M68 change an output at once"));
   outputs_.clear();
-  job_.path = builder_.take();
-  place_events();
+  planner::Path path = builder_.take();
+  place_events(path);
+  return {std::move(path), std::move(events_), blocks_, {}};
 }
 
 }  // namespace kadr::emulator

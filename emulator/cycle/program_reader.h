@@ -13,13 +13,14 @@ namespace kadr::emulator {
 /// the planned time of all that came before.
 class ProgramReader {
  public:
-  ProgramReader(Job& job, Diagnostics& diagnostics, const AxisValues& home);
+  /// @param given, diagnostics  outlive this
+  ProgramReader(const JobInputs& given, Diagnostics& diagnostics, const AxisValues& home);
 
   void take(const gcode::Block& block);
-  /// What M66 gets: the machine stands, and waits from the time at which its path so far has been travelled.
+  /// Answers M66: the machine is at rest, and waits from the planned end of its path so far.
   gcode::InputReading read_input(const gcode::InputWait& wait);
-  /// Hands path, events and number of blocks to the job.
-  void finish();
+  /// Path, events and number of blocks, after the last block.
+  ReadProgram finish();
 
  private:
   void take_motion(const gcode::Block& block);
@@ -27,13 +28,16 @@ class ProgramReader {
   void take_wait(const gcode::Block& block, const gcode::InputWait& wait);
   void keep_output(const gcode::Block& block);
   void add_event(const gcode::Block& block);
-  void place_events();
+  void place_events(const planner::Path& path);
   WaitOutcome begin_wait(const gcode::InputWait& wait);
   double time_so_far_s();
 
-  Job& job_;
+  const JobInputs& given_;
   Diagnostics& diagnostics_;
   planner::PathBuilder builder_;
+  std::vector<ProgramEvent> events_;
+  std::uint32_t blocks_ = 0;
+  std::vector<bool> line_limits_met_;  ///< [given.line_limits] a motion begins there
   std::vector<gcode::Block> outputs_;  ///< that change as the next motion begins
   bool sync_by_angle_ = false;         ///< moves follow the spindle's angle
   bool moved_by_angle_ = false;        ///< the last move did

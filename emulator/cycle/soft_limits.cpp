@@ -50,7 +50,7 @@ void check_soft_limits(const planner::Path& path, const machine::MachineModel& m
     for (std::size_t i = 0; i < path.size();) {
       const std::size_t end = path.block_end(i);
       const auto [low_u, high_u] = block_extent(path, i, end, static_cast<int>(a));
-      // a move that only comes back from outside is not told again
+      // a move that only comes back from outside is not reported again
       const double start_u = path.node(i)[a];
       if (high_u > std::max(axis.soft_max_u, start_u) + kSamePoint_u ||
           (i == 0 && start_u > axis.soft_max_u + kSamePoint_u))

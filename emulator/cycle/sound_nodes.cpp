@@ -8,7 +8,7 @@
 
 namespace kadr::emulator {
 
-void require_sound_nodes(std::int64_t control_tick, const CrossingInterpolator& interpolator,
+void require_sound_nodes(ControlTicks control_tick, const CrossingInterpolator& interpolator,
                          const Job& job) {
   // half a step, and what the moment of a slow crossing may be rounded by
   constexpr double kMost_steps = 0.5 + 1e-6;
@@ -16,14 +16,14 @@ void require_sound_nodes(std::int64_t control_tick, const CrossingInterpolator& 
   const auto axis = std::max_element(worst.begin(), worst.end());
   // written so that NaN breaks the promise
   if (axis == worst.end() || *axis <= kMost_steps) return;
-  const machine::MachineModel& machine = job.machine.model;
-  const Span& span = job.path.segments[interpolator.worst_node_segment()].span;
+  const machine::MachineModel& machine = job.given.machine.model;
+  const Span& span = job.read.path.segments[interpolator.worst_node_segment()].span;
   throw BrokenPromise(fmt::format(
       "at every pulse the node is within half a step of the path: {}:{}: axis {} is {:.9g} steps from it, "
       "allowed {:.9g}, in the control tick that begins at {:.6f} s",
       job.sources[span.file].name(), span.line,
       machine.axis[static_cast<std::size_t>(axis - worst.begin())].letter, *axis, kMost_steps,
-      static_cast<double>(control_tick) * machine.clock.tau_s()));
+      static_cast<double>(control_tick.value) * machine.clock.tau_s()));
 }
 
 }  // namespace kadr::emulator

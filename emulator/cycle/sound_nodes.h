@@ -1,6 +1,4 @@
 #pragma once
-#include <cstdint>
-
 #include "emulator/emulator.h"
 #include "emulator/interpolator/interpolator.h"
 
@@ -10,6 +8,6 @@ namespace kadr::emulator {
 /// every axis is within half a step of the path.
 /// @param control_tick  that was advanced
 /// @throws BrokenPromise with program line, axis, and the distance in steps
-void require_sound_nodes(std::int64_t control_tick, const CrossingInterpolator& interpolator, const Job& job);
+void require_sound_nodes(ControlTicks control_tick, const CrossingInterpolator& interpolator, const Job& job);
 
 }  // namespace kadr::emulator

@@ -35,18 +35,19 @@ bool is_equality(std::string_view what) {
 }
 
 /// "part.ngc:12: axis acceleration of X is 39991 mm/s2, allowed 2500 mm/s2, at 1.5 s and 20 of 38 mm of path"
-std::string violation_text(const planner::Violation& v, const Job& job) {
-  const machine::MachineModel& machine = job.machine.model;
-  std::string place = job.sources[job.program].name();
+std::string violation_text(const planner::Violation& v, const JobInputs& given, const SourceSet& sources,
+                           const planner::Path& path, const planner::MotionLaw& law) {
+  const machine::MachineModel& machine = given.machine.model;
+  std::string place = sources[given.program].name();
   double at_u = 0;
-  if (v.segment < job.path.size()) {
-    const Span& span = job.path.segments[v.segment].span;
-    place = fmt::format("{}:{}", job.sources[span.file].name(), span.line);
-    at_u = job.path.start_s_u[v.segment];
+  if (v.segment < path.size()) {
+    const Span& span = path.segments[v.segment].span;
+    place = fmt::format("{}:{}", sources[span.file].name(), span.line);
+    at_u = path.start_s_u[v.segment];
   }
-  if (!job.plan.law.pieces.empty()) {
+  if (!law.pieces.empty()) {
     std::size_t hint = 0;
-    at_u = job.plan.law.eval(std::clamp(v.time_s, 0.0, job.plan.law.duration_s), hint).s_u;
+    at_u = law.eval(std::clamp(v.time_s, 0.0, law.duration_s), hint).s_u;
   }
   std::string what = v.what;
   if (v.axis >= 0) what += fmt::format(" of {}", machine.axis[static_cast<std::size_t>(v.axis)].letter);
@@ -55,15 +56,17 @@ std::string violation_text(const planner::Violation& v, const Job& job) {
       "a plan keeps path and machine: {}: {} is {:.10g}{}, {} {:.10g}{}, at {:.6f} s and "
       "{:.6g} of {:.6g} mm of path",
       place, what, v.value, unit, is_equality(v.what) ? "expected" : "allowed", v.limit, unit, v.time_s, at_u,
-      job.path.length_u());
+      path.length_u());
 }
 
 }  // namespace
 
-void require_sound_plan(const Job& job) {
+void require_sound_plan(const JobInputs& given, const SourceSet& sources, const ReadProgram& read,
+                        const planner::FeedPlan& plan) {
+  const machine::MachineModel& machine = given.machine.model;
   const auto found =
-      planner::verify(job.path, job.plan, job.machine.model, planner::production_check(), pauses(job));
-  if (!found.empty()) throw BrokenPromise(violation_text(found.front(), job));
+      planner::verify(read.path, plan, machine, planner::production_check(), pauses(read.events, machine));
+  if (!found.empty()) throw BrokenPromise(violation_text(found.front(), given, sources, read.path, plan.law));
 }
 
 }  // namespace kadr::emulator

@@ -12,18 +12,16 @@ namespace {
 // pi in two parts; the first has 31 bits, so that its product with a count of half turns below 2^22 is exact
 constexpr double kPiHead = 0x1.921fb54400000p+1;
 constexpr double kPiTail = 0x1.0b4611a626331p-33;
-// guards of two searches: Newton with a slope in [1, 2], and Newton in a bracket, where halving alone needs
-// 54
+// guards of two searches: Newton with a slope in [1, 2], and Newton in a bracket, where halving alone needs 54
 constexpr int kTurningSteps = 16;
 constexpr int kBracketSteps = 100;
 // an extreme this near to a segment's end is the end itself; it moves the axis by radius * 5e-17
 constexpr double kSameAngle_rad = 1e-8;
 
-// what a crossing may be off, in steps
+// allowed error of a crossing, in steps
 constexpr double kSettled_steps = 1e-12;
 
-/// Arc cosine within 7e-5 rad (Abramowitz and Stegun 4.4.45): good enough to know the radius of a spiral
-/// there.
+/// Arc cosine within 7e-5 rad (Abramowitz and Stegun 4.4.45): good enough to know the radius of a spiral there.
 double rough_acos(double c) {
   const double a = std::min(std::fabs(c), 1.0);
   const double angle = std::sqrt(1.0 - a) * (1.5707288 + a * (-0.2121144 + a * (0.0742610 - 0.0187293 * a)));
@@ -56,7 +54,7 @@ void ArcCrossings::start(const planner::ArcShape& shape, bool second, double ste
   begin_piece();
 }
 
-/// delta(u): how far the extremes of a spiral lag behind those of a circle, in (-pi/2, pi/2].
+/// delta(u): lag of the extremes of a spiral behind those of a circle, in (-pi/2, pi/2].
 double ArcCrossings::lag_rad(double u) const {
   if (growth_ == 0.0) return 0.0;
   return exact_atan2(growth_, (radius_ + growth_ * u) * sweep_rad_);
@@ -68,8 +66,7 @@ double ArcCrossings::half_turns_rad(std::int64_t m) const {
   return (turns * kPiHead - psi_rad_) + turns * kPiTail;
 }
 
-/// The u of extreme m, not before u_from: root of u - (m pi - psi + delta(u))/sweep, whose slope lies in [1,
-/// 2].
+/// The u of extreme m, not before u_from: root of u - (m pi - psi + delta(u))/sweep, whose slope lies in [1, 2].
 double ArcCrossings::turning_share(std::int64_t m, double u_from) const {
   const double base = half_turns_rad(m);
   double u = std::clamp((base + lag_rad(u_from)) * u_per_rad_, u_from, 1.0);
@@ -174,7 +171,7 @@ void ArcCrossings::spiral_angles(const Run& height, Run& chi) const {
   }
   for (int i = 0; i < count; ++i) chi[i] = exact_atan2(width[i], height[i]);
 
-  // one Newton step with the sine and cosine known already; what is left is second order
+  // one Newton step with the sine and cosine already known; the rest is second order
   unsigned settled[kRun];
   unsigned all = 1;
   const double low = chi_begin_, high = chi_end_, bend = 2.0 * std::fabs(per_rad);
@@ -206,7 +203,7 @@ double ArcCrossings::bracketed_angle(double height) const {
     const double value = r * t.cos - height;
     const double slope = radius_per_rad_ * t.cos - r * t.sin;
     const double better = chi - value / slope;
-    // convergence is asked before the bracket, else rounding throws the search back to halving
+    // test convergence before the bracket, otherwise rounding would force needless bisection
     if (std::fabs(better - chi) <= 4e-16 * (1.0 + std::fabs(chi)))
       return std::clamp(better, chi_begin_, chi_end_);
     if (value > 0.0)

@@ -187,7 +187,7 @@ void CrossingInterpolator::Impl::advance(const planner::TickMotion& motion, Step
   }
   end_commands(motion, batch);
   if (!tracing && !checking) return;
-  // the events were found axis by axis; the index keeps pulses of one axis at one place in order
+  // the events were found axis by axis; the index keeps pulses of one axis at one position in order
   std::stable_sort(events.begin(), events.end(), [](const StepEvent& a, const StepEvent& b) {
     if (a.segment != b.segment) return a.segment < b.segment;
     return a.s_u != b.s_u ? a.s_u < b.s_u : a.axis < b.axis;

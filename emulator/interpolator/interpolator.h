@@ -22,11 +22,11 @@ namespace kadr::emulator {
 using kadr::lattice_node;
 using kadr::StepHash;
 
-/// One pulse with its place: what a drawing, a study or the self-check needs beyond the batch.
+/// One pulse with its position: data that a drawing, a study or the self-check needs beyond the batch.
 struct StepEvent {
   std::size_t segment = 0;
-  double s_u =
-      0;  ///< on the segment, in [0, length]; a pure function of segment and pulse, whatever the feed
+  /// on the segment, in [0, length]; a pure function of segment and pulse, whatever the feed
+  double s_u = 0;
   std::int32_t axis = 0;
   std::int32_t sign = 1;
   double moment_ticks = 0;  ///< unrounded, since the control tick's beginning
@@ -40,7 +40,7 @@ class CrossingInterpolator {
   ~CrossingInterpolator();
   /// Fills the batch with all pulses of this tick (storage reused, no allocation after the first ticks) and
   /// the axis commands at its ends. Ticks must come in order. A pulse fires in the tick whose (s_begin,
-  /// s_end] holds its place; a place at the very beginning of a segment fires when the motion enters it. A
+  /// s_end] contains its position; a position at the very beginning of a segment fires when the motion enters it. A
   /// tick that ends at rest within 1e-9 units before a joint is on the joint.
   void advance(const planner::TickMotion& motion, StepBatch& batch);
   /// Lattice node (steps from machine zero) at the end of the last tick, per machine axis; begins at the node
@@ -57,7 +57,7 @@ class CrossingInterpolator {
   const std::vector<double>& worst_node_error_steps() const;
   /// Segment of the largest of them.
   std::size_t worst_node_segment() const;
-  /// The last tick's pulses of all axes in path order: by segment, place, axis number. Only kept when trace
+  /// The last tick's pulses of all axes in path order: by segment, position, axis number. Only kept when trace
   /// is on. Slow.
   void set_trace(bool on);
   const std::vector<StepEvent>& trace() const;

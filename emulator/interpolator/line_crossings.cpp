@@ -20,7 +20,7 @@ std::int64_t LineCrossings::reached(double s_end_u) const {
   const double estimate = std::floor(s_end_u / spacing_u - first_level) + 1.0;
   const double most = static_cast<double>(count);
   auto k = static_cast<std::int64_t>(std::clamp(estimate, static_cast<double>(next), most));
-  // the estimate may be off by rounding; the crossings' own places decide
+  // the estimate may be off by rounding; the positions of the crossings decide
   while (k < count && s_u(k) <= s_end_u) ++k;
   while (k > next && s_u(k - 1) > s_end_u) --k;
   return k;

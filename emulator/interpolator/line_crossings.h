@@ -4,8 +4,7 @@
 namespace kadr::emulator {
 
 /// Half-crossings of one axis that moves linearly along a segment: x(s) = begin + (end - begin) s/length, in
-/// steps. Crossing k = 0, 1, ... of the levels node_begin +- (k + 1/2) lies at s_k = (first_level + k)
-/// spacing_u.
+/// steps. Crossing k = 0, 1, ... of the levels node_begin +- (k + 1/2) lies at s_k = (first_level + k) spacing_u.
 struct LineCrossings {
   double first_level = 0;  ///< distance from the beginning to the first level, steps
   double spacing_u = 0;    ///< path length from level to level
@@ -20,8 +19,7 @@ struct LineCrossings {
 
   double s_u(std::int64_t k) const { return (first_level + static_cast<double>(k)) * spacing_u; }
 
-  /// Number of crossings, from the beginning, that lie at or before s_end_u: exactly those with s_u(k) <=
-  /// s_end_u.
+  /// Number of crossings, from the beginning, that lie at or before s_end_u: exactly those with s_u(k) <= s_end_u.
   std::int64_t reached(double s_end_u) const;
 };
 

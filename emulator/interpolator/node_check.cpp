@@ -57,7 +57,7 @@ void NodeCheck::add(const planner::TickMotion& motion, const std::vector<std::in
 
 void NodeCheck::measure(std::size_t segment, std::size_t axis, std::int64_t node, double s_u) {
   const double step_u = machine_.axis[axis].step_u;
-  // no double can tell places nearer than this on a path of that length and at that position
+  // doubles can't resolve positions closer than this on a path of that length and at that position
   const double blur_u =
       4.0 * std::numeric_limits<double>::epsilon() * (s_u + std::fabs(position_u_[axis]) + reach_u_[axis]);
   const double error = std::fabs(static_cast<double>(node) - position_u_[axis] / step_u) - blur_u / step_u;

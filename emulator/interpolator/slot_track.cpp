@@ -1,7 +1,6 @@
 #include "emulator/interpolator/slot_track.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -14,41 +13,16 @@ namespace {
 
 using lattice::Method;
 
-constexpr double kOnNode = 1e-6;  // steps: a centre that is a node but for rounding
+constexpr double kOnNode = 1e-6;  // steps: a centre that is a node up to rounding
 constexpr double kOneTurn_rad = 2 * kPi * (1 + 1e-9);
 
-/// For each `interpolator.method`: the stepper used on lines and the one used on arcs. A method without one
-/// of its own falls back to a similar one.
-struct Followers {
-  Method asked;
-  Method line, arc;
-};
-constexpr std::array<Followers, machine::kMachineMethods.size()> kFollowers = {{
-    {Method::crossing, Method::crossing, Method::crossing},
-    {Method::classic, Method::classic, Method::classic},
-    {Method::half_step, Method::half_step, Method::half_step},
-    {Method::diagonal, Method::diagonal, Method::octant_midpoint},
-    {Method::extra_points, Method::extra_points, Method::extra_points},
-    {Method::octant_midpoint, Method::diagonal, Method::octant_midpoint},
-    {Method::dda, Method::dda, Method::dda_sequential},
-    {Method::dda_preloaded, Method::dda_preloaded, Method::dda_sequential},
-    {Method::dda_sequential, Method::dda_preloaded, Method::dda_sequential},
-    {Method::dda_simultaneous, Method::dda_preloaded, Method::dda_simultaneous},
-    {Method::progression, Method::progression, Method::progression},
-    {Method::chords, Method::diagonal, Method::chords},
-    {Method::ptp, Method::ptp, Method::ptp},
-}};
-static_assert(std::equal(kFollowers.begin(), kFollowers.end(), machine::kMachineMethods.begin(),
-                         [](const Followers& f, const auto& word) { return f.asked == word.value; }),
-              "every method of a machine has its followers, in order");
-
-const Followers& followers_of(Method asked) {
-  const auto i = static_cast<std::size_t>(asked);
-  require(i < kFollowers.size(), "a machine runs none of the laboratory's methods");
-  return kFollowers[i];
+const lattice::MethodEntry::Followers& followers_of(Method asked) {
+  const auto& followers = lattice::entry_of(asked).on_machine;
+  require(followers.has_value(), "a machine runs none of the laboratory's methods");
+  return *followers;
 }
 
-/// A coordinate that is a node but for rounding.
+/// A coordinate that is a node up to rounding.
 std::optional<std::int64_t> node_of(double position_u, double step_u) {
   const double steps = position_u / step_u, node = std::floor(steps + 0.5);
   if (std::fabs(steps - node) > kOnNode) return {};
@@ -79,7 +53,7 @@ bool SlotTrack::start(const planner::Path& path, std::size_t segment, const mach
     curve_ = line;
     method_ = followers_of(machine.interpolator).line;
     // the two extra points lie in a plane
-    if (method_ == Method::extra_points && line.axes > 2) method_ = Method::diagonal;
+    if (!lattice::knows(method_, curve_)) method_ = Method::diagonal;
   } else if (piece.kind == planner::SegmentKind::arc) {
     const planner::ArcShape& shape = path.arc_of(segment);
     const auto first = static_cast<std::size_t>(shape.first_axis);
@@ -101,7 +75,7 @@ bool SlotTrack::start(const planner::Path& path, std::size_t segment, const mach
   }
   lattice::Made counted = make();
   if (!counted.stepper) return false;
-  // how many slots there are says how far they lie apart
+  // dry run: the slot count fixes the spacing
   slots_ = passed_ = 0;
   while (counted.stepper->next(slot_)) ++slots_;
   stepper_ = make().stepper;
@@ -114,7 +88,7 @@ lattice::Made SlotTrack::make() const { return lattice::make_stepper(curve_, met
 
 void SlotTrack::advance() {
   has_next_ = stepper_->next(slot_);
-  // a slot's pulses stand in its middle
+  // a slot's pulses are in its middle
   s_u_ = length_u_ * (static_cast<double>(passed_++) + 0.5) / static_cast<double>(slots_);
 }
 

@@ -13,17 +13,16 @@ namespace kadr::emulator {
 /// clock slot after the other, the slots evenly over the segment's length. For study: it shows how such
 /// controllers modulate the feed, by up to sqrt 2 along the path and 2 : 1 on an axis.
 ///
-/// Lines in any axes and arcs in a plane of equal steps, whose centre is a node, with at most one turn. The
-/// method that a kind of curve does not know is replaced by the nearest one that does the same with it: lines
-/// by `diagonal`, arcs by `octant_midpoint` or `dda_sequential`.
+/// Lines in any axes and arcs in a plane of equal steps, whose centre is a node, with at most one turn. A
+/// method that does not know lines, or arcs, is replaced by its closest equivalent (MethodEntry::on_machine).
 class SlotTrack {
  public:
-  /// Takes up a segment; false: no method here follows it, or none is asked for.
+  /// Takes up a segment; false: no method here follows it, or none is configured.
   /// @param node_begin, node_end  [axes] lattice nodes of the segment's ends
   bool start(const planner::Path& path, std::size_t segment, const machine::MachineModel& machine,
              const std::vector<std::int64_t>& node_begin, const std::vector<std::int64_t>& node_end);
 
-  /// The next slot, until there are none: where on the segment it is, and what steps in it.
+  /// The next slot, until there are none: its position on the segment, and the axes that step.
   bool at_end() const { return !has_next_; }
   double s_u() const { return s_u_; }
   int step(std::size_t axis) const {

@@ -11,7 +11,7 @@ template <class Moment>
 inline void stamp_line_loop(const TickClock& clock, double first_level, double spacing_u, double k_begin,
                             int count, double segment_ahead_u, std::uint16_t* out, Moment moment) {
   for (int i = 0; i < count; ++i) {
-    // k is exact as a double, so a pulse's place does not depend on the tick it is stamped in
+    // k is exact as a double, so a pulse's position does not depend on the tick it is stamped in
     const double k = k_begin + static_cast<double>(i);
     const double s_u = (first_level + k) * spacing_u;
     out[i] = clock.offset(moment(s_u + segment_ahead_u));

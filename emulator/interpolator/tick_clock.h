@@ -7,7 +7,7 @@
 
 namespace kadr::emulator {
 
-/// One control tick's motion s(t) turned round: at which moment is a place of the path reached?
+/// Inverse of one control tick's motion s(t): the moment at which a position of the path is reached.
 ///
 /// With w = (s - s_begin)/(s_end - s_begin) and z = (t - t_b)/(t_e - t_b), both in [0, 1], ramp speeds v0, v1
 /// and p = v0/(v0 + v1), the linear feed of planner/laws/motion_source.h reads
@@ -27,8 +27,7 @@ struct TickClock {
   /// @pre motion.s_end_u > motion.s_begin_u
   TickClock(const planner::TickMotion& motion, std::int64_t control_tick);
 
-  /// Share of the tick's path that is done `ds_u` after its beginning, clamped to [0, 1]; not-a-number
-  /// becomes 0.
+  /// Share of the tick's path that is done `ds_u` after its beginning, clamped to [0, 1]; not-a-number becomes 0.
   double share(double ds_u) const {
     const double w = ds_u * inverse_ds_per_u;
     const double positive = w > 0.0 ? w : 0.0;
@@ -42,8 +41,7 @@ struct TickClock {
     // the tiny number changes nothing but 0/0 at the very start of a motion from rest
     return begin_ticks + span_ticks * (w / (p + root + 1e-300));
   }
-  /// The same for constant speed (p = 1/2), where the formula above is w/1: the same bits, without sqrt and
-  /// division.
+  /// The same for constant speed (p = 1/2), where the formula above is w/1: the same bits, without sqrt and division.
   double steady_moment_ticks(double ds_u) const { return begin_ticks + span_ticks * share(ds_u); }
 
   /// The base tick that holds a moment.
@@ -62,12 +60,11 @@ struct TickClock {
 void stamp_line(const TickClock& clock, double first_level, double spacing_u, std::int64_t k_begin,
                 std::size_t count, double segment_ahead_u, std::uint16_t* offset_ticks);
 
-/// Stamps pulses at given places s_u[count] of their segment.
+/// Stamps pulses at given positions s_u[count] of their segment.
 void stamp_list(const TickClock& clock, const double* s_u, std::size_t count, double segment_ahead_u,
                 std::uint16_t* offset_ticks);
 
-/// Makes offsets never decrease, from `begin` on: two crossings within rounding of each other may swap base
-/// ticks.
+/// Makes offsets never decrease, from `begin` on: two crossings within rounding of each other may swap base ticks.
 void keep_ascending(std::uint16_t* offset_ticks, std::size_t count);
 
 }  // namespace kadr::emulator

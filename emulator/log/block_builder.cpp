@@ -131,7 +131,7 @@ AxisSample BlockBuilder::axis_sample(const TickRecord& record, const StepBatch& 
     m.load_rate = state.base_u_s + state.link_u_s;
     m.motor_force_N = state.motor_force_N;
   }
-  constexpr double kMicro = 1000;  // um in a mm, millidegrees in a degree
+  constexpr double kMicro = 1000;  // um per mm, millidegrees per degree
   m.load_minus_ideal_um = kMicro * (m.load - m.ideal);
   return m;
 }

@@ -9,7 +9,7 @@
 namespace kadr::emulator {
 namespace {
 
-/// One byte for a pulse at an even pace, two where the interval changes by 64 base ticks or more.
+/// One byte for a pulse at a constant rate, two where the interval changes by 64 base ticks or more.
 constexpr double kBytesPerPulse = 1.08;
 
 /// Bytes of the messages that a run is made of: typical ones are encoded and measured.

@@ -11,8 +11,7 @@
 
 namespace kadr::emulator {
 
-/// The events of an LCM log file, one after the other, every length checked against the file before it is
-/// believed.
+/// The events of an LCM log file, one after the other, every length checked against the file before it is believed.
 class EventFile {
  public:
   enum class Next : std::uint8_t { event, end, cut, damaged };

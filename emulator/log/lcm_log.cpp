@@ -23,7 +23,7 @@ constexpr std::size_t kFileBuffer = std::size_t{1} << 18;
 
 std::string error_text(int number) { return number == 0 ? "unknown error" : std::strerror(number); }
 
-/// Multicast must not leave this host unasked: a udpm URL without a ttl gets ttl=0.
+/// Multicast must not leave this host unless requested: a udpm URL without a ttl gets ttl=0.
 std::string with_local_ttl(const std::string& url) {
   if (url.compare(0, 5, "udpm:") != 0 || url.find("ttl=") != std::string::npos) return url;
   return url + (url.find('?') == std::string::npos ? "?ttl=0" : "&ttl=0");
@@ -122,7 +122,7 @@ class Sink {
   std::vector<std::uint8_t> bytes_;
   Hash64 content_;
   Ticks valid_until_;
-  std::optional<LogError> error_;  // the first one stays: nothing is written behind a gap
+  std::optional<LogError> error_;  // the first one stays: nothing is written after a gap
 };
 
 /// Channels that LcmLog writes a message of for each record; those of exact data follow from their tables.

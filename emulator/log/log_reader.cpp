@@ -36,8 +36,7 @@ struct LogReader::Impl {
     end.valid_until = valid_until();
   }
 
-  /// Exact data come after the events and viewer messages of their ticks: they say how far everything is
-  /// complete.
+  /// Exact data come after the events and viewer messages of their ticks: they say how far everything is complete.
   Ticks valid_until() const {
     if (summary) return seen_until;
     if (header.logs_ticks && header.logs_steps) return std::min(ticks_until, steps_until);

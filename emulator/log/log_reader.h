@@ -14,8 +14,7 @@
 #include "emulator/log/log_types.h"
 
 /// Reads kadr logs (docs/log_format.md), whole, cut off or damaged: every message up to the first byte that
-/// is not a log's. Nothing in a file can make it crash, hang or allocate more than a small multiple of the
-/// file's size.
+/// is not a log's. Nothing in a file can make it crash, hang or allocate more than a small multiple of the file's size.
 namespace kadr::emulator {
 
 /// Why a file can't be read as a kadr log at all.
@@ -51,7 +50,7 @@ struct LogEnd {
 };
 inline constexpr std::size_t kMostNotes = 8;
 
-/// One event of an LCM log as it stands in the file.
+/// One event of an LCM log as stored in the file.
 struct LogEventView {
   std::string_view channel;
   std::int64_t number = 0;
@@ -71,8 +70,7 @@ class LogReader {
   ~LogReader();
 
   const LogHeader& header() const;
-  /// The next message, the header first; nothing at the end of what is valid. The storage of `message` is
-  /// replaced.
+  /// The next message, the header first; nothing at the end of the valid part. The storage of `message` is replaced.
   bool next(LogMessage& message);
   /// The event that the last message came from; valid until the next call of next().
   const LogEventView& event() const;

@@ -20,8 +20,7 @@ inline constexpr std::size_t kEmbeddedTextLimit = std::size_t{1} << 20;
 /// Time stamp of an event: simulated microseconds since program start, floor(tick 10^6 / base_hz).
 std::int64_t event_time_us(Ticks tick, std::int64_t base_hz);
 
-/// Control ticks from one viewer message to the next: round(control rate / log.viewer_rate_hz), at least 1;
-/// 0: none.
+/// Control ticks from one viewer message to the next: round(control rate / log.viewer_rate_hz), at least 1; 0: none.
 std::int32_t viewer_every_ticks(const machine::MachineModel& machine);
 
 }  // namespace kadr::emulator

@@ -6,7 +6,7 @@
 /// Words of the log's events and of its summary.
 namespace kadr::emulator {
 
-/// What an event is about. Those up to `stop` are of the program.
+/// Subject of an event. Those up to `stop` are of the program.
 enum class EventKind : std::uint8_t {
   dwell,
   spindle,
@@ -57,7 +57,7 @@ inline constexpr Vocabulary<EventKind, 22> kEventKinds{{
 }};
 static_assert(kEventKinds.complete());
 
-/// Whether the program itself makes such an event, at a place of its path, under any override.
+/// Whether the program itself makes such an event, at a position of its path, under any override.
 constexpr bool is_of_program(EventKind kind) { return kind <= EventKind::stop; }
 
 /// How a run ended.

@@ -3,5 +3,5 @@
 #include "emulator/log_tools/export/export.h"
 #include "emulator/log_tools/report/report.h"
 
-/// What reads logs and nothing else: diff/ compares two, export/ writes them in the forms of other tools,
+/// Tools that only read logs: diff/ compares two, export/ writes them in the forms of other tools,
 /// report/ makes pages. No engine is linked: a program that only looks at logs needs log/ and this.

@@ -14,20 +14,21 @@ constexpr double kSameTick = 1e-6;
 
 }  // namespace
 
-void place_inputs(const Scenario& scenario, std::uint32_t file, Job& job, Diagnostics& diagnostics) {
-  const double tau_s = job.machine.model.clock.tau_s();
+void place_inputs(const Scenario& scenario, std::uint32_t file, JobInputs& given, Diagnostics& diagnostics) {
+  const double tau_s = given.machine.model.clock.tau_s();
+  given.most_override = scenario.most_override;
   for (const ScenarioTechnology& point : scenario.technology) {
     Span span = point.span;
     span.file = file;
     if (point.path_u) {
-      job.place_limits.push_back({*point.path_u, point.rule.max_u_s, span});
+      given.place_limits.push_back({*point.path_u, point.rule.max_u_s, span});
       continue;
     }
     if (!point.line) {
-      job.machine.model.technology.push_back(point.rule);
+      given.machine.model.technology.push_back(point.rule);
       continue;
     }
-    job.line_limits.push_back({*point.line, point.rule.max_u_s, span});
+    given.line_limits.push_back({*point.line, point.rule.max_u_s, span});
   }
   double load = 0;  // of the spindle, before a step with for_s
   for (const ScenarioStep& step : scenario.steps) {
@@ -53,29 +54,29 @@ void place_inputs(const Scenario& scenario, std::uint32_t file, Job& job, Diagno
       action.tick = *tick;
     }
     if (!step.action) {
-      job.inputs.push_back({action.tick, step.analog, step.number, step.value, span});
+      given.inputs.push_back({action.tick, step.analog, step.number, step.value, span});
       continue;
     }
     action.action = *step.action;
     action.value = step.value;
     action.span = span;
-    job.operator_steps.push_back(action);
+    given.operator_steps.push_back(action);
     if (*step.action != OperatorAction::spindle_load) continue;
     if (step.for_s > 0) {
       const auto more = on_tick(step.for_s / tau_s, "for_s");
       if (!more) continue;
       action.tick = action.tick + *more;
       action.value = load;
-      job.operator_steps.push_back(action);
+      given.operator_steps.push_back(action);
     } else {
       load = step.value;
     }
   }
-  std::stable_sort(job.inputs.begin(), job.inputs.end(),
+  std::stable_sort(given.inputs.begin(), given.inputs.end(),
                    [](const InputStep& a, const InputStep& b) { return a.tick < b.tick; });
-  const auto placed = std::stable_partition(job.operator_steps.begin(), job.operator_steps.end(),
+  const auto placed = std::stable_partition(given.operator_steps.begin(), given.operator_steps.end(),
                                             [](const OperatorStep& s) { return !s.place; });
-  std::stable_sort(job.operator_steps.begin(), placed,
+  std::stable_sort(given.operator_steps.begin(), placed,
                    [](const OperatorStep& a, const OperatorStep& b) { return a.tick < b.tick; });
 }
 

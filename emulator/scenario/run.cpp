@@ -118,28 +118,29 @@ void render_into(ScenarioResult& result, const Diagnostics& diagnostics, const S
 }
 
 void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions& options) {
-  Job job;
+  SourceSet sources;
+  JobInputs given;
   Diagnostics diagnostics;
-  const bool opened = open_job(scenario, job, diagnostics);
+  const bool opened = open_job(scenario, given, sources, diagnostics);
   if (!opened) {
-    render_into(result, diagnostics, job.sources);
+    render_into(result, diagnostics, sources);
     result.failure = "the machine file or the tool table has errors";
     return;
   }
   // as `kadr run` does: the run shows where a soft limit is exceeded
-  const bool ready = prepare(job, diagnostics, SoftLimitRule::warning) && !diagnostics.has_errors();
-  render_into(result, diagnostics, job.sources);
+  const auto job = prepare(given, sources, diagnostics, SoftLimitRule::warning);
+  render_into(result, diagnostics, sources);
   result.checks.push_back({"diagnostics", codes_text(scenario.expect.diagnostics), codes_text(result.codes),
                            scenario.expect.diagnostics == result.codes});
-  if (!ready) {
+  if (!job || diagnostics.has_errors()) {
     if (scenario.expect.time_s || scenario.expect.steps_hash || !scenario.expect.alarms.empty() ||
         !scenario.expect.axis.empty())
       result.checks.push_back({"run", "planned and run", "refused", false});
     return;
   }
   AlarmList alarms(nullptr);
-  SignalRecorder signals(job.machine.model, &alarms);
-  auto summary = run(job, &signals, options);
+  SignalRecorder signals(given.machine.model, &alarms);
+  auto summary = run(*job, &signals, options);
   if (!summary) {
     result.failure = summary.error().what;
     return;
@@ -147,9 +148,9 @@ void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions
   for (const auto& [code, count] : alarms.counts())
     result.alarms.emplace_back(code, static_cast<std::int64_t>(count));
   result.machine_s =
-      static_cast<double>(summary->ticks.value) / static_cast<double>(job.machine.model.clock.base_hz);
+      static_cast<double>(summary->ticks.value) / static_cast<double>(given.machine.model.clock.base_hz);
   result.summary = std::move(*summary);
-  const std::int64_t tau = job.machine.model.clock.control_tick.value;
+  const std::int64_t tau = given.machine.model.clock.control_tick.value;
   for (const BlockRecord& r : signals.boundaries())
     result.boundaries.push_back({r.block,
                                  r.tick.value / tau,
@@ -158,8 +159,8 @@ void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions
                                  r.planned_entry_u_s,
                                  r.deferred_ticks.value,
                                  {}});
-  compare_run(result, scenario.expect, job.machine.model);
-  compare_signals(result, scenario.expect, signals, job.machine.model);
+  compare_run(result, scenario.expect, given.machine.model);
+  compare_signals(result, scenario.expect, signals, given.machine.model);
   compare_boundaries(result, scenario.expect);
 }
 
@@ -172,7 +173,7 @@ bool ScenarioResult::passed() const {
   return true;
 }
 
-bool open_job(const Scenario& scenario, Job& job, Diagnostics& diagnostics) {
+bool open_job(const Scenario& scenario, JobInputs& given, SourceSet& sources, Diagnostics& diagnostics) {
   SourceText machine_text =
       scenario.machine_is_file
           ? SourceText::open(scenario.machine)
@@ -180,21 +181,21 @@ bool open_job(const Scenario& scenario, Job& job, Diagnostics& diagnostics) {
   SourceText program = scenario.program_path.empty()
                            ? SourceText(scenario.program_name, scenario.generated_program)
                            : SourceText::open(scenario.program_path);
-  auto file = machine::read_machine(std::move(machine_text), job.sources, scenario.settings);
-  job.program = job.sources.add(std::move(program));
-  job.reading.dialect = scenario.dialect;
+  auto file = machine::read_machine(std::move(machine_text), sources, scenario.settings);
+  given.program = sources.add(std::move(program));
+  given.reading.dialect = scenario.dialect;
   const std::size_t errors = diagnostics.errors();
   if (!scenario.tools_path.empty()) {
-    const std::uint32_t tools = job.sources.add(SourceText::open(scenario.tools_path));
-    job.reading.tools = gcode::read_tool_table(job.sources, tools, diagnostics);
+    const std::uint32_t tools = sources.add(SourceText::open(scenario.tools_path));
+    given.reading.tools = gcode::read_tool_table(sources, tools, diagnostics);
   }
   if (!file) {
     for (const Diagnostic& d : file.error().list()) diagnostics.add(d);
     return false;
   }
-  job.machine = std::move(*file);
-  const std::uint32_t text = job.sources.add(SourceText(scenario.file, scenario.text));
-  place_inputs(scenario, text, job, diagnostics);
+  given.machine = std::move(*file);
+  const std::uint32_t text = sources.add(SourceText(scenario.file, scenario.text));
+  place_inputs(scenario, text, given, diagnostics);
   return diagnostics.errors() == errors;
 }
 

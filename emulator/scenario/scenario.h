@@ -98,7 +98,8 @@ struct Scenario {
   bool machine_is_file = false;
   std::string tools_path;  ///< of the tool table, empty: none
   gcode::Dialect dialect = gcode::Dialect::linuxcnc;
-  std::vector<std::string> settings;  ///< "key=value"
+  std::vector<std::string> settings;   ///< "key=value"
+  std::optional<double> most_override;  ///< JobInputs::most_override
   std::vector<ScenarioStep> steps;
   std::vector<ScenarioTechnology> technology;
   Expectations expect;
@@ -111,16 +112,16 @@ struct Scenario {
 /// @throws std::system_error if the file can't be opened
 tl::expected<Scenario, Diagnostics> read_scenario(const std::string& path, SourceSet& sources);
 
-/// Opens program, machine and tool table of a scenario into a job, ready for prepare(). Diagnostics of
+/// Opens program, machine and tool table of a scenario as inputs of prepare(). Diagnostics of
 /// machine file and tool table are added.
 /// @return false if there were errors
 /// @throws std::system_error if a file can't be opened
-bool open_job(const Scenario& scenario, Job& job, Diagnostics& diagnostics);
+bool open_job(const Scenario& scenario, JobInputs& given, SourceSet& sources, Diagnostics& diagnostics);
 
 /// Puts the steps of a scenario on the control ticks of the job's machine; a time between two ticks is an
 /// error. Steps at a position on the path keep it until prepare() knows the path.
-/// @param file  of the scenario's text in job.sources
-void place_inputs(const Scenario& scenario, std::uint32_t file, Job& job, Diagnostics& diagnostics);
+/// @param file  of the scenario's text in the sources
+void place_inputs(const Scenario& scenario, std::uint32_t file, JobInputs& given, Diagnostics& diagnostics);
 
 /// One compared value.
 struct ScenarioCheck {

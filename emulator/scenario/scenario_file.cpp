@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "emulator/scenario/scenario.h"
+#include "emulator/scenario/scenario_keys.h"
 #include "machine/base/hash.h"
 #include "machine/file/table_reader.h"
 #include "machine/file/technology.h"
@@ -18,13 +19,11 @@ using machine::file_diagnostic;
 using machine::Node;
 using machine::TableReader;
 
-constexpr machine::Bounds kCount{-9e15, 9e15, false, true};
-constexpr machine::Bounds kTime{0, 1e9};
 constexpr machine::Bounds kVibration{0, 1e9};
-constexpr machine::Bounds kInput{0, 63, false, true};
-constexpr machine::Bounds kDigital{0, 1, false, true};
-constexpr machine::Bounds kAny{-1e12, 1e12};
-constexpr machine::Bounds kAnalog{-1e9, 1e9};
+
+machine::Reading<double> number(TableReader& table, const NumberKey& key) {
+  return table.number(key.name, key.bounds);
+}
 
 /// Reads one scenario file; mistakes go to the context's diagnostics.
 class ScenarioReader {
@@ -35,21 +34,22 @@ class ScenarioReader {
 
   void read(const Node& root, std::uint32_t file) {
     TableReader table(&root, "", Span{file, 1, 1, 1}, context_);
-    const auto format = table.number("format", {1, 1e6, false, true});
+    const auto format = number(table, kScenarioFormat);
     if (format.valid && format.value != 1)
       tell(Code::file_format, format.span,
            fmt::format("is edition {:.0f}, this kadr reads edition 1", format.value));
-    scenario_.name = table.text("name").value;
-    scenario_.summary = table.text("summary", "").value;
+    scenario_.name = table.text(kScenarioName.name).value;
+    scenario_.summary = table.text(kSummary.name, "").value;
     read_program(table);
     read_machine_name(table);
     read_tools(table);
-    scenario_.dialect = table.choice("dialect", gcode::kDialects, gcode::Dialect::linuxcnc).value;
+    scenario_.dialect = table.choice(kDialect.name, gcode::kDialects, gcode::Dialect::linuxcnc).value;
     if (const Node* settings = table.table("settings")) flatten_settings(*settings, "");
     // the stock of a scenario overrides that of the machine file
     if (const Node* stock = table.table("stock")) flatten_settings(*stock, "stock");
     for (const Node& point : table.tables("technology")) read_technology(point);
     for (const Node& step : table.tables("step")) read_step(step);
+    read_most_override(table);
     if (const Node* expect = table.table("expect")) read_expect(*expect);
     table.finish();
   }
@@ -65,13 +65,13 @@ class ScenarioReader {
     TableReader keys(&node, "technology", node.span, context_);
     ScenarioTechnology point;
     point.span = node.span;
-    if (keys.has("at_line")) {
-      const auto line = keys.number("at_line", {1, 4e9, false, true});
+    if (keys.has(kPointLine.name)) {
+      const auto line = number(keys, kPointLine);
       point.line = static_cast<std::uint32_t>(line.value);
       point.span = line.span;
       point.rule.max_u_s = machine::read_technology_limit(keys);
-    } else if (keys.has("at_path_mm")) {
-      const auto at = keys.number("at_path_mm", {0, 1e9});
+    } else if (keys.has(kPointPath.name)) {
+      const auto at = number(keys, kPointPath);
       point.path_u = at.value;
       point.span = at.span;
       point.rule.max_u_s = machine::read_technology_limit(keys);
@@ -86,12 +86,12 @@ class ScenarioReader {
     const Node* wind = table.table("wind");
     if (wind) {
       read_winding(*wind);
-      if (table.has("program"))
-        tell(Code::scenario_program, table.text("program").span, "a winding is given as well",
+      if (table.has(kProgram.name))
+        tell(Code::scenario_program, table.text(kProgram.name).span, "a winding is given as well",
              "keep one of program and [wind]");
       return;
     }
-    const auto program = table.text("program");
+    const auto program = table.text(kProgram.name);
     if (!program.valid) return;
     const fs::path path = fs::path(scenario_.folder) / program.value;
     scenario_.program_name = path.filename().string();
@@ -122,7 +122,7 @@ class ScenarioReader {
   }
 
   void read_machine_name(TableReader& table) {
-    const auto name = table.text("machine");
+    const auto name = table.text(kMachine.name);
     if (!name.valid) return;
     scenario_.machine = name.value;
     if (!machine::shipped_machine(name.value).empty()) return;
@@ -139,8 +139,8 @@ class ScenarioReader {
   }
 
   void read_tools(TableReader& table) {
-    if (!table.has("tools")) return;
-    const auto name = table.text("tools");
+    if (!table.has(kTools.name)) return;
+    const auto name = table.text(kTools.name);
     if (!name.valid) return;
     const fs::path inside = fs::path(name.value).lexically_normal();
     if (inside.is_absolute() || *inside.begin() == "..")
@@ -166,31 +166,49 @@ class ScenarioReader {
     }
   }
 
-  /// When or where: at_s, at_tick, at_line (pass, after_mm), at_block (after_mm), at_path_mm.
+  /// When or where a step is: one of kMomentKeys.
   void read_moment(TableReader& table, ScenarioStep& step) {
-    const auto place = [&](std::string_view key, PathPlace::Kind kind, double least) {
-      const auto number = table.number(key, {least, 1e9, false, kind != PathPlace::Kind::length});
-      step.place = PathPlace{kind, number.value};
-      step.span = number.span;
+    const auto place = [&](const NumberKey& key, PathPlace::Kind kind) {
+      const auto at = number(table, key);
+      step.place = PathPlace{kind, at.value};
+      step.span = at.span;
     };
-    if (table.has("at_line")) {
-      place("at_line", PathPlace::Kind::line, 1);
-      if (table.has("pass"))
-        step.place->pass = static_cast<int>(table.number("pass", {1, 1e9, false, true}).value);
-    } else if (table.has("at_block")) {
-      place("at_block", PathPlace::Kind::block, 0);
-    } else if (table.has("at_path_mm")) {
-      place("at_path_mm", PathPlace::Kind::length, 0);
-    } else if (table.has("at_tick")) {
-      const auto tick = table.number("at_tick", {0, 9e15, false, true});
+    if (table.has(kAtLine.name)) {
+      place(kAtLine, PathPlace::Kind::line);
+      if (table.has(kPass.name)) step.place->pass = static_cast<int>(number(table, kPass).value);
+    } else if (table.has(kAtBlock.name)) {
+      place(kAtBlock, PathPlace::Kind::block);
+    } else if (table.has(kAtPath.name)) {
+      place(kAtPath, PathPlace::Kind::length);
+    } else if (table.has(kAtTick.name)) {
+      const auto tick = number(table, kAtTick);
       step.at_tick = static_cast<std::int64_t>(tick.value);
       step.span = tick.span;
     } else {
-      const auto time = table.number("at_s", kTime);
+      const auto time = number(table, kAtS);
       step.at_s = time.value;
       step.span = time.span;
     }
-    if (step.place && table.has("after_mm")) step.place->after_u = table.number("after_mm", kTime).value;
+    if (step.place && table.has(kAfter.name)) step.place->after_u = number(table, kAfter).value;
+  }
+
+  void read_action(TableReader& table, const ActionKey& key, ScenarioStep& step) {
+    switch (key.takes) {
+      case ActionKey::Takes::percent:
+        step.value = table.number(key.name, key.bounds).value / 100;
+        break;
+      case ActionKey::Takes::flag:
+        if (!table.flag(key.name, true).value)
+          tell(Code::scenario_step, table.header(), fmt::format("{} = false does nothing", key.name),
+               "leave the step out, or write true");
+        break;
+      case ActionKey::Takes::input:
+        step.analog = key.name == "analog_input";
+        step.number = static_cast<int>(table.number(key.name, key.bounds).value);
+        step.value = number(table, step.analog ? kAnalogValue : kDigitalValue).value;
+        break;
+    }
+    step.action = key.action;
   }
 
   void read_step(const Node& node) {
@@ -198,37 +216,14 @@ class ScenarioReader {
     ScenarioStep step;
     read_moment(table, step);
     int actions = 0;
-    const auto takes = [&](std::string_view key) { return table.has(key) && ++actions == 1; };
-    const auto percent = [&](std::string_view key, double most_pct, OperatorAction action) {
-      if (!takes(key)) return;
-      step.value = table.number(key, {0, most_pct}).value / 100;
-      step.action = action;
-    };
-    const auto act = [&](std::string_view key, OperatorAction action) {
-      if (!takes(key)) return;
-      if (!table.flag(key, true).value)
-        tell(Code::scenario_step, table.header(), fmt::format("{} = false does nothing", key),
-             "leave the step out, or write true");
-      step.action = action;
-    };
-    percent("override_pct", 200, OperatorAction::feed_override);
-    percent("rapid_override_pct", 100, OperatorAction::rapid_override);
-    percent("spindle_load_pct", 1000, OperatorAction::spindle_load);
-    act("hold", OperatorAction::hold);
-    act("resume", OperatorAction::resume);
-    act("emergency_stop", OperatorAction::emergency_stop);
-    if (step.action == OperatorAction::spindle_load && table.has("for_s"))
-      step.for_s = table.number("for_s", kTime).value;
-    for (const std::string_view key : {"input", "analog_input"}) {
-      if (!takes(key)) continue;
-      step.analog = key == "analog_input";
-      step.number = static_cast<int>(table.number(key, kInput).value);
-      step.value = table.number("value", step.analog ? kAnalog : kDigital).value;
+    std::string names;
+    for (const ActionKey& key : kActionKeys) {
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", key.name);
+      if (table.has(key.name) && ++actions == 1) read_action(table, key, step);
     }
-    if (actions == 0)
-      return tell(Code::scenario_step, node.span, "does nothing",
-                  "one of override_pct, rapid_override_pct, hold, resume, spindle_load_pct, emergency_stop, "
-                  "input, analog_input");
+    if (step.action == OperatorAction::spindle_load && table.has(kForS.name))
+      step.for_s = number(table, kForS).value;
+    if (actions == 0) return tell(Code::scenario_step, node.span, "does nothing", "one of " + names);
     if (actions > 1)
       return tell(Code::scenario_step, node.span, fmt::format("does {} things at once", actions),
                   "write a [[step]] for each, at the same tick if need be");
@@ -242,16 +237,30 @@ class ScenarioReader {
     scenario_.steps.push_back(step);
   }
 
+  /// The highest override that the run must be able to follow; no step goes beyond it.
+  void read_most_override(TableReader& table) {
+    if (!table.has(kMostOverride.name)) return;
+    const auto most = number(table, kMostOverride);
+    if (!most.valid) return;
+    scenario_.most_override = most.value / 100;
+    for (const ScenarioStep& step : scenario_.steps)
+      if (step.action == OperatorAction::feed_override && step.value > *scenario_.most_override)
+        tell(Code::scenario_step, step.span,
+             fmt::format("an override of {:.6g} % is above {} = {:.6g}", 100 * step.value, kMostOverride.name,
+                         most.value),
+             fmt::format("raise {}, or leave it out", kMostOverride.name));
+  }
+
   void read_expect(const Node& node) {
     TableReader table(&node, "expect", node.span, context_);
     Expectations& expect = scenario_.expect;
-    if (table.has("time_s")) {
-      expect.time_s = table.number("time_s", kTime).value;
-      expect.within_s = table.number("within_s", kTime).value;
+    if (table.has(kTimeS.name)) {
+      expect.time_s = number(table, kTimeS).value;
+      expect.within_s = number(table, kWithin).value;
     }
-    if (table.has("steps_hash")) expect.steps_hash = read_hash(table.text("steps_hash"));
-    if (const Node* alarms = table.table("alarms")) read_alarms(*alarms);
-    for (const auto& item : table.texts("diagnostics"))
+    if (table.has(kStepsHash.name)) expect.steps_hash = read_hash(table.text(kStepsHash.name));
+    if (const Node* alarms = table.table(kAlarms.name)) read_alarms(*alarms);
+    for (const auto& item : table.texts(kDiagnostics.name))
       if (const auto code = known_code(item.value, item.span)) expect.diagnostics.push_back(*code);
     if (const Node* axes = table.table("axis"))
       for (const machine::Entry& entry : axes->entries) read_axis(entry);
@@ -263,14 +272,11 @@ class ScenarioReader {
   void read_signal(const Node& node) {
     TableReader table(&node, "expect.signal", node.span, context_);
     SignalExpectation s;
-    const auto name = table.text("name");
+    const auto name = table.text(kSignalName.name);
     s.signal = name.value;
     s.span = name.span;
-    s.from_s = table.number("from_s", kTime, s.from_s).value;
-    if (table.has("to_s")) s.to_s = table.number("to_s", kTime).value;
-    if (table.has("least")) s.least = table.number("least", kAny).value;
-    if (table.has("most")) s.most = table.number("most", kAny).value;
-    if (!table.has("least") && !table.has("most"))
+    machine::read_keys(table, s, kSignalKeys);
+    if (s.least == -machine::kInfinity && s.most == machine::kInfinity)
       tell(Code::scenario_value, s.span, "has neither least nor most", "write least, most or both");
     table.finish();
     scenario_.expect.signals.push_back(std::move(s));
@@ -278,17 +284,9 @@ class ScenarioReader {
 
   void read_boundary(const Node& node) {
     TableReader table(&node, "expect.boundary", node.span, context_);
-    const auto count = [&](std::string_view key) {
-      return static_cast<std::int64_t>(table.number(key, {0, 9e15, false, true}).value);
-    };
     BoundaryExpectation b;
     b.span = node.span;
-    b.block = count("block");
-    b.control_tick = count("control_tick");
-    b.offset = count("offset");
-    b.feed_u_s = table.number("feed_mm_s", kTime).value;
-    b.planned_u_s = table.number("planned_mm_s", kTime).value;
-    b.deferred_ticks = count("deferred_ticks");
+    machine::read_keys(table, b, kBoundaryKeys);
     table.finish();
     scenario_.expect.boundaries.push_back(b);
   }
@@ -315,7 +313,7 @@ class ScenarioReader {
   void read_alarms(const Node& node) {
     TableReader table(&node, "expect.alarms", node.span, context_);
     for (const machine::Entry& entry : node.entries) {
-      const auto count = table.number(entry.key, {0, 9e15, false, true});
+      const auto count = table.number(entry.key, kWholeCount);
       if (const auto code = known_code(entry.key, entry.key_span))
         scenario_.expect.alarms.emplace_back(*code, static_cast<std::int64_t>(count.value));
     }
@@ -330,20 +328,21 @@ class ScenarioReader {
     AxisExpectation axis;
     axis.letter = entry.key.front();
     TableReader table(&entry.value, "expect.axis." + entry.key, entry.key_span, context_);
-    // vibration is in thousandths of the axis unit; U V W may be of either kind
-    const bool rotary = is_rotary_letter(axis.letter) ||
-                        (std::string_view("UVW").find(axis.letter) != std::string_view::npos &&
-                         (table.has("vibration_mdeg") || table.has("residual_mdeg")));
-    const auto bounds = [&table](std::string_view key) -> std::optional<ValueRange> {
-      if (!table.has(key)) return {};
-      const auto pair = table.pair(key, kVibration);
-      return ValueRange{pair.value.first / 1000, pair.value.second / 1000};
+    // U V W may be of either kind
+    bool rotary = is_rotary_letter(axis.letter);
+    if (std::string_view("UVW").find(axis.letter) != std::string_view::npos)
+      for (const RangeKey& key : kAxisRanges) rotary = rotary || table.has(key.rotary);
+    const auto count = [&](const NumberKey& key, std::optional<std::int64_t>& member) {
+      if (table.has(key.name)) member = static_cast<std::int64_t>(number(table, key).value);
     };
-    if (table.has("pulses")) axis.pulses = static_cast<std::int64_t>(table.number("pulses", kCount).value);
-    if (table.has("end_steps"))
-      axis.end_steps = static_cast<std::int64_t>(table.number("end_steps", kCount).value);
-    axis.vibration = bounds(rotary ? "vibration_mdeg" : "vibration_um");
-    axis.residual = bounds(rotary ? "residual_mdeg" : "residual_um");
+    count(kPulses, axis.pulses);
+    count(kEndSteps, axis.end_steps);
+    for (const RangeKey& key : kAxisRanges) {
+      const std::string_view name = rotary ? key.rotary : key.linear;
+      if (!table.has(name)) continue;
+      const auto pair = table.pair(name, kVibration);
+      axis.*key.member = ValueRange{pair.value.first / 1000, pair.value.second / 1000};
+    }
     table.finish();
     scenario_.expect.axis.push_back(axis);
   }

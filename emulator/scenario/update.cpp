@@ -112,17 +112,17 @@ std::size_t value_end(const std::string& text, std::size_t at, std::size_t lengt
 
 std::string updated_text(const Scenario& scenario, const ScenarioResult& result) {
   if (!result.failure.empty()) return scenario.text;
-  Job job;
-  Diagnostics ignored;
-  if (!open_job(scenario, job, ignored)) return scenario.text;
   SourceSet sources;
+  JobInputs given;
+  Diagnostics ignored;
+  if (!open_job(scenario, given, sources, ignored)) return scenario.text;
   const std::uint32_t file = sources.add(SourceText(scenario.file, scenario.text));
   const machine::ParsedTree tree = machine::parse_toml(sources, file, ignored);
   const Entry* expect = tree.root.find("expect");
-  if (!expect) return scenario.text + whole_expect(result, job.machine.model);
+  if (!expect) return scenario.text + whole_expect(result, given.machine.model);
 
   // from the back, so that earlier positions stay valid
-  std::vector<Replacement> list = replacements(expect->value, result, job.machine.model);
+  std::vector<Replacement> list = replacements(expect->value, result, given.machine.model);
   std::sort(list.begin(), list.end(), [](const Replacement& a, const Replacement& b) {
     return std::pair(a.span.line, a.span.column) > std::pair(b.span.line, b.span.column);
   });

@@ -3,10 +3,6 @@
 namespace kadr::emulator {
 namespace {
 
-const char* severity_name(Severity severity) {
-  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
-}
-
 Json place_json(const Span& span, const SourceSet& sources) {
   const bool placed = has_place(span, sources);
   const Place place = placed ? place_of(span, sources) : Place{};
@@ -23,7 +19,7 @@ Json place_json(const Span& span, const SourceSet& sources) {
 Json json_of(const Diagnostic& d, const SourceSet& sources) {
   Json j = place_json(d.span, sources);
   j["code"] = code_name(d.code);
-  j["severity"] = severity_name(d.severity);
+  j["severity"] = kSeverities.word(d.severity);
   j["message"] = d.message.empty() ? std::string(code_entry(d.code).title) : d.message;
   j["label"] = d.label;
   j["notes"] = d.notes;

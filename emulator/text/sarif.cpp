@@ -22,9 +22,8 @@ constexpr int kInternal = 70;
 
 Json text_json(const std::string& text) { return {{"text", text}}; }
 
-const char* level(Severity severity) {
-  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
-}
+/// SARIF's levels are spelled as ours are.
+std::string_view level(Severity severity) { return kSeverities.word(severity); }
 
 /// "arc_end_off_circle" as "ArcEndOffCircle", the usual form of a rule's name.
 std::string rule_name(std::string_view name) {

@@ -11,7 +11,7 @@ using Kind = CompensationFault::Kind;
 // an entry arc whose chord is that close to a right angle with its radius would be a straight line
 constexpr double kLeastEntryCosine = 1e-4;
 
-/// Said at once, though a move waits.
+/// Reported at once, although a move waits.
 bool overtakes(const Block& block) { return is<Message, Comment, SelectTool, SetToolNumber>(block); }
 
 bool stops(const Block& block) { return is<ProgramStop, OptionalStop, ProgramEnd>(block); }
@@ -27,7 +27,7 @@ void Compensation::begin(const CompensationTool& tool, const AxisValues& at) {
   tool_ = tool;
   side_ = tool.left ? 1 : -1;
   axes_ = plane_axes(tool.plane);
-  // G41 right behind G40: the tool still stands beside the old contour
+  // G41 right after G40: the tool is still off the old contour
   if (phase_ != Phase::exit) handed_out_ = at;
   programmed_ = at;
   tool_at_ = in_plane(at);
@@ -124,7 +124,7 @@ CompensationFault Compensation::enter_arc(const Block& block, const Arc& arc, co
   CompensationFault fault;
   if (inside(arc) && radius <= tool_.radius_mm) fault = {Kind::arc_small, radius, tool_.radius_mm, {}};
 
-  // the arc that leads from here to beside the end and has the programmed direction there
+  // the arc from here to the offset end point, with the programmed direction there
   const PlanePoint tool_end = end + tool_.radius_mm * unit(inside(arc) ? center - end : end - center);
   const PlaneVector to_center = unit(center - tool_end);
   const PlaneVector back = tool_at_ - tool_end;
@@ -230,7 +230,7 @@ CompensationFault Compensation::meet_line(PlaneVector next, PlanePoint& meeting)
   }
   const OffsetCircle circle = circle_of(*before);
   const PlaneVector across = turned(next, side_);
-  // so far from the contour as radius and tool say: an entry arc may have got its centre on the other side
+  // distance from the contour by radius and tool: an entry arc may have its centre on the other side
   const double radius_mm = circle.radius_mm + (circle.inside ? tool_.radius_mm : -tool_.radius_mm);
   const double height =
       radius_mm * dot(unit(circle.center - in_plane(programmed_)), across) - tool_.radius_mm;

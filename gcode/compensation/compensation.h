@@ -11,7 +11,7 @@ PlanePoint center_of(const Arc& arc);
 /// Angle travelled, > 0.
 double sweep_rad(const Arc& arc, PlanePoint start, PlanePoint end);
 
-/// What G41 or G42 fixes until G40.
+/// State fixed by G41 or G42 until G40.
 struct CompensationTool {
   bool left = true;      ///< of the contour, seen in the direction of motion
   double radius_mm = 0;  ///< > 0
@@ -45,13 +45,13 @@ struct CompensationFault {
   explicit operator bool() const { return kind != Kind::none; }
 };
 
-/// Turns a contour into the path of the tool's centre, one radius beside it.
+/// Turns a contour into the path of the tool's centre, one radius off it.
 ///
-/// Stands between the interpreter and the receiver of Blocks from G41 to the first move after G40. Takes the
+/// Sits between the interpreter and the receiver of Blocks from G41 to the first move after G40. Takes the
 /// programmed moves in coordinates in which the contour's plane is one of two axes; hands out moves of the
 /// tool's centre: lines and arcs shifted by the radius, an arc about each outside corner, moves trimmed to
 /// where they meet at each inside corner. So a move waits for the next one that moves in the plane, and what
-/// was called for in between waits behind it.
+/// was called in between waits after it.
 ///
 ///     outside:            ___           inside:      | contour
 ///                   tool /   \                  ____ |
@@ -60,29 +60,29 @@ struct CompensationFault {
 ///               contour   |  | |                 ---'|
 ///                                                ----' contour
 ///
-/// After a fault the moves before the corner are handed out untrimmed and the contour goes on, so that later
+/// After a fault the moves before the corner are handed out untrimmed and the contour continues, so that later
 /// corners are checked too.
 class Compensation {
  public:
   using Receiver = std::function<void(Block&)>;
   explicit Compensation(Receiver receiver) : receiver_(std::move(receiver)) {}
 
-  /// G41 G42. @param at  where the machine stands
+  /// G41 G42. @param at  position of the machine
   void begin(const CompensationTool& tool, const AxisValues& at);
-  /// Any block. What is no move keeps its place behind the move that waits.
+  /// Any block. Blocks that are not moves keep their place after the move that waits.
   CompensationFault take(const Block& block, const FeedRates& feeds);
-  /// G40: the last move ends beside its programmed end; the next one starts there.
+  /// G40: the last move ends off its programmed end; the next one starts there.
   CompensationFault end();
   /// An arc may sweep that much more than programmed: where it joins a nearly straight corner untrimmed.
   void set_sweep_tolerance(double tolerance_rad) { sweep_tolerance_rad_ = tolerance_rad; }
-  /// No move led away after G40: the next one begins where the tool stands.
+  /// No move led away after G40: the next one begins at the tool.
   void leave() { phase_ = Phase::off; }
   /// The contour can't be known after an error in the program: moves go through as programmed until G40.
   void lose();
 
   /// Whether blocks must pass here. False from the first move after G40 on.
   bool active() const { return phase_ != Phase::off; }
-  /// Whether a move has been made beside the contour.
+  /// Whether a move has been made off the contour.
   bool entered() const { return phase_ == Phase::contour || phase_ == Phase::lost; }
   /// Tool's centre as seen from the programmed point.
   AxisValues shift() const;
@@ -95,7 +95,7 @@ class Compensation {
 
  private:
   enum class Phase : std::uint8_t { off, entry, contour, lost, exit };
-  /// A block that waits. Moves know what they must not lose by trimming.
+  /// A block that waits. Moves know the part that trimming must not remove.
   struct Held {
     Block block;
     FeedRates feeds;
@@ -140,7 +140,7 @@ class Compensation {
 
   Phase phase_ = Phase::off;
   AxisValues programmed_{};  ///< end of the last programmed move
-  PlanePoint tool_at_;       ///< where the tool's centre stands there if nothing is trimmed
+  PlanePoint tool_at_;       ///< the tool's centre there if nothing is trimmed
   AxisValues handed_out_{};  ///< end of the last move handed out
   std::vector<Held> held_;
   Block first_held_;               ///< the last move that was the first to wait

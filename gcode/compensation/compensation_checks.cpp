@@ -6,7 +6,7 @@
 namespace kadr::gcode {
 namespace {
 
-/// What a tool-independent code does that compensation can't stand; empty: nothing.
+/// Why a code is not allowed under compensation, whatever the tool; empty: allowed.
 std::string_view conflict_of_nonmodal(int code) {
   switch (code) {
     case code::g28:
@@ -89,7 +89,7 @@ void Interpreter::check_compensation_words() {
 }
 
 void Interpreter::check_while_compensating(bool until_now, bool from_now) {
-  // tool, overrides, outputs and plane change before G40 and G41 of the same line, the rest behind them
+  // tool, overrides, outputs and plane change before G40 and G41 of the same line, the rest after them
   if (until_now) {
     const int tool = words_.m(MGroup::tool_change);
     const int override_code = words_.m(MGroup::overrides);

@@ -22,7 +22,7 @@ double sweep_tolerance_rad(bool inches) {
   return inches ? kSweepTolerance_rad : kMillimetresPerInch * kSweepTolerance_rad;
 }
 
-/// A point turned there and back differs in its last digits: what does not move must stay exactly.
+/// A point turned forth and back differs in its last digits: coordinates that do not move must stay exact.
 AxisValues near(const AxisValues& from, AxisValues to) {
   for (std::size_t a = 0; a < to.size(); ++a) {
     if (std::fabs(to[a] - from[a]) <= kSamePoint_u) to[a] = from[a];
@@ -31,7 +31,7 @@ AxisValues near(const AxisValues& from, AxisValues to) {
 }
 
 /// The controlled point of a lathe tool seen from the centre of its nose, program coordinates: LinuxCNC's
-/// orientations 1 to 8 stand round the nose, 0 and 9 in its centre.
+/// orientations 1 to 8 are around the nose, 0 and 9 in its centre.
 AxisValues nose_origin(int orientation, double radius_mm) {
   AxisValues origin{};
   if (is_one_of(orientation, {1, 2, 6})) origin[0] = -radius_mm;
@@ -57,7 +57,7 @@ void Interpreter::compensation() {
   compensation_tilted_ = state_.rotation_deg != 0 && state_.plane != Plane::xy;
   if (compensation_tilted_) compensation_.set_last_end(state_.to_program(compensation_.last_end()));
   compensation_.begin(tool, compensation_tilted_ ? state_.to_program(state_.position) : state_.position);
-  // without a radius, or from an unknown point, nothing can be said of the contour
+  // without a radius, or from an unknown point, nothing is known of the contour
   const bool doubtful = state_.uncertain.axes != 0 || (words_.doubtful & letter_bit('D')) != 0;
   if (!found || doubtful) compensation_.lose();
 }

@@ -3,9 +3,9 @@
 
 #include "gcode/arc.h"
 
-/// Where a tool that keeps its radius off a contour turns from one move to the next.
+/// Corner points of a tool that stays one radius off a contour.
 ///
-/// Everything lies in the plane of compensation. `side` is +1 if the tool runs left of the contour, -1 if
+/// Everything is in the plane of compensation. `side` is +1 if the tool runs left of the contour, -1 if
 /// right. A move with direction d keeps the centre of the tool on the offset by radius · normal,
 ///   normal = side · (d turned left by 90 degrees).
 namespace kadr::gcode {
@@ -42,14 +42,14 @@ struct OffsetCircle {
 
 enum class Corner : std::uint8_t {
   straight,  ///< within kStraightCorner_rad of no corner at all: the moves are joined as they are
-  outside,   ///< the contour turns away from the tool: an arc about the corner leads round it
+  outside,   ///< the contour turns away from the tool: an arc about the corner leads around it
   inside,    ///< it turns towards the tool: both moves end where their offsets meet
 };
 
 /// Corners flatter than this are neither rounded nor trimmed, as in LinuxCNC.
 inline constexpr double kStraightCorner_rad = 0.05;
 
-/// The kind of corner between a move at whose end the tool stands along `normal` and one in direction `next`
+/// The kind of corner between a move at whose end the tool is along `normal` and one in direction `next`
 /// (both of length 1).
 ///
 ///   turn = atan2(-normal·next, tangent·next), tangent = normal turned back; positive: outside
@@ -62,7 +62,7 @@ Corner corner_between(PlaneVector normal, PlaneVector next, double side, bool re
 ///   tool - radius · tan(turn/2) · tangent
 PlanePoint meet(PlanePoint tool, PlaneVector normal, PlaneVector next, double side, double radius_mm);
 
-/// Where a line through `point` with unit `direction` crosses a circle: ahead of the foot of its centre or
+/// Where a line through `point` with unit `direction` crosses a circle: before or after the foot of its
 /// behind.
 /// @param height_mm  distance of the centre from the line, to the left
 /// @return nothing if line and circle don't meet

@@ -97,17 +97,18 @@ struct MEntry {
   int number;
   MGroup group;
 };
-constexpr MEntry kRunM[] = {{code::m0, MGroup::stop},         {code::m1, MGroup::stop},         {code::m2, MGroup::stop},
-                            {code::m30, MGroup::stop},        {code::m60, MGroup::stop},        {code::m6, MGroup::tool_change},
-                            {code::m61, MGroup::tool_change}, {code::m3, MGroup::spindle},      {code::m4, MGroup::spindle},
-                            {code::m5, MGroup::spindle},      {code::m19, MGroup::spindle},     {code::m52, MGroup::overrides},
-                            {code::m7, MGroup::coolant},      {code::m8, MGroup::coolant},      {code::m9, MGroup::coolant},
-                            {code::m48, MGroup::overrides},   {code::m49, MGroup::overrides},   {code::m50, MGroup::overrides},
-                            {code::m51, MGroup::overrides},   {code::m53, MGroup::overrides},   {code::m62, MGroup::inputs},
-                            {code::m63, MGroup::inputs},      {code::m64, MGroup::inputs},      {code::m65, MGroup::inputs},
-                            {code::m66, MGroup::inputs},      {code::m67, MGroup::inputs},      {code::m68, MGroup::inputs},
-                            {code::m70, MGroup::modal_state}, {code::m71, MGroup::modal_state}, {code::m72, MGroup::modal_state},
-                            {code::m73, MGroup::modal_state}, {code::m98, MGroup::call},        {code::m99, MGroup::call}};
+constexpr MEntry kRunM[] = {
+    {code::m0, MGroup::stop},         {code::m1, MGroup::stop},         {code::m2, MGroup::stop},
+    {code::m30, MGroup::stop},        {code::m60, MGroup::stop},        {code::m6, MGroup::tool_change},
+    {code::m61, MGroup::tool_change}, {code::m3, MGroup::spindle},      {code::m4, MGroup::spindle},
+    {code::m5, MGroup::spindle},      {code::m19, MGroup::spindle},     {code::m52, MGroup::overrides},
+    {code::m7, MGroup::coolant},      {code::m8, MGroup::coolant},      {code::m9, MGroup::coolant},
+    {code::m48, MGroup::overrides},   {code::m49, MGroup::overrides},   {code::m50, MGroup::overrides},
+    {code::m51, MGroup::overrides},   {code::m53, MGroup::overrides},   {code::m62, MGroup::inputs},
+    {code::m63, MGroup::inputs},      {code::m64, MGroup::inputs},      {code::m65, MGroup::inputs},
+    {code::m66, MGroup::inputs},      {code::m67, MGroup::inputs},      {code::m68, MGroup::inputs},
+    {code::m70, MGroup::modal_state}, {code::m71, MGroup::modal_state}, {code::m72, MGroup::modal_state},
+    {code::m73, MGroup::modal_state}, {code::m98, MGroup::call},        {code::m99, MGroup::call}};
 constexpr int kFirstUserM = 100;  // M100 .. M199 are the user's own
 
 constexpr std::array<GCode, kGTableSize> make_g_table() {
@@ -123,7 +124,7 @@ constexpr std::array<MCode, kMTableSize> make_m_table() {
   for (const MEntry& e : kRunM) table[static_cast<std::size_t>(e.number)] = {Standing::runs, e.group};
   return table;
 }
-/// Each code of the group `inputs` except M66 says what it switches, and the other way round.
+/// Each code of the group `inputs` except M66 names the output it switches, and vice versa.
 constexpr bool outputs_complete() {
   std::size_t outputs = 0;
   for (const MEntry& e : kRunM) {

@@ -1,24 +1,26 @@
 #pragma once
 #include <cstdint>
 
-/// Which G and M codes there are, which of them kadr runs, and which may not stand together on a line.
+/// The G and M codes, those that kadr runs, and those that exclude each other on a line.
 namespace kadr::gcode {
 
 /// The codes that kadr runs, by the names they have in a program. G codes count in tenths: G92.1 is 921.
 namespace code {
 inline constexpr int g0 = 0, g1 = 10, g2 = 20, g3 = 30, g4 = 40, g5 = 50, g5_1 = 51, g5_2 = 52, g5_3 = 53,
-    g7 = 70, g8 = 80, g10 = 100, g17 = 170, g18 = 180, g19 = 190, g20 = 200, g21 = 210, g28 = 280,
-    g28_1 = 281, g30 = 300, g30_1 = 301, g33 = 330, g33_1 = 331, g38_2 = 382, g38_3 = 383, g38_4 = 384,
-    g38_5 = 385, g40 = 400, g41 = 410, g41_1 = 411, g42 = 420, g42_1 = 421, g43 = 430, g43_1 = 431,
-    g43_2 = 432, g49 = 490, g52 = 520, g53 = 530, g54 = 540, g55 = 550, g56 = 560, g57 = 570, g58 = 580,
-    g59 = 590, g59_1 = 591, g59_2 = 592, g59_3 = 593, g61 = 610, g61_1 = 611, g64 = 640, g73 = 730,
-    g74 = 740, g76 = 760, g80 = 800, g81 = 810, g82 = 820, g83 = 830, g84 = 840, g85 = 850, g86 = 860,
-    g89 = 890, g90 = 900, g90_1 = 901, g91 = 910, g91_1 = 911, g92 = 920, g92_1 = 921, g92_2 = 922,
-    g92_3 = 923, g93 = 930, g94 = 940, g95 = 950, g96 = 960, g97 = 970, g98 = 980, g99 = 990;
-inline constexpr int m0 = 0, m1 = 1, m2 = 2, m3 = 3, m4 = 4, m5 = 5, m6 = 6, m7 = 7, m8 = 8, m9 = 9,
-    m19 = 19, m30 = 30, m48 = 48, m49 = 49, m50 = 50, m51 = 51, m52 = 52, m53 = 53, m60 = 60, m61 = 61,
-    m62 = 62, m63 = 63, m64 = 64, m65 = 65, m66 = 66, m67 = 67, m68 = 68, m70 = 70, m71 = 71, m72 = 72,
-    m73 = 73, m98 = 98, m99 = 99;
+                     g7 = 70, g8 = 80, g10 = 100, g17 = 170, g18 = 180, g19 = 190, g20 = 200, g21 = 210,
+                     g28 = 280, g28_1 = 281, g30 = 300, g30_1 = 301, g33 = 330, g33_1 = 331, g38_2 = 382,
+                     g38_3 = 383, g38_4 = 384, g38_5 = 385, g40 = 400, g41 = 410, g41_1 = 411, g42 = 420,
+                     g42_1 = 421, g43 = 430, g43_1 = 431, g43_2 = 432, g49 = 490, g52 = 520, g53 = 530,
+                     g54 = 540, g55 = 550, g56 = 560, g57 = 570, g58 = 580, g59 = 590, g59_1 = 591,
+                     g59_2 = 592, g59_3 = 593, g61 = 610, g61_1 = 611, g64 = 640, g73 = 730, g74 = 740,
+                     g76 = 760, g80 = 800, g81 = 810, g82 = 820, g83 = 830, g84 = 840, g85 = 850, g86 = 860,
+                     g89 = 890, g90 = 900, g90_1 = 901, g91 = 910, g91_1 = 911, g92 = 920, g92_1 = 921,
+                     g92_2 = 922, g92_3 = 923, g93 = 930, g94 = 940, g95 = 950, g96 = 960, g97 = 970,
+                     g98 = 980, g99 = 990;
+inline constexpr int m0 = 0, m1 = 1, m2 = 2, m3 = 3, m4 = 4, m5 = 5, m6 = 6, m7 = 7, m8 = 8, m9 = 9, m19 = 19,
+                     m30 = 30, m48 = 48, m49 = 49, m50 = 50, m51 = 51, m52 = 52, m53 = 53, m60 = 60, m61 = 61,
+                     m62 = 62, m63 = 63, m64 = 64, m65 = 65, m66 = 66, m67 = 67, m68 = 68, m70 = 70, m71 = 71,
+                     m72 = 72, m73 = 73, m98 = 98, m99 = 99;
 }  // namespace code
 
 /// Modal groups of G codes (RS-274/NGC numbers them 0 to 13); one code of a group per line.
@@ -72,11 +74,11 @@ struct MCode {
 GCode g_code(int tenths);
 MCode m_code(int number);
 
-/// What an M code does to an output.
+/// Effect of an M code on an output.
 struct OutputCode {
   int number;
   bool analog;       ///< E is the output and Q its value; otherwise P is the output
-  bool on;           ///< digital: what the output becomes
+  bool on;           ///< digital: the new state of the output
   bool with_motion;  ///< as the next motion begins, not at once
 };
 inline constexpr OutputCode kOutputCodes[] = {

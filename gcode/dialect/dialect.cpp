@@ -11,8 +11,19 @@ constexpr double kMillisecond_s = 1e-3;
 constexpr std::array<DwellWord, 1> kSeconds = {{{'P', 1}}};
 constexpr std::array<DwellWord, 2> kMarlin = {{{'S', 1}, {'P', kMillisecond_s}}};
 constexpr std::array<DwellWord, 3> kFanuc = {{{'X', 1}, {'U', 1}, {'P', kMillisecond_s}}};
-constexpr int kFanucInches = 700, kFanucMillimetres = 710;  // G70 and G71
 constexpr std::int64_t kProgramNumbers = 10'000;  // four digits
+
+/// A code of a dialect that RS-274/NGC writes differently; G codes in tenths.
+struct Meaning {
+  Dialect dialect;
+  char letter;
+  int written;
+  int meant;
+};
+constexpr Meaning kMeanings[] = {
+    {Dialect::fanuc, 'G', 700, code::g20},
+    {Dialect::fanuc, 'G', 710, code::g21},
+};
 
 }  // namespace
 
@@ -29,9 +40,11 @@ std::span<const DwellWord> dwell_words(Dialect dialect) {
   return kSeconds;
 }
 
-int meant_g_code(Dialect dialect, int tenths) {
-  if (dialect != Dialect::fanuc) return tenths;
-  return tenths == kFanucInches ? code::g20 : tenths == kFanucMillimetres ? code::g21 : tenths;
+int meant_code(Dialect dialect, char letter, int number) {
+  for (const Meaning& meaning : kMeanings)
+    if (meaning.dialect == dialect && meaning.letter == letter && meaning.written == number)
+      return meaning.meant;
+  return number;
 }
 
 SubprogramCall subprogram_call(Dialect dialect, std::int64_t p) {

@@ -6,7 +6,7 @@
 
 namespace kadr::gcode {
 
-/// Which controller's reading of codes that differ.
+/// The controller whose reading applies where controllers differ.
 enum class Dialect : std::uint8_t { linuxcnc, grbl, marlin, fanuc };
 
 inline constexpr Vocabulary<Dialect, 4> kDialects{{
@@ -17,26 +17,27 @@ inline constexpr Vocabulary<Dialect, 4> kDialects{{
 }};
 static_assert(kDialects.complete());
 
-// what differs, and nothing else; Marlin's G5 stands with the other splines
+// only the differences; Marlin's G5 is with the other splines
 
 /// A word of G4 and the seconds that 1 of it means.
 struct DwellWord {
   char letter;
   double unit_s;
 };
-/// Of several words on a line the first of these holds.
+/// If a line has several words, the first of these counts.
 std::span<const DwellWord> dwell_words(Dialect dialect);
 
-/// What a G code means in RS-274/NGC, both as ten times their numbers: G70 and G71 of fanuc are G20 and G21.
-int meant_g_code(Dialect dialect, int tenths);
+/// The meaning of a code of the dialect in RS-274/NGC: G70 and G71 of fanuc are G20 and G21.
+/// @param letter  G or M
+/// @param number  of G ten times the number
+int meant_code(Dialect dialect, char letter, int number);
 
-/// What P of M98 calls.
+/// The program called by P of M98.
 struct SubprogramCall {
   std::int64_t number = 0;
   std::uint64_t repeats = 1;
 };
-/// fanuc: the last four digits of P are the program, those before them the repeats: P30004 runs O4 three
-/// times.
+/// fanuc: the last four digits of P are the program, those before them the repeats: P30004 runs O4 three times.
 SubprogramCall subprogram_call(Dialect dialect, std::int64_t p);
 
 }  // namespace kadr::gcode

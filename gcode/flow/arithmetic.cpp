@@ -91,7 +91,7 @@ Arithmetic arc_function(Operation operation, double a) {
 /// A zero of either sign becomes +0.
 double round_away(double a) { return (a < 0 ? -std::floor(0.5 - a) : std::floor(a + 0.5)) + 0.0; }
 
-/// A zero keeps the sign of a, as in the controller: ATAN tells them apart.
+/// A zero keeps the sign of a, as in the controller: ATAN distinguishes them.
 double signed_modulo(double a, double b) {
   const double rest = modulo(a, b);
   return rest == 0 ? std::copysign(0.0, a) : rest;
@@ -100,7 +100,7 @@ double signed_modulo(double a, double b) {
 }  // namespace
 
 double atan_deg(double y, double x) {
-  // zeros have signs here, as in the controller: -#1 of a parameter that is 0 turns the angle round
+  // zeros have signs here, as in the controller: -#1 of a parameter that is 0 reverses the angle
   if (y == 0) return std::copysign(std::signbit(x) ? 180.0 : 0.0, y);
   if (x == 0) return y > 0 ? 90.0 : -90.0;
   return exact_atan2(y, x) * kDegrees;

@@ -6,15 +6,14 @@
 
 namespace kadr::gcode {
 
-/// Result of an operation, or why there is none.
+/// Result of an operation, or the reason why there is none.
 struct Arithmetic {
   double value = 0;
   std::string refusal;  ///< measured value and what is allowed; empty: value is good
   bool divided_by_zero = false;
 };
 
-/// RS-274/NGC binary operations. MOD is never negative; EQ holds within 1e-4; comparisons and logic give 1 or
-/// 0.
+/// RS-274/NGC binary operations. MOD is never negative; EQ holds within 1e-4; comparisons and logic give 1 or 0.
 Arithmetic apply(Operation operation, double a, double b);
 /// Functions of one argument, angles in degrees. ROUND goes away from zero, FIX down, FUP up.
 Arithmetic apply(Operation operation, double a);

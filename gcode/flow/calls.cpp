@@ -56,7 +56,7 @@ void Flow::call_code(const CallRequest& request) {
 }
 
 Flow::Target Flow::find_known(std::int32_t name, bool by_code) const {
-  // the file that calls comes first, then all others in the order they were read
+  // the calling file first, then all others in the order in which they were read
   std::vector<Unit*> order{unit_};
   for (const auto& unit : units_) order.push_back(unit.get());
   for (Unit* unit : order) {
@@ -91,7 +91,7 @@ bool Flow::load(std::int32_t name, Span place) {
   const std::string& text = state_.names[name];
   const auto loaded =
       std::find_if(units_.begin(), units_.end(), [&](const auto& u) { return u->name == text; });
-  if (loaded != units_.end()) return false;  // it was told what is wrong with it
+  if (loaded != units_.end()) return false;  // already reported
   const SubFile file = find_sub_file(text, folders_);
   if (!file.refusal.empty()) {
     error(problem(Code::sub_file, place, file.refusal,

@@ -37,7 +37,7 @@ class Evaluator {
 
   std::vector<double> values_;          ///< [nodes of the line]
   std::set<int> told_;                  ///< parameters told as never set
-  std::vector<std::int32_t> declared_;  ///< names that this line sets, as far as it has been read
+  std::vector<std::int32_t> declared_;  ///< names that this line sets, as far as read
   Report* report_ = nullptr;
   bool doubtful_ = false;
 };

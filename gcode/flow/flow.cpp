@@ -43,12 +43,12 @@ void Flow::run() {
   if (interpreter_.ended() && straight_ && report_.errors() == 0) tell_words_behind_end();
 }
 
-/// The end of a program without O words is the end of all of it.
+/// The end of a program without O words ends everything.
 void Flow::tell_words_behind_end() {
   Program::Position at = unit_->program.position();
   std::string_view rest = sources_[file_].text().substr(at.offset);
   const std::string_view end = sources_[file_].line(end_.line);
-  // a closing % ends what is read: anything may follow it
+  // a closing % ends reading: anything may follow it
   if (end.find('%') != std::string_view::npos) return;
   for (; !rest.empty(); ++at.line) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
@@ -88,7 +88,7 @@ bool Flow::add_unit(std::uint32_t file, std::string name) {
   units_.push_back(std::make_unique<Unit>(
       Unit{Program(sources_, file, options_.bounds, state_.names, report_), {}, std::move(name)}));
   Unit& unit = *units_.back();
-  // a file that is called holds a subroutine, even if its O word looks like a program number
+  // a called file contains a subroutine, even if its O word looks like a program number
   const bool is_main = unit.name.empty();
   straight_ = is_main && !unit.program.has_o_words();
   if (straight_) return true;
@@ -105,7 +105,7 @@ void Flow::statement(const Line& line) {
   if (line.flow.word == FlowWord::label) return;
   const int index = unit_->structure.at_line(line.number);
   if (index < 0) {
-    // behind an M2 that a mistake has kept from ending the program nothing is bound
+    // nothing is bound after an M2 that a mistake kept from ending the program
     require(report_.errors() > 0, "every O word that is run was bound before");
     stopped_ = true;
     return;
@@ -145,7 +145,7 @@ void Flow::statement(const Line& line) {
   }
 }
 
-/// The value behind endsub counts here, too, with the parameters of the one who passes.
+/// Skipping a definition still evaluates the value after endsub, in the caller's parameters.
 void Flow::pass_definition(int index) {
   const Statement& s = at(index);
   if (unit_->defined[static_cast<std::size_t>(index)]) {
@@ -177,7 +177,7 @@ bool Flow::value(const Line& line, std::int32_t first, std::int32_t root, double
 
 void Flow::branch(const Line& line, int index) {
   double condition = 0;
-  // without a value no branch is right: all are left out
+  // without a value no branch is right: all are skipped
   bool known = argument(line, condition);
   int at_branch = index;
   while (known && condition == 0) {

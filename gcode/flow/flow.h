@@ -9,7 +9,7 @@
 namespace kadr::gcode {
 
 /// Runs a program line by line in the order that its O words, M98 and M99 say: subroutines of its own and of
-/// files beside it, conditions, loops. The lines themselves are the Interpreter's.
+/// files next to it, conditions, loops. The Interpreter runs the lines themselves.
 class Flow {
  public:
   Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& options, Report& report,
@@ -96,7 +96,7 @@ class Flow {
   bool continue_kept_ = false;  ///< a continue was met, and no end of a while or repeat was passed over since
   std::uint64_t passes_ = 0;
   Span end_;
-  bool straight_ = false;  ///< no O words: nothing leads behind the program's end
+  bool straight_ = false;  ///< no O words: nothing leads past the program's end
   bool stopped_ = false;
 };
 

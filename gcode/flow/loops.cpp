@@ -5,9 +5,9 @@
 
 #include "gcode/flow/flow.h"
 
-/// Loops of O words, with what LinuxCNC keeps of them: it passes over lines in search of a label and has one
+/// Loops of O words, with the marks that LinuxCNC keeps: it skips lines in search of a label and has one
 /// mark for break, one for continue and one count for each repeat, which outlive their loop in some programs.
-/// kadr runs what that controller runs, and tells it.
+/// kadr does the same, and reports it.
 namespace kadr::gcode {
 
 bool Flow::count_pass(int beginning) {
@@ -29,7 +29,7 @@ void Flow::warn_kept(int index, std::string label, std::string cause) {
   report_.warning(std::move(d));
 }
 
-/// A break of that loop counts even where it is only passed over, on the way to the loop's end.
+/// A break of that loop counts even if it is only skipped, on the way to the loop's end.
 void Flow::pass_over_breaks(int from, int loop) {
   for (int i = from + 1; i < at(loop).end; ++i) {
     if (at(i).word == FlowWord::break_loop && at(i).begin == loop) break_kept_ = true;
@@ -79,7 +79,7 @@ void Flow::continue_loop(int index) {
 }
 
 void Flow::next_pass(int loop) {
-  // after an error nothing moves any more: one pass tells what there is to tell
+  // after an error nothing moves: one pass reports everything
   if (report_.errors() > 0) return leave_loop(loop);
   const Statement& s = at(loop);
   unit_->program.go_to(s.word == FlowWord::do_once ? at(s.end).at : s.at);
@@ -99,7 +99,7 @@ void Flow::repeat(const Line& line, int index) {
     double wanted = 0;
     if (!argument(line, wanted)) return leave_loop(index);
     const double most = 9e18;
-    // 0.5 is no pass, 1.5 are two: to the even number
+    // 0.5 is no pass, 1.5 is two: rounded to even
     left = static_cast<std::int64_t>(std::clamp(std::nearbyint(wanted), 0.0, most));
   }
   if (left > 0) {

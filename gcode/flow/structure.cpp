@@ -85,7 +85,7 @@ FlowWord beginning_of(FlowWord word) {
   return FlowWord::if_true;
 }
 
-/// The controller passes over what stands beside an O word, messages too.
+/// The controller skips everything else on the line of an O word, including messages.
 void warn_comments(const Line& line, Report& report) {
   for (const Item& item : line.items) {
     if (item.kind != ItemKind::comment || active_comment(line.slice(item.bytes)).command.empty()) continue;
@@ -239,7 +239,7 @@ struct Structure::Reader {
     error(Code::o_not_opened, s.span,
           fmt::format("no {} {} is open here", name_of(s.name), word_text(beginning_of(s.word))),
           open.empty() ? "nothing is open here" : fmt::format("open here: {}", told(open.back())));
-    // an end that fits something further out ends what is inside it as well, or one slip would be told often
+    // an end that fits something further out also ends what is inside it, or one slip would be reported often
     for (std::size_t i = open.size(); i-- > 0;) {
       if (structure[open[i]].name != s.name || structure[open[i]].word != beginning_of(s.word)) continue;
       while (open.size() > i) drop();
@@ -333,7 +333,7 @@ bool Structure::read(Program& program, bool block_delete, Names& names, Report& 
     if (line == nullptr) break;
     if (line->items.empty()) continue;
     if (block_delete && line->items.front().kind == ItemKind::block_delete) continue;
-    // what can't be read behind M2 is a remark, until a subroutine begins
+    // unreadable text after M2 is a remark, until a subroutine begins
     if (behind_end && (line->failed || !begins_subroutine(*line))) continue;
     behind_end = reader.open.empty() && ends_program(*line);
     if (line->has_flow && line->failed) unread = true;
@@ -351,7 +351,7 @@ bool Structure::read(Program& program, bool block_delete, Names& names, Report& 
   }
   reader.end_of_file();
   program.rewind();
-  // an O word that could not be read leaves others without their partner: it alone is told
+  // an unreadable O word leaves others without a partner: only it is reported
   if (unread) return false;
   for (Diagnostic& problem : reader.problems) report.error(std::move(problem));
   return reader.problems.empty();

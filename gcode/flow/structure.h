@@ -22,11 +22,11 @@ struct Statement {
 /// All O words of a file, bound together before anything runs.
 class Structure {
  public:
-  /// Reads the whole program once, so that every mistake of its text is told, and rewinds it.
-  /// @return false if O words don't fit together (told): nothing of the file may be run
+  /// Reads the whole program once, so that every mistake of its text is reported, and rewinds it.
+  /// @return false if O words don't fit together (reported): nothing of the file may be run
   bool read(Program& program, bool block_delete, Names& names, Report& report);
 
-  /// The statement on a line that holds an O word, -1 if it lies behind the end of the program.
+  /// The statement on a line with an O word, -1 if it is after the end of the program.
   int at_line(std::uint32_t line) const;
   std::size_t size() const { return statements_.size(); }
   const Statement& operator[](int index) const { return statements_[static_cast<std::size_t>(index)]; }

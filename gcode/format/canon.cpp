@@ -195,7 +195,9 @@ class CallWriter {
   bool operator()(const OptionalStop&) const { return named("OPTIONAL_PROGRAM_STOP"); }
   bool operator()(const ProgramEnd& end) const { return !end.by_percent && named("PROGRAM_END"); }
 
-  bool operator()(const OneOf<SpindleMode, FeedOverride, SpeedOverride, SpeedPoint> auto&) const { return false; }
+  bool operator()(const OneOf<SpindleMode, FeedOverride, SpeedOverride, SpeedPoint> auto&) const {
+    return false;
+  }
   bool operator()(const OneOf<Message, Comment> auto&) const { return false; }
 
  private:

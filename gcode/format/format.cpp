@@ -18,10 +18,10 @@ namespace {
 constexpr std::size_t kIndent = 2;
 /// Longer lines don't push the comments of their neighbours to the right.
 constexpr std::size_t kAlignedUpTo = 60;
-/// Letters whose number is a name, not a length: a point behind it means nothing anywhere.
+/// Letters whose number is a name, not a length: a point after it means nothing.
 constexpr std::string_view kCodeLetters = "GMNT";
 
-// what is printed first has the lower rank; items of one rank keep their order
+// lower ranks are printed first; items of one rank keep their order
 constexpr std::int32_t kHeadRank = 0;
 constexpr std::int32_t kNumberRank = 1;
 constexpr std::int32_t kFirstRank = 2;  // M98 must be the first word; a name exists from its setting on
@@ -31,7 +31,7 @@ constexpr std::int32_t kMRank = 300;
 constexpr std::int32_t kSettingRank = 400;
 constexpr std::int32_t kMisplacedRank = 401;  // a line number inside a line stays a mistake
 constexpr std::int32_t kCommentRank = 500;
-constexpr std::int32_t kUnknownCode = 50;  // within G and M: behind the known ones
+constexpr std::int32_t kUnknownCode = 50;  // within G and M: after the known ones
 
 constexpr std::string_view kLetterOrder = "XYZABCUVW@^IJKRPQLDHEFS$T";
 
@@ -50,7 +50,7 @@ std::int32_t place_in(const std::array<Group, N>& order, Group group) {
   return static_cast<std::int32_t>(std::find(order.begin(), order.end(), group) - order.begin());
 }
 
-/// Place of a G word among the others of its line; of a computed or unknown one the group is not known.
+/// Rank of a G word among the others of its line; the group of a computed or unknown one is not known.
 std::int32_t g_rank(const Item& item) {
   constexpr double kLargestCode = 1000;
   if (item.value >= 0 || !(item.number >= 0 && item.number < kLargestCode)) return kUnknownCode;
@@ -169,7 +169,7 @@ void Formatter::add(const Line& line) {
 
 void Formatter::keep(std::string_view text) {
   flush();
-  // each carriage return before the line end would be taken for a part of it the next time
+  // a carriage return before the line end would be read as part of it the next time
   while (!text.empty() && text.back() == '\r') text.remove_suffix(1);
   out_ += text;
   out_ += '\n';
@@ -238,14 +238,14 @@ void Formatter::append_o_word(std::string& out, const Line& line, std::uint32_t 
 }
 
 /// The parts of an item's expressions in the order written. Not by a walk down the tree: a line of a megabyte
-/// may hold an expression as deep.
+/// may contain an expression as deep.
 void Formatter::append_lexemes(std::string& out, const Line& line, std::uint32_t at) {
   const Item& item = line.items[at];
   lexemes_.clear();
   const std::int32_t end_node = node_end(line, at);
   for (std::int32_t i = item.first; i < end_node; ++i) {
     const ExpressionNode& node = line.nodes[static_cast<std::size_t>(i)];
-    // a sign + changes nothing; before a number it would be read as the number's own the next time
+    // a sign + changes nothing; before a number it would be read as part of the number the next time
     if (node.kind != NodeKind::plus) lexemes_.push_back({node.own, node.kind});
     if (node.closing.end > node.closing.begin) lexemes_.push_back({node.closing, NodeKind::group});
   }
@@ -287,7 +287,7 @@ std::size_t Formatter::indentation(const Line& line) {
   if (!line.has_flow) return kIndent * open_.size();
   const FlowStatement& flow = line.flow;
   const auto close = [&](FlowWord word) {
-    // a label that closes nothing is somebody else's mistake
+    // a label that closes nothing is reported elsewhere
     for (std::size_t i = open_.size(); i-- > 0;) {
       if (open_[i].word != word || open_[i].name != flow.name) continue;
       open_.resize(i);
@@ -333,7 +333,7 @@ std::size_t Formatter::indentation(const Line& line) {
   return kIndent * open_.size();
 }
 
-/// The first % opens a program, the next one, or the first behind a word, ends it.
+/// The first % opens a program, the next one, or the first after a word, ends it.
 void Formatter::note_percent(const Line& line) {
   for (const Item& item : line.items) {
     if (item.kind == ItemKind::percent) ended_ = started_;

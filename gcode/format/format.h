@@ -11,15 +11,15 @@
 ///
 ///   N10 G90 G1 X1.5 Y-2 F300 M8 (comment)
 ///
-/// - words in the order in which the controller acts on them: N, G by group, axes, I J K R P Q L D H E, F S $
-///   T, M by group; behind them the settings, which hold from the next line on; comments last, in their order
+/// - words in the order in which the controller executes them: N, G by group, axes, I J K R P Q L D H E, F S $
+///   T, M by group; after them the settings, which apply from the next line on; comments last, in their order
 /// - one blank between words, none inside; capital letters; no needless zeros (a point stays: other controls
 ///   read X10 and X10. differently)
 /// - blanks round the operators of an expression, none elsewhere in it
-/// - two blanks of indentation a level of O words; comments of neighbouring lines stand below each other
+/// - two blanks of indentation per level of O words; comments of neighbouring lines are aligned
 /// - lines end in LF, the last one too
 ///
-/// A line that could not be read stays as it is, and so does what stands behind the % that ends the program.
+/// A line that could not be read stays as it is, and so does everything after the % that ends the program.
 namespace kadr::gcode {
 
 /// Puts lines into normal form one after another.
@@ -32,7 +32,7 @@ class Formatter {
   /// A line that is kept as it is.
   void keep(std::string_view text);
   void finish() { flush(); }
-  /// True once a % has ended the program: what follows means nothing.
+  /// True once a % has ended the program: the rest means nothing.
   bool ended() const { return ended_; }
 
  private:
@@ -70,7 +70,7 @@ class Formatter {
 
 /// A number as written without blanks, plus sign and needless zeros: " + 01.500" is 1.5, "10.0" is 10., ".5"
 /// is 0.5. Its value stays exactly the same.
-/// @param point  false: a point with nothing behind it goes too, as in a code: G01.0 is G1
+/// @param point  false: a point without decimals is removed too, as in a code: G01.0 is G1
 std::string plain_number(std::string_view written, bool point = true);
 
 }  // namespace kadr::gcode

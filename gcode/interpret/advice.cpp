@@ -32,7 +32,7 @@ Advice::Advice(const State& state, const InterpretOptions& options, Report& repo
   watch_moves();
 }
 
-/// Moves are looked at only while some rule waits for one: most programs are nothing but moves.
+/// Moves are checked only while some rule waits for one: most programs are nothing but moves.
 void Advice::watch_moves() {
   const bool spindle_rule = !spindle_runs_ && !probing_ && cut_.line == 0;
   wanted_ = spindle_rule || length_doubtful_ ? kAlways | kMoves : kAlways;
@@ -70,8 +70,9 @@ void Advice::follow(const Block& block) {
 
 void Advice::check_dwell(const Dwell& dwell, Span span) {
   if (!seconds_ || dwell.time_s < kLongDwell_s) return;
-  report_.warning(problem(Code::long_dwell, span, fmt::format("waits {} s", figure(dwell.time_s)),
-                          fmt::format("if milliseconds were meant, write P{}", figure(dwell.time_s / 1000, 6))));
+  report_.warning(
+      problem(Code::long_dwell, span, fmt::format("waits {} s", figure(dwell.time_s)),
+              fmt::format("if milliseconds were meant, write P{}", figure(dwell.time_s / 1000, 6))));
 }
 
 void Advice::program_ended(Span span) {
@@ -90,7 +91,7 @@ void Advice::spindle_started(Span span) {
 }
 
 void Advice::tool_changed(const ChangeTool& change) {
-  // before the first start of the spindle nothing says yet that the program needs one
+  // before the first start of the spindle it is not known that the program needs one
   if (spindle_ran_) tell_cut_without_spindle();
   probing_ = false;
   length_doubtful_ = state_.tools.find(change.tool) != nullptr;

@@ -8,8 +8,8 @@
 
 namespace kadr::gcode {
 
-/// Warns of what is legal and hardly ever meant: it looks at the blocks as they are made. Rules that a good
-/// program could break by intent are left out: a warning that is often wrong is not read.
+/// Warns of code that is legal but hardly ever intended: it watches the blocks as they are made. Rules that a good
+/// program could break on purpose are left out: a warning that is often wrong is not read.
 class Advice {
  public:
   Advice(const State& state, const InterpretOptions& options, Report& report);
@@ -44,8 +44,8 @@ class Advice {
   bool spindle_ran_ = false;
   Span spindle_began_;    ///< where it was started last
   Span spindle_stopped_;  ///< what stopped it
-  bool probing_ = false;  ///< a probe stands in the spindle: it moves without turning
-  Span cut_;              ///< first feed move downward while the spindle stands; line 0: none
+  bool probing_ = false;  ///< a probe is in the spindle: it moves without turning
+  Span cut_;              ///< first feed move downward with the spindle stopped; line 0: none
   double z_mm_ = 0;       ///< where the last move ended
   bool length_doubtful_ = false;
   AxisValues length_in_force_{};  ///< as the tool was changed

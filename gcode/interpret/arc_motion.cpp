@@ -72,7 +72,8 @@ void Interpreter::arc(Motion motion) {
   emit(action_span(), arc);
 }
 
-bool Interpreter::find_arc(const AxisValues& start, const AxisValues& end, bool clockwise, ArcGeometry& result) {
+bool Interpreter::find_arc(const AxisValues& start, const AxisValues& end, bool clockwise,
+                           ArcGeometry& result) {
   const PlaneAxes axes = plane_axes(state_.plane);
   const PlanePoint from = in_plane(start, axes);
   const PlanePoint to = in_plane(end, axes);

@@ -49,10 +49,10 @@ void Interpreter::check_codes() {
   if (takes_axes) check_axis_words();
   if (words_.has_axis() && !takes_axes && !names_motion && !state_.uncertain.motion &&
       (motion_code == code::g80 || state_.motion == Motion::none)) {
-    error(problem(
-        Code::axis_words_without_motion, words_.motion_span(*line_),
-        motion_code == code::g80 ? "G80 on this line has ended every motion" : "no motion code is in force here",
-        "write G0, G1, G2 or G3 before the first axis words"));
+    error(problem(Code::axis_words_without_motion, words_.motion_span(*line_),
+                  motion_code == code::g80 ? "G80 on this line has ended every motion"
+                                           : "no motion code is in force here",
+                  "write G0, G1, G2 or G3 before the first axis words"));
     state_.uncertain.motion = true;
   }
   if (nonmodal_code == code::g53) {
@@ -162,7 +162,8 @@ void Interpreter::check_values() {
       break;
   }
   if (moves() && is_arc(motion_of_line())) check_whole('P', 1, kLargestTurns);
-  if (words_.g(GGroup::spindle_mode) == code::g96) require_word('S', GGroup::spindle_mode, "the surface speed");
+  if (words_.g(GGroup::spindle_mode) == code::g96)
+    require_word('S', GGroup::spindle_mode, "the surface speed");
   if (words_.g(GGroup::spindle_mode) != kNoCode) check_whole('$', 0, 0);
   if (moves() && motion_of_line() == Motion::nurbs) check_whole('L', 0, kLargestOrder);
   if (words_.g(GGroup::path) == code::g64 && words_.has('P') && words_.value('P') < 0) {
@@ -207,7 +208,8 @@ void Interpreter::check_shared_p() {
   const int code = words_.g(GGroup::nonmodal);
   const int override_code = words_.m(MGroup::overrides);
   const int motion_code = words_.g(GGroup::motion);
-  const int users = (code == code::g4 || code == code::g10 ? 1 : 0) + (words_.g(GGroup::path) == code::g64 ? 1 : 0) +
+  const int users = (code == code::g4 || code == code::g10 ? 1 : 0) +
+                    (words_.g(GGroup::path) == code::g64 ? 1 : 0) +
                     (override_code == code::m50 || override_code == code::m51 ? 1 : 0) +
                     (motion_code == code::g2 || motion_code == code::g3 ? 1 : 0);
   if (users < 2) return;

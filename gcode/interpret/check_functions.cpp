@@ -3,13 +3,13 @@
 #include "gcode/constants.h"
 #include "gcode/interpret/interpreter.h"
 
-/// May these words of outputs, inputs, spindle and modal state stand together?
+/// Checks whether these words of outputs, inputs, spindle and modal state fit together.
 namespace kadr::gcode {
 namespace {
 
 constexpr double kLargestChannel = 9999;
-constexpr double kLastWaitMode = 4;
-constexpr double kLastOrientWay = 2;  // P of M19: 0 the nearer way, 1 clockwise, 2 counter-clockwise
+constexpr double kLastWaitMode = kWaitModes.size() - 1;
+constexpr double kLastOrientWay = 2;  // P of M19: 0 the shorter way, 1 clockwise, 2 counter-clockwise
 
 }  // namespace
 

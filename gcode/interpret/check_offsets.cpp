@@ -5,7 +5,7 @@
 #include "gcode/constants.h"
 #include "gcode/interpret/interpreter.h"
 
-/// May these words of tools and offsets stand together, and do they name what there is?
+/// Checks whether these words of tools and offsets fit together and name existing tools.
 namespace kadr::gcode {
 namespace {
 
@@ -52,7 +52,7 @@ bool Interpreter::check_tool(char letter, double least) {
   if (!check_whole(letter, least, kLargestTool)) return false;
   int number = 0;
   near_integer(words_.value(letter), number);
-  // without a table every number is a tool, and what depends on an earlier mistake is not judged
+  // without a table every number is a tool, and values that depend on an earlier mistake are not checked
   const bool doubtful = (words_.doubtful & letter_bit(letter)) != 0;
   if (number == 0 || !options_.tools || doubtful || state_.tools.find(number) != nullptr) return true;
   Diagnostic d =

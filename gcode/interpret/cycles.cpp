@@ -36,7 +36,7 @@ struct Interpreter::Hole {
   double first = 0, second = 0;
   double here = 0;     ///< level of the tool as the line begins
   double retract = 0;  ///< R
-  double clear = 0;    ///< level of the way to the next hole: R, or the initial level under G98
+  double clear = 0;    ///< level of the move to the next hole: R, or the initial level under G98
   double bottom = 0;
 };
 
@@ -112,7 +112,7 @@ void Interpreter::cycle() {
     return;
   }
   const PathMode mode = state_.path_mode;
-  const double tolerance = state_.path_tolerance;  // given back in the units in force now, as LinuxCNC does
+  const double tolerance = state_.path_tolerance;  // restored in the units in force now, as LinuxCNC does
   const Span span = action_span();
   if (mode != PathMode::exact_path) set_path_mode(PathMode::exact_path, 0, span);
   cycle_holes(hole);
@@ -161,7 +161,7 @@ void Interpreter::cycle_holes(Hole hole) {
   int repeats = 1;
   if (words_.has('L')) near_integer(words_.value('L'), repeats);
   for (int i = 0; i < repeats && !ended_; ++i) {
-    // an incremental angle goes on from the hole before
+    // an incremental angle continues from the previous hole
     const bool polar = (words_.present & letter_bits("@^")) != 0;
     if (i > 0 && polar && state_.incremental && !resolve_polar()) return;
     if (state_.incremental) {
@@ -171,7 +171,7 @@ void Interpreter::cycle_holes(Hole hole) {
       hole.first = word(hole.axes.first, hole.first);
       hole.second = word(hole.axes.second, hole.second);
     }
-    // the first way to a hole is at the height where the tool is, the others at the level of retreat
+    // the first move to a hole is at the tool's height, the others at the retract level
     const double way = i == 0 && hole.here > hole.retract ? hole.here : hole.clear;
     go_to_level(hole, Rate::rapid, way);
     if (way > hole.retract) go_to_level(hole, Rate::rapid, hole.retract);
@@ -237,15 +237,15 @@ void Interpreter::tap(const Hole& hole) {
   tap_to_level(hole, hole.clear);
   turn_spindle(Turning::stopped, span);
   turn_spindle(in, span);
-  // after exchanged axes the program goes on as if the tool were over the hole
+  // after swapped axes the program continues as if the tool were over the hole
   state_.position = near_position(state_.to_machine(place_at(hole, hole.clear)));
   tapped_at_ = state_.position;
   if (feed_override) enable_feed_override(true);
   if (speed_override) enable_speed_override(true);
 }
 
-/// LinuxCNC 2.9 exchanges the axes of the feed moves of G74 and G84 outside G17. Its machine makes this move;
-/// so does the emulated one, and says so: the place to find it out is here.
+/// LinuxCNC 2.9 swaps the axes of the feed moves of G74 and G84 outside G17. Its machine makes this move;
+/// so does the emulated one, with a warning.
 void Interpreter::tap_to_level(const Hole& hole, double level) {
   if (state_.plane == Plane::xy) return go_to_level(hole, Rate::feed, level);
   Hole exchanged = hole;
@@ -279,13 +279,9 @@ AxisValues Interpreter::place_at(const Hole& hole, double level) const {
   return program;
 }
 
-void Interpreter::go_to_level(const Hole& hole, Rate rate, double level) {
-  go(rate, place_at(hole, level));
-}
+void Interpreter::go_to_level(const Hole& hole, Rate rate, double level) { go(rate, place_at(hole, level)); }
 
-void Interpreter::dwell_at_bottom() {
-  emit(action_span(), Dwell{state_.cycle.dwell_s});
-}
+void Interpreter::dwell_at_bottom() { emit(action_span(), Dwell{state_.cycle.dwell_s}); }
 
 void Interpreter::retract_mode() {
   const int code = words_.g(GGroup::retract);

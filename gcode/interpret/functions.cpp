@@ -8,7 +8,7 @@ void Interpreter::spindle() {
   if (code == code::m19) return orient_spindle();
   turn_spindle(code == code::m3   ? Turning::clockwise
                : code == code::m4 ? Turning::counterclockwise
-                           : Turning::stopped,
+                                  : Turning::stopped,
                words_.span(*line_, MGroup::spindle));
 }
 
@@ -49,8 +49,10 @@ void Interpreter::coolant() {
 
 void Interpreter::overrides() {
   const int code = words_.m(MGroup::overrides);
-  if (code == kNoCode || code == code::m52 || code == code::m53) return;  // adaptive feed and feed hold are the operator's
-  const bool enable = code == code::m48 || (code != code::m49 && !(words_.has('P') && words_.value('P') == 0));
+  if (code == kNoCode || code == code::m52 || code == code::m53)
+    return;  // adaptive feed and feed hold are the operator's
+  const bool enable =
+      code == code::m48 || (code != code::m49 && !(words_.has('P') && words_.value('P') == 0));
   if (code != code::m51) enable_feed_override(enable);
   if (code != code::m50) enable_speed_override(enable);
 }
@@ -90,7 +92,7 @@ void Interpreter::dwell() {
   emit(g_span(GGroup::nonmodal), Dwell{words_.value('P')});
 }
 
-/// A word or setting beside M98 P L or M99, none: null.
+/// A word or setting on the line of M98 P L or M99, none: null.
 const Item* Interpreter::words_beside_call() const {
   for (const Item& item : line_->items) {
     if (item.kind == ItemKind::setting) return &item;
@@ -101,7 +103,7 @@ const Item* Interpreter::words_beside_call() const {
   return nullptr;
 }
 
-/// LinuxCNC runs nothing of a line that begins with M98 but the call.
+/// LinuxCNC runs only the call of a line that begins with M98.
 bool Interpreter::calls_only() const {
   return words_.m(MGroup::call) == code::m98 && options_.dialect != Dialect::fanuc;
 }
@@ -115,7 +117,7 @@ void Interpreter::call() {
   request.alone = !words_beside_call();
   int whole = 0;
   if (words_.has('P') && near_integer(words_.value('P'), whole)) {
-    // beside L, all of P is the number
+    // with L, all of P is the number
     const SubprogramCall meant =
         words_.has('L') ? SubprogramCall{whole} : subprogram_call(options_.dialect, whole);
     request.number = meant.number;

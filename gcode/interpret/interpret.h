@@ -4,5 +4,5 @@
 #include "gcode/interpret/words.h"
 
 /// Tree to Blocks: Interpreter takes a line whose expressions have values (Words), checks that its words may
-/// stand together (check*.cpp), changes the modal State, and emits the Blocks that the line means: motion,
+/// fit together (check*.cpp), changes the modal State, and emits the Blocks that the line means: motion,
 /// cycles, splines, probing, tools and offsets, inputs and outputs, a .cpp each.

@@ -27,7 +27,7 @@ void Interpreter::run(const Line& line) {
   if (options_.block_delete && line.items.front().kind == ItemKind::block_delete) return;
   const bool readable = words_.read(line, state_, line.failed ? nullptr : &report_);
   if (words_.percent) {
-    // the first % opens the program, the next one ends it; before the first only comments may stand
+    // the first % opens the program, the next one ends it; only comments may precede the first
     if (started_) finish(line_span(), true);
     started_ = true;
     return;
@@ -43,8 +43,8 @@ void Interpreter::run(const Line& line) {
   execute();
 }
 
-/// True for a line of nothing but axis words under G0 or G1. Most lines of most programs are such; they pass
-/// by the checks and settings that can't concern them.
+/// True for a line of only axis words under G0 or G1. Most lines of most programs are like this; they skip
+/// the checks and settings that can't apply to them.
 bool Interpreter::plain_move() const {
   if (!words_.only_moves() || (words_.present & ~axes_on_machine_) != 0 || state_.uncertain.motion ||
       compensation_.active())

@@ -24,7 +24,7 @@ struct CallRequest {
   Span place;
 };
 
-/// A word that a code can't do without, and what it says.
+/// A required word of a code, and its meaning.
 struct NeededWord {
   char letter;
   std::string_view meaning;
@@ -42,11 +42,11 @@ struct Nurbs {
   std::vector<SplinePoint> points;
   Span span;             ///< of its first line
   double inverse_f = 0;  ///< F of one of its lines under G93
-  bool faulty = false;   ///< an error was told
+  bool faulty = false;   ///< an error was reported
   bool doubtful = false;
 };
 
-/// Lines -> Blocks. Keeps what earlier lines have set, checks a whole line before anything of it takes
+/// Lines -> Blocks. Keeps the settings of earlier lines, checks a whole line before any of it takes
 /// effect, then executes its words in the order of RS-274/NGC, whatever order they are written in.
 class Interpreter {
  public:
@@ -57,18 +57,18 @@ class Interpreter {
   void finish(Span end, bool by_percent = false);
   /// The end by M2, M30, or M99 in the main program: modes are reset first.
   void end_program(Span place);
-  /// What the line just run asks of the flow; asked once.
+  /// The call requested by the line just run; returned once.
   std::optional<CallRequest> take_call() { return std::exchange(call_, std::nullopt); }
-  /// The end of a call: its modes are given back if M73 asked for it, and its level goes.
+  /// The end of a call: restores its modes if M73 asked for it, and removes its level.
   void leave_level(Span place);
-  /// A line that only steers has been read: the program has begun.
+  /// A flow line has been read: the program has begun.
   void start() { started_ = true; }
   State& state() { return state_; }
   /// True after M2, M30, the closing % or the bound on blocks.
   bool ended() const { return ended_; }
 
  private:
-  // check.cpp: may these words stand together?
+  // check.cpp: do these words fit together?
   bool check();
   void check_axes();
   void check_unused();
@@ -82,7 +82,7 @@ class Interpreter {
   bool check_whole(char letter, double least, double most);
   void check_shared_p();
 
-  // settings.cpp: what holds from here on
+  // settings.cpp: modes
   void comment();
   void technology(std::string_view text, Span span);
   void feed_mode();
@@ -243,7 +243,7 @@ class Interpreter {
   void end_compensation(Span place);
   void report_compensation_fault(const CompensationFault& fault, Span span);
 
-  // compensation_checks.cpp: what may not stand while compensation is on
+  // compensation_checks.cpp: codes not allowed while compensation is on
   void check_compensation();
   void check_compensation_words();
   void check_while_compensating(bool until_now, bool from_now);
@@ -295,7 +295,7 @@ class Interpreter {
   Compensation compensation_;
   bool compensation_tilted_ = false;     ///< it runs in program coordinates: G18 in a rotated work system
   Span compensation_span_;               ///< the G41 or G42 in force
-  std::size_t compensation_faults_ = 0;  ///< told on this line
+  std::size_t compensation_faults_ = 0;  ///< reported on this line
   const Line* line_ = nullptr;
   Nurbs nurbs_;
   double spline_i_mm_ = 0;  ///< from the start to the first control point of a G5 without I and J
@@ -311,7 +311,7 @@ class Interpreter {
   bool ended_ = false;
   bool threading_ = false;         ///< feed moves follow the spindle's angle, by thread_pitch_u_rev_
   double thread_pitch_u_rev_ = 0;  ///< as written
-  bool standing_told_ = false;     ///< the warning of a feed that follows a standing spindle
+  bool standing_told_ = false;     ///< the warning of a feed that follows a stopped spindle
   bool silent_ = false;            ///< recovering from an error: modes are taken over, nothing is handed out
 };
 

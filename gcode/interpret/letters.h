@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-/// Which letters each code reads, besides axes, F, S and T. One table: what it does not name is refused.
+/// The letters that each code reads, besides axes, F, S and T. The only table: other letters are refused.
 namespace kadr::gcode {
 
 /// Letters of a G code in tenths, as bits (letter_bit in words.h); 0: none.

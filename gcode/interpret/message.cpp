@@ -29,11 +29,11 @@ std::string valid_text(std::string_view text) {
 namespace {
 
 constexpr int kDecimals = 6;          // of a value without a format before it
-constexpr double kLeastShown = 1e-4;  // what is nearer to 0 is told as 0
+constexpr double kLeastShown = 1e-4;  // values closer to 0 are printed as 0
 constexpr int kDecimalsOfF = 4;       // %f
 constexpr const char* kUnset = "######";
 
-/// Expands one text from left to right; a format holds for every value behind it.
+/// Expands one text from left to right; a format applies to every value after it.
 class Expansion {
  public:
   Expansion(std::string_view text, State& state, std::uint32_t line)

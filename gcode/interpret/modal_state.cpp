@@ -5,7 +5,7 @@
 #include "gcode/interpret/interpreter.h"
 #include "gcode/read/parser.h"
 
-/// M70 to M73: modes are kept, and given back by running the words that differ.
+/// M70 to M73: modes are saved, and restored by running the words that differ.
 namespace kadr::gcode {
 namespace {
 
@@ -54,7 +54,7 @@ std::string differing_words(const ModalState& now, const ModalState& saved) {
   return words;
 }
 
-/// The codes by which LinuxCNC keeps coolant and overrides; 0: none, which is never given back.
+/// The codes by which LinuxCNC saves coolant and overrides; 0: none, which is never restored.
 int mist_code(const ModalState& modes) { return modes.mist ? 7 : modes.flood ? 0 : 9; }
 int flood_code(const ModalState& modes) { return modes.flood ? 8 : 0; }
 int override_code(const ModalState& modes) { return modes.feed_override ? 48 : 51; }
@@ -62,8 +62,8 @@ int spindle_code(Turning turning) {
   return turning == Turning::clockwise ? 3 : turning == Turning::counterclockwise ? 4 : 5;
 }
 
-/// The M codes that lead to `saved`, as far as the kept codes tell it: coolant that was off stays on beside
-/// the other one, and of the overrides only an enabled feed override comes back.
+/// M codes that restore `saved`. As in LinuxCNC, a coolant that was off is not switched off if the other
+/// was on, and of the overrides only an enabled feed override is restored.
 std::vector<int> differing_m_codes(const ModalState& now, const ModalState& saved) {
   std::vector<int> codes;
   const auto differ = [&](int code_now, int code_saved) {

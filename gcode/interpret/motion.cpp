@@ -246,7 +246,7 @@ void Interpreter::set_feed(Move& move) {
   if (state_.feed_mode == FeedMode::inverse_time) {
     move.duration_s = kSecondsPerMinute / words_.value('F');
     move.feed_u_s = move.length_u / move.duration_s;
-    // a probing move, which has no time of its own, goes on at this feed
+    // a probing move, which has no time of its own, continues at this feed
     state_.feed_linear_mm_min = state_.feed_rotary_deg_min = move.feed_u_s * kSecondsPerMinute;
     const double length = rotary ? move.length_u : move.length_u / state_.length_factor();
     state_.feed_number = std::max(kLeastInverseFeed, length * words_.value('F'));

@@ -10,7 +10,7 @@
 namespace kadr::gcode {
 namespace {
 
-constexpr double kOrigin_u = 1e-12;  // nearer than this the angle is rounding
+constexpr double kOrigin_u = 1e-12;  // closer than this the angle is rounding noise
 
 }  // namespace
 
@@ -27,7 +27,7 @@ bool Interpreter::polar_words() {
     return error(problem(Code::polar_place, span, "no motion in program coordinates reads this word",
                          "give X and Y instead"));
   }
-  // as the controller, which looks at the plane before the line changes it
+  // as in the controller, which checks the plane before the line changes it
   if (state_.plane != Plane::xy) {
     return error(problem(Code::polar_place, span,
                          fmt::format("the line begins in {}", state_.plane == Plane::zx ? "G18" : "G19"),

@@ -7,9 +7,9 @@
 
 namespace kadr::gcode {
 
-/// Names of the parameters that tell the state of the interpreter; Names numbers them in this order.
+/// Names of the parameters with the state of the interpreter; Names numbers them in this order.
 std::span<const std::string_view> predefined_names();
-/// True if the name of that number tells the state: it can be read, not set.
+/// True if the name of that number is part of the state: it can be read, not set.
 bool is_predefined(std::int32_t name);
 /// Value of a predefined parameter, in the units in force.
 /// @param line  number of the line that asks

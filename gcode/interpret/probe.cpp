@@ -45,9 +45,9 @@ void Interpreter::probe() {
   emit(action_span(), probe);
 }
 
-/// As in LinuxCNC a probing move has no time of its own: it goes on at the feed of the move before it, or at
+/// As in LinuxCNC a probing move has no time of its own: it continues at the feed of the previous move, or at
 /// the last F before G93.
-/// @return mm/min, 0 if there is none: an error was told
+/// @return mm/min, 0 if there is none: an error was reported
 double Interpreter::probe_feed_under_inverse_time() {
   if (state_.feed_linear_mm_min > 0) return state_.feed_linear_mm_min;
   if (state_.feed_linear_mm_rev > 0) return state_.feed_linear_mm_rev;
@@ -69,13 +69,14 @@ bool Interpreter::probe_allowed() {
   return true;
 }
 
-/// Finds where the probe changes on the way to its end, and what part of the way that is.
+/// Finds where the probe changes on the way to its end, and at which fraction of the move.
 /// @return false: an error was reported
 bool Interpreter::find_contact(Probe& probe, double& travelled) {
   probe.contact = probe.end;
   if (!options_.stock) {
     if (!probe_stock_told_) {
-      report_.warning(problem(Code::probe_without_stock, action_span(), "the probe meets the end of each move",
+      report_.warning(problem(Code::probe_without_stock, action_span(),
+                              "the probe meets the end of each move",
                               "give [stock] in the machine or scenario file"));
     }
     probe_stock_told_ = true;
@@ -83,11 +84,11 @@ bool Interpreter::find_contact(Probe& probe, double& travelled) {
   }
   const StockPlane& stock = *options_.stock;
   const auto axis = static_cast<std::size_t>(stock.axis);
-  // what meets the plane is the tip: the controlled point less its tool offset
+  // the tip meets the plane: the controlled point minus its tool offset
   const double plane_u = stock.position_u + state_.tool_offset[axis];
   const double from_u = state_.position[axis], to_u = probe.end[axis];
   const auto inside = [&](double at_u) { return stock.below ? at_u <= plane_u : at_u >= plane_u; };
-  // a probe that has just lost contact stands on the plane and does not touch it
+  // a probe that has just lost contact is on the plane and does not touch it
   const bool just_left = probe_left_ && same_point(*probe_left_, state_.position);
   const bool touching = inside(from_u) && !just_left;
   if (touching != probe.away) return refuse_probe_start(probe, from_u - plane_u);
@@ -106,7 +107,7 @@ bool Interpreter::find_contact(Probe& probe, double& travelled) {
       fmt::format("the move ends {} mm {} the stock", figure(left_mm), probe.away ? "inside" : "from"));
   d.notes.push_back(stock_text());
   d.help = probe.away ? "probe further away, or use G38.5 and look at #5070"
-                            : "probe further, or use G38.3 and look at #5070";
+                      : "probe further, or use G38.3 and look at #5070";
   return error(std::move(d));
 }
 
@@ -121,7 +122,7 @@ bool Interpreter::refuse_probe_start(const Probe& probe, double beyond_mm) {
   const std::string apart = figure(std::fabs(beyond_mm));
   Diagnostic d = problem(Code::probe_already_there, action_span(),
                          probe.away ? fmt::format("the probe is {} mm outside the stock", apart)
-                                          : fmt::format("the probe is {} mm inside the stock", apart));
+                                    : fmt::format("the probe is {} mm inside the stock", apart));
   d.notes.push_back(stock_text());
   d.help = probe.away ? "probe towards the stock first: G38.2" : "retract before probing: G0 or G38.4";
   return error(std::move(d));

@@ -116,9 +116,9 @@ void Interpreter::set_work_offset() {
 }
 
 void Interpreter::turn_under_g92(double rotation_deg) {
-  // RS-274/NGC leaves G92 out as it carries the present point over into the turned system:
+  // RS-274/NGC ignores G92 when it converts the current point to the turned system:
   //   program' = R'^-1 R program   instead of   R'^-1 R (program + g92) - g92
-  // so it takes the tool to be off by the turned difference until a move names both X and Y
+  // so it assumes the tool to be off by the turned difference until a move names both X and Y
   AxisValues g92{};
   g92[kX] = state_.g92_offset[kX];
   g92[kY] = state_.g92_offset[kY];
@@ -139,7 +139,7 @@ void Interpreter::turn_under_g92(double rotation_deg) {
 }
 
 AxisValues Interpreter::measured_work_offset(int system) {
-  // the offset with which the present point reads the values of the axis words in that system; an axis that
+  // the offset with which the current point reads the values of the axis words in that system; an axis that
   // is not named keeps the value that it reads there
   const int in_force = state_.work_system;
   state_.use_work_system(system);
@@ -163,7 +163,7 @@ AxisValues Interpreter::measured_work_offset(int system) {
 }
 
 void Interpreter::set_g92(bool local) {
-  // G92: this is where the present point lies; G52: there is the zero point
+  // G92: the current point is here; G52: the zero point is there
   const AxisValues here = state_.to_program(state_.position);
   for (int axis = 0; axis < kProgramAxes; ++axis) {
     const auto a = static_cast<std::size_t>(axis);

@@ -42,7 +42,7 @@ void Interpreter::comment() {
   emit(span, Comment{text});
 }
 
-/// (TECH s_max=200): a technological limit of speed at the place where it stands.
+/// (TECH s_max=200): a technological limit of speed at this position.
 void Interpreter::technology(std::string_view text, Span span) {
   constexpr double kFastest_mm_s = 1e6;
   const std::size_t equals = text.find('=');
@@ -66,7 +66,7 @@ void Interpreter::feed_mode() {
   const Span span = g_span(GGroup::feed_mode);
   state_.feed_mode = code == code::g93   ? FeedMode::inverse_time
                      : code == code::g94 ? FeedMode::units_per_minute
-                                   : FeedMode::units_per_revolution;
+                                         : FeedMode::units_per_revolution;
   emit(span, SetFeedMode{state_.feed_mode});
   if (state_.feed_mode == FeedMode::inverse_time) return;
   // G94 and G95 always begin without a feed, even if they were in force already
@@ -132,9 +132,9 @@ void Interpreter::path_control() {
   const int code = words_.g(GGroup::path);
   if (code == kNoCode) return;
   const double tolerance = code == code::g64 && words_.has('P') ? words_.value('P') : 0;
-  set_path_mode(code == code::g61   ? PathMode::exact_path
+  set_path_mode(code == code::g61     ? PathMode::exact_path
                 : code == code::g61_1 ? PathMode::exact_stop
-                              : PathMode::continuous,
+                                      : PathMode::continuous,
                 tolerance, g_span(GGroup::path));
 }
 

@@ -35,7 +35,7 @@ void Interpreter::spindle_mode() {
   const Span span = g_span(GGroup::spindle_mode);
   const double maximum_rpm = words_.has('D') ? std::fabs(words_.value('D')) : 0;
   state_.constant_surface_speed = code == code::g96;
-  // D0 is the controller's way to write G97
+  // D0 is the controller's form of G97
   state_.surface = {.on = code == code::g96 && !(words_.has('D') && maximum_rpm == 0),
                     .speed_m_min = 0,
                     .maximum_rpm = maximum_rpm};
@@ -70,7 +70,7 @@ double Interpreter::mean_spindle_rpm(const AxisValues& from, const AxisValues& t
 
 bool Interpreter::feed_per_turn_ready() {
   if (state_.feed_mode != FeedMode::units_per_revolution) return true;
-  // LinuxCNC asks for a speed before lines and arcs only
+  // LinuxCNC requires a speed only before lines and arcs
   const Motion motion = motion_of_line();
   const bool asked = motion == Motion::feed || is_arc(motion) || motion == Motion::probe;
   if (state_.spindle_rpm == 0 && asked) {

@@ -43,7 +43,7 @@ void Interpreter::spline(Motion motion) {
     const double j_mm = given ? spline_offset('J') : spline_j_mm_;
     add_control(spline, from, i_mm, j_mm, 1);
     add_control(spline, to, spline_offset('P'), spline_offset('Q'), 1);
-    // what a G5 without I and J goes on with
+    // direction with which a G5 without I and J continues
     spline_i_mm_ = -spline_offset('P');
     spline_j_mm_ = -spline_offset('Q');
     spline_end_ = end;
@@ -57,7 +57,7 @@ double Interpreter::spline_offset(char letter) const {
   return words_.has(letter) ? words_.value(letter) * state_.length_factor() : 0.0;
 }
 
-/// Adds the point that lies aside of a program position, which turns with the work system.
+/// Adds a point relative to a program position, which turns with the work system.
 void Interpreter::add_control(Spline& spline, AxisValues program, double x_mm, double y_mm,
                               double weight) const {
   program[0] += x_mm;
@@ -86,7 +86,7 @@ bool Interpreter::spline_allowed(Motion motion) {
   return true;
 }
 
-/// What holds for every spline: plane, axes, compensation.
+/// Checks common to all splines: plane, axes, compensation.
 bool Interpreter::spline_place_allowed(std::string_view name) {
   if (const std::uint32_t others = words_.present & kAxisBits & ~kPlaneBits; others != 0) {
     for (const char letter : kAxisLetters) {
@@ -141,7 +141,7 @@ void Interpreter::add_nurbs_point() {
   }
   if (words_.has('L')) set_nurbs_order();
   if (!words_.has_axis()) return;
-  // G91: every point counts from the position before the block, not from the point before it
+  // G91: every point counts from the position before the block, not from the previous point
   add_nurbs_control(state_.to_program(target()), words_.has('P') ? words_.value('P') : 1.0);
 }
 
@@ -232,7 +232,7 @@ void Interpreter::emit_nurbs(const Nurbs& nurbs) {
     spline.duration_s = kSecondsPerMinute / f;
     spline.feed_u_s = spline.length_u / spline.duration_s;
   } else if (state_.feed_linear_mm_min > 0) {
-    // without F the controller goes on at the feed that it has
+    // without F the controller continues at its current feed
     spline.feed_u_s = state_.feed_linear_mm_min / kSecondsPerMinute;
   } else {
     error(problem(Code::inverse_feed_missing, span, "no F between G5.2 and here",

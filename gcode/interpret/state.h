@@ -16,7 +16,7 @@ namespace kadr::gcode {
 inline constexpr double kMillimetresPerInch = 25.4;
 inline constexpr int kWorkSystems = 9;  ///< G54 .. G59.3
 
-/// The motion code that holds.
+/// The motion code in force.
 enum class Motion : std::uint8_t {
   none,
   traverse,
@@ -36,7 +36,7 @@ constexpr bool is_arc(Motion motion) {
   return motion == Motion::arc_clockwise || motion == Motion::arc_counterclockwise;
 }
 
-/// Numbers of the parameters that mean something by themselves. Lengths in mm whatever the units in force.
+/// Numbers of the parameters with a fixed meaning. Lengths in mm whatever the units in force.
 namespace parameter {
 inline constexpr int kFirst = 1;
 inline constexpr int kLast = 5601;
@@ -44,8 +44,8 @@ inline constexpr int kOwnFirst = 31;  ///< .. kOwnLast: mean what the program ma
 inline constexpr int kOwnLast = 5000;
 inline constexpr int kG28 = 5161;  ///< .. 5169
 inline constexpr int kG30 = 5181;  ///< .. 5189
-inline constexpr int kProbe =
-    5061;  ///< .. 5069, where the last probing tripped, program coordinates and units of then
+/// .. 5069, where the last probing tripped, program coordinates and units of then
+inline constexpr int kProbe = 5061;
 inline constexpr int kDebug = 5599;  ///< 0: (DEBUG, ...) is silent; 1 at start
 inline constexpr int kProbeTripped = 5070;
 inline constexpr int kInput = 5399;       ///< what the last M66 read
@@ -63,11 +63,11 @@ inline constexpr int kToolFrontAngle = 5411;
 inline constexpr int kToolBackAngle = 5412;
 inline constexpr int kToolOrientation = 5413;
 inline constexpr int kToolLast = kToolOrientation;
-inline constexpr int kPosition =
-    5420;  ///< .. kPositionLast, program coordinates in the units in force; read-only
+/// .. kPositionLast, program coordinates in the units in force; read-only
+inline constexpr int kPosition = 5420;
 inline constexpr int kPositionLast = 5428;
 
-/// True for what tells the interpreter's state and can't be set.
+/// True for parameters that are part of the interpreter's state and can't be set.
 constexpr bool is_read_only(int index) {
   return index == kWorkSystem || (index >= kToolNumber && index <= kToolLast) ||
          (index >= kPosition && index <= kPositionLast);
@@ -83,7 +83,7 @@ struct SurfaceSpeed {
   double maximum_rpm = 0;  ///< D; 0: none
 };
 
-/// What canned cycles keep from line to line: numbers as they were written, in the units of their line, as
+/// Values that canned cycles keep from line to line: numbers as written, in the units of their line, as
 /// RS-274/NGC keeps them.
 struct CycleWords {
   int code = 0;              ///< ten times the G number of the cycle in force
@@ -96,7 +96,7 @@ struct CycleWords {
   double dwell_s = 0;        ///< P
 };
 
-/// What can't be trusted after a line with an error, so that one mistake is told once.
+/// State that can't be trusted after a line with an error, so that one mistake is reported once.
 struct Uncertain {
   std::uint32_t axes = 0;  ///< bit per program axis: position unknown
   bool feed = false;
@@ -105,7 +105,7 @@ struct Uncertain {
   bool cycle = false;  ///< words that a cycle keeps
 };
 
-/// The modes that M70 and M73 keep and M72 gives back. The motion code is not among them.
+/// The modes that M70 and M73 save and M72 restores. The motion code is not one of them.
 struct ModalState {
   bool inches = false, incremental = false, arc_centers_absolute = false;
   bool retract_to_start = false, diameter_mode = false, constant_surface_speed = false;
@@ -124,16 +124,16 @@ struct ModalState {
   bool g92_active = false;
 };
 
-/// What belongs to one call of a subroutine; the main program is the first.
+/// State of one call of a subroutine; the main program is the first.
 struct CallLevel {
-  std::array<double, 30> numbered{};                   ///< #1 to #30 of the caller, given back at the return
+  std::array<double, 30> numbered{};                   ///< #1 to #30 of the caller, restored at the return
   bool own_numbered = true;                            ///< false: M98, which shares the caller's
   std::optional<ModalState> modal;                     ///< kept by M70 or M73
-  bool restores_modal = false;                         ///< M73: given back at the return
+  bool restores_modal = false;                         ///< M73: restored at the return
   std::vector<std::pair<std::int32_t, double>> named;  ///< local named parameters by number of the name
 };
 
-/// All that a line of a program depends on besides its own words.
+/// Everything that a line of a program depends on besides its own words.
 struct State {
   AxisValues position{};     ///< controlled point as programmed, machine coordinates, mm and deg
   AxisValues tool_shift{};   ///< of the tool's centre from there under cutter compensation
@@ -156,14 +156,14 @@ struct State {
   double feed_linear_mm_rev = 0;   ///< F under G95, for lengths
   double feed_rotary_deg_rev = 0;  ///< F under G95, for angles
   bool feed_given = false;         ///< some F has been seen since the start or the last G94 or G95
-  bool feed_cleared = false;       ///< the last G94 or G95 has taken away an F that held
+  bool feed_cleared = false;       ///< the last G94 or G95 has cancelled an F in force
   PathMode path_mode = PathMode::continuous;
   double path_tolerance = 0;  ///< G64 P as written
   double path_tolerance_mm = 0;
   bool feed_override = true;
   bool speed_override = true;
 
-  bool retract_to_start = false;        ///< G98: cycles go back to where they began, not to R (G99, at start)
+  bool retract_to_start = false;        ///< G98: cycles return to where they began, not to R (G99, at start)
   bool diameter_mode = false;           ///< G7
   int compensation_code = code::g40;    ///< G40, G41 or G42
   bool constant_surface_speed = false;  ///< G96
@@ -194,7 +194,7 @@ struct State {
   bool value_returned = false;
   Uncertain uncertain;
 
-  /// G41 or G42 holds, also with a radius of 0.
+  /// G41 or G42 is in force, even with a radius of 0.
   bool compensating() const { return compensation_code != code::g40; }
   int call_level() const { return static_cast<int>(levels.size()) - 1; }
   double length_factor() const { return inches ? kMillimetresPerInch : 1.0; }
@@ -224,9 +224,9 @@ struct State {
   double axis_to_program(std::size_t a, double machine) const {
     return machine - work_offset[a] - tool_offset[a] - g92_offset[a];
   }
-  /// Where the controlled point really is: beside `position` under cutter compensation.
+  /// Real position of the controlled point: off `position` under cutter compensation.
   AxisValues tool_point() const;
-  /// Program coordinate in program units, as parameters 5420.. and messages give it.
+  /// Program coordinate in program units, as in parameters 5420.. and messages.
   double program_position(int axis) const {
     return to_program_units(axis, to_program(tool_point())[static_cast<std::size_t>(axis)]);
   }
@@ -243,7 +243,7 @@ constexpr int plane_code(Plane plane) {
 /// @pre parameter::kFirst <= index <= parameter::kLast
 double read_parameter(const State& state, int index);
 
-/// Value of a named parameter that is not predefined, null if it was never set where it holds.
+/// Value of a named parameter that is not predefined, null if it was never set in this scope.
 const double* find_named(const State& state, std::int32_t name);
 void set_named(State& state, std::int32_t name, double value);
 

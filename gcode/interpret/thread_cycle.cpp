@@ -14,7 +14,7 @@ namespace {
 constexpr double kLargestCount = 1e6;
 constexpr double kMostPasses = 10'000;
 constexpr double kRightAngle_deg = 90;
-/// LinuxCNC marks a Q that was not written with this value, so it takes Q-1 for none.
+/// LinuxCNC marks a missing Q with this value, so it treats Q-1 as none.
 constexpr double kNoAngle_deg = -1;
 constexpr std::size_t kFirstOther = 3;
 constexpr int kEntryTaper = 1, kExitTaper = 2;
@@ -38,9 +38,9 @@ struct Interpreter::ThreadShape {
   double height = 0;     ///< K
   double pitch_u_rev = 0;
   double degression = 1;
-  double slope = 0;  ///< way along Z per depth: tan Q, against the direction of the thread
+  double slope = 0;  ///< travel along Z per depth: tan Q, against the direction of the thread
   int spring_passes = 0;
-  double taper = 0;              ///< E, signed as the way from end to start; 0: none
+  double taper = 0;              ///< E, signed from end to start; 0: none
   double taper_pitch_u_rev = 0;  ///< along the taper, so that Z keeps the pitch
   bool entry_taper = false, exit_taper = false;
 

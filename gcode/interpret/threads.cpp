@@ -68,7 +68,7 @@ void Interpreter::rigid_tap() {
   const AxisValues from = state_.position;
   if (!spindle_turns(code::g33_1)) return;
   warn_pitch('K');
-  // X Y Z alone go down and come back; the other axes take their new place with the next move
+  // only X Y Z go down and come back; the other axes take their new position with the next move
   AxisValues bottom = from;
   for (std::size_t axis = 0; axis < 3; ++axis) bottom[axis] = wanted[axis];
   start_thread(words_.value('K'));

@@ -26,7 +26,7 @@ void Interpreter::change_tool() {
   emit(span, ChangeTool{state_.tool_in_spindle});
 }
 
-/// At a tool change the controller asks the machine where it stands: beside the contour if no move came since
+/// At a tool change the controller asks the machine for its position: off the contour if no move came since
 /// G40, and where a tap outside G17 has led it.
 void Interpreter::take_real_position() {
   if (state_.compensating()) return;
@@ -81,7 +81,7 @@ void Interpreter::set_tool_table() {
   near_integer(words_.value('L'), l);
   Tool* tool = state_.tools.find(number);
   if (tool == nullptr) {
-    // without a table every tool may come into being
+    // without a table every tool may be created
     state_.tools.tools.push_back({});
     tool = &state_.tools.tools.back();
     tool->number = tool->pocket = number;
@@ -102,7 +102,7 @@ void Interpreter::set_tool_table() {
 }
 
 AxisValues Interpreter::measured_tool_offset(AxisValues offset, bool in_fixture) const {
-  // the offset with which the present point would read the values of the axis words, in the work system in
+  // the offset with which the current point would read the values of the axis words, in the work system in
   // force, or in G59.3 without G92:
   //   tool = machine - work - R (program + g92)
   // X and Y mix under a rotation: of the two components in the work system only the named ones change

@@ -156,7 +156,7 @@ bool Words::read_g(const Line& line, std::uint32_t at, double value, Report* rep
     const auto nearest = static_cast<int>(tenths_value + 0.5);
     if (std::fabs(tenths_value - nearest) <= kCodeTolerance) tenths = nearest;
   }
-  if (dialect_ != Dialect::linuxcnc) tenths = meant_g_code(dialect_, tenths);
+  if (dialect_ != Dialect::linuxcnc) tenths = meant_code(dialect_, 'G', tenths);
   const GCode code = g_code(tenths);
   if (code.standing != Standing::runs) {
     refused_motion = true;
@@ -172,7 +172,7 @@ bool Words::read_g(const Line& line, std::uint32_t at, double value, Report* rep
     other_codes_ = true;
   }
   if (g_[group] != kNoCode) {
-    // G80 beside a motion code is the usual safety line of a postprocessor: the motion code holds. Between
+    // G80 with a motion code is the usual safety line of a postprocessor: the motion code wins. Between
     // G5.2 and G5.3 no other motion code is allowed, so G5.3 does not take it.
     const bool harmless = code.group == GGroup::motion && (tenths == 800 || g_[group] == 800) &&
                           tenths != 53 && g_[group] != 53;
@@ -192,6 +192,7 @@ bool Words::read_m(const Line& line, std::uint32_t at, double value, Report* rep
   const Span span = line.span(line.items[at].bytes);
   int number = -1;
   const bool whole = near_integer(value, number);
+  if (dialect_ != Dialect::linuxcnc) number = meant_code(dialect_, 'M', number);
   const MCode code = whole ? m_code(number) : MCode{};
   if (code.standing == Standing::not_run) {
     return refuse(report, Code::word_not_run, span, fmt::format("kadr does not run M{}", number));

@@ -31,7 +31,7 @@ constexpr std::uint32_t letter_bits(std::string_view letters) {
 inline constexpr std::uint32_t kAxisBits = letter_bits(kAxisLetters);
 inline constexpr int kNoCode = -1;
 
-/// The words of a line by meaning: which letters with which values, which codes of which group, settings,
+/// The words of a line by meaning: letters with values, codes by group, settings,
 /// comments.
 class Words {
  public:
@@ -39,7 +39,7 @@ class Words {
 
   /// Evaluates every word with the parameters as they stand and sorts it in.
   /// @param report  null: only sort in what can be read, as after a syntax error
-  /// @return false if an error was told, or found in a value that depends on an earlier error
+  /// @return false if an error was reported, or found in a value that depends on an earlier error
   bool read(const Line& line, const State& state, Report* report);
 
   bool has(char letter) const { return (present & letter_bit(letter)) != 0; }
@@ -67,7 +67,7 @@ class Words {
   Span span(const Line& line, MGroup group) const {
     return line.span(line.items[m_items_[static_cast<std::size_t>(group)]].bytes);
   }
-  /// True for axis words, at most with a motion code, and nothing else that means something.
+  /// True for axis words, at most with a motion code, and nothing else that has a meaning.
   bool only_moves() const {
     return (present & ~kAxisBits) == 0 && !other_codes_ && !percent && comment < 0 && settings.empty();
   }
@@ -77,9 +77,9 @@ class Words {
 
   std::uint32_t present = 0;   ///< bit per letter, G M N left out
   std::uint32_t doubtful = 0;  ///< letters whose value may be wrong after an earlier error
-  bool any = false;            ///< some word or setting stands on the line
+  bool any = false;            ///< there is a word or setting on the line
   bool percent = false;
-  bool refused_motion = false;  ///< a G code was refused: what moves next is not known
+  bool refused_motion = false;  ///< a G code was refused: the next motion is not known
   int comment = -1;             ///< item of the last comment in ( ), the only one that may be a message
   /// A setting of this line: #number = value, or #<name> = value.
   struct Setting {
@@ -116,10 +116,10 @@ class Words {
 /// "G92.1" of 921
 std::string g_name(int tenths);
 
-/// The command at the head of a comment, such as MSG in "(MSG, text)".
+/// The command at the beginning of a comment, such as MSG in "(MSG, text)".
 struct ActiveComment {
   std::string_view command;  ///< upper or lower case as written; empty: an ordinary comment
-  std::string_view text;     ///< behind the comma, or behind TECH
+  std::string_view text;     ///< after the comma, or after TECH
 };
 ActiveComment active_comment(std::string_view comment);
 bool same_letters(std::string_view text, std::string_view upper_case);

@@ -6,7 +6,7 @@
 namespace kadr::gcode {
 
 Names::Names() {
-  // the predefined ones first, so that their numbers are their places in the list
+  // the predefined ones first, so that their numbers are their positions in the list
   for (const std::string_view name : predefined_names()) number(name);
 }
 

@@ -7,7 +7,7 @@
 
 namespace kadr::gcode {
 
-/// Names of parameters and labels of O words, numbered as they are met. Case and blanks don't count:
+/// Names of parameters and labels of O words, numbered in order of appearance. Case and blanks don't count:
 /// #<Feed Rate> is #<feedrate>. A label written as a number is its digits: O<100> is O100.
 class Names {
  public:
@@ -25,7 +25,7 @@ class Names {
   std::unordered_map<std::string, std::int32_t> numbers_;
 };
 
-/// Parameters whose names begin with _ hold for the whole program, others for one call of a subroutine.
+/// Parameters whose names begin with _ are global, others local to one call of a subroutine.
 inline bool is_global(std::string_view name) { return !name.empty() && name.front() == '_'; }
 
 }  // namespace kadr::gcode

@@ -16,7 +16,7 @@ struct Keyword {
   Arguments arguments;
 };
 
-// where one begins like another, the longer one stands first
+// where one begins like another, the longer one is first
 constexpr std::array<Keyword, 15> kKeywords = {{
     {"SUB", FlowWord::sub, Arguments::none},
     {"ENDSUB", FlowWord::end_sub, Arguments::perhaps_one},

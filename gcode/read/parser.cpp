@@ -208,7 +208,7 @@ bool Parser::parse_percent() {
   Cursor ahead = cursor_;
   for (char next = ahead.peek(); next == '('; next = ahead.peek()) {
     const std::size_t end = line_->text.find(')', ahead.at());
-    if (end == std::string_view::npos) return true;  // told where the comment is read
+    if (end == std::string_view::npos) return true;  // reported where the comment is read
     ahead.go_to(static_cast<std::uint32_t>(end) + 1);
   }
   if (ahead.at_end() || ahead.peek() == ';') return true;

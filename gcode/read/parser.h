@@ -9,14 +9,14 @@
 
 namespace kadr::gcode {
 
-/// Text of one line -> items and expression nodes. The first syntax error of a line is told and the rest of
+/// Text of one line -> items and expression nodes. The first syntax error of a line is reported and the rest of
 /// that line becomes one `unread` item, so the next line is read as if nothing had happened.
 class Parser {
  public:
   Parser(Names& names, Report& report) : names_(names), report_(report) {}
   /// Takes the whole line as one item that was not read, without a message.
   void leave_unread(Line& line);
-  /// Mistakes are not told: of a line that was told before, or that nothing leads to.
+  /// Mistakes are not reported: for a line reported before, or one that is never reached.
   void mute(bool muted) { muted_ = muted; }
 
   /// Fills line.items and line.nodes from line.text, from byte `begin` on.
@@ -48,18 +48,18 @@ class Parser {
 /// Reads the value of a word or setting: [expression], #parameter, function, signed number.
 class ExpressionParser {
  public:
-  /// Brackets, signs and # within each other; more is a mistake or an attack on the stack.
+  /// Depth of nested brackets, signs and #; more is a mistake or an attack on the stack.
   static constexpr int kMaxDepth = 100;
 
-  /// @param report  null: mistakes are not told
+  /// @param report  null: mistakes are not reported
   ExpressionParser(Line& line, Cursor& cursor, Names& names, Report* report)
       : line_(line), cursor_(cursor), names_(names), report_(report) {}
 
-  /// @return index of the root node, -1 after an error was told
+  /// @return index of the root node, -1 after an error was reported
   std::int32_t value();
   /// A value in [ ].
   std::int32_t group();
-  /// Reads <name>. @return its number, -1 after an error was told
+  /// Reads <name>. @return its number, -1 after an error was reported
   std::int32_t name(std::uint32_t sign);
 
  private:
@@ -81,10 +81,10 @@ class ExpressionParser {
   int depth_ = 0;
 };
 
-/// Reads `name` (capital letters) if it stands here, blanks between its letters allowed.
+/// Reads `name` (capital letters) if it is here, blanks between its letters allowed.
 bool match(Cursor& cursor, std::string_view name, Bytes& bytes);
 
-/// Tells what is wrong with a number that could not be read.
+/// Reports why a number could not be read.
 Diagnostic number_problem(const Line& line, NumberResult result, Bytes bytes, char letter);
 
 }  // namespace kadr::gcode

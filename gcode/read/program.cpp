@@ -11,10 +11,10 @@ namespace {
 // texts up to here stay parsed once they were read as a whole
 constexpr std::size_t kKeptBytes = 1U << 20;
 
-/// Length of a UTF-8 byte order mark at the head of a text: editors put it there, it means nothing.
+/// Length of a UTF-8 byte order mark at the beginning of a text: editors add it, it means nothing.
 std::size_t byte_order_mark(std::string_view text) { return text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0; }
 
-/// What stands first on a line behind all that may stand before an O word: blanks, comments, / and N words.
+/// The first thing on a line after everything that may precede an O word: blanks, comments, / and N words.
 enum class LineHead : std::uint8_t { nothing, o_word, other };
 
 LineHead head_of(std::string_view line) {
@@ -34,7 +34,7 @@ LineHead head_of(std::string_view line) {
     } else if (c == 'N') {
       at = line.find_first_not_of("0123456789.+- \t\r", at + 1);
       if (at == std::string_view::npos) return LineHead::nothing;
-      // where the value of N ends only the parser could tell
+      // only the parser knows where the value of N ends
       const bool computed = line[at] == '[' || line[at] == '#';
       if (computed && line.find_first_of("Oo", at) != std::string_view::npos) return LineHead::o_word;
       if (computed) return LineHead::other;
@@ -79,7 +79,7 @@ bool Program::has_o_words() const {
     const LineHead head = head_of(text_.substr(at, end - at));
     if (head == LineHead::o_word && !at_head) return true;
     if (head == LineHead::o_word) {
-      // a number alone at the head names the program, as on a Fanuc control
+      // a number alone at the beginning names the program, as on a Fanuc control
       std::string_view rest = text_.substr(at, end - at);
       rest.remove_prefix(rest.find_first_of("Oo") + 1);
       const auto letter =

@@ -10,7 +10,7 @@
 namespace kadr::gcode {
 
 /// A control program as a stream of parsed lines. One line is held at a time, so memory does not grow with
-/// the file; a place can be kept and gone back to, which is what loops and calls need.
+/// the file; loops and calls can save a position and return to it.
 class Program {
  public:
   /// Where the next line begins.
@@ -24,15 +24,15 @@ class Program {
 
   /// Parses the next line; it holds until the next call. Null at the end of the text.
   const Line* next();
-  /// Whether mistakes of the lines that follow are told.
+  /// Whether mistakes of the lines that follow are suppressed.
   void mute(bool muted) { parser_.mute(muted); }
   Position position() const { return at_; }
   void go_to(Position position) { at_ = position; }
   std::uint32_t file() const { return file_; }
-  /// The head of the text again, after all of it was read and its mistakes told. From here on nothing is told
-  /// twice, and the lines of a short text stay parsed.
+  /// Back to the beginning of the text, after all of it was read and its mistakes reported. From here on nothing is
+  /// reported twice, and the lines of a short text stay parsed.
   void rewind();
-  /// True if some line begins with an O word other than a program number at the very head.
+  /// True if some line begins with an O word other than a program number at the very beginning.
   bool has_o_words() const;
 
  private:
@@ -44,7 +44,7 @@ class Program {
   std::uint32_t file_;
   std::uint32_t line_bytes_;
   Position at_;
-  std::size_t held_from_ = 0;  ///< what stands before it has been let go
+  std::size_t held_from_ = 0;  ///< the text before it has been released
   Parser parser_;
   Report& report_;
   Line line_;

@@ -7,5 +7,4 @@
 
 /// Text to tree, nothing interpreted: Parser (over the letters and numbers of scanner.h) makes lines of
 /// words, comments and expressions (tree.h), each with its span. Program reads a text piece by piece,
-/// find_sub_file() the files that it calls, ToolTable is a tool.tbl. What is wrong goes to a Report, and
-/// reading goes on.
+/// find_sub_file() the files that it calls, ToolTable is a tool.tbl. Mistakes go to a Report, and reading continues.

@@ -18,7 +18,7 @@ void Report::error(Diagnostic d) {
 void Report::warning(Diagnostic d) {
   if (place_) d.span = *place_;
   if (warnings_ > kMaxWarnings) {
-    // only counted: remembering their places would take memory without bound
+    // only counted: remembering their positions would take unbounded memory
     ++warnings_;
     return;
   }

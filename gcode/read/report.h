@@ -14,7 +14,7 @@ namespace kadr::gcode {
 
 /// Hands mistakes of a program to the caller's list, a bounded number of them: a broken file of a million
 /// lines must neither fill memory nor the screen. A line that runs many times, in a loop or a subroutine,
-/// tells each of its mistakes once: for the first pass that makes it.
+/// reports each of its mistakes once: for the first pass that makes it.
 class Report {
  public:
   static constexpr std::size_t kMaxErrors = 1000;
@@ -31,15 +31,15 @@ class Report {
   /// diagnostic from now on carries them. Null: none. The vector must outlive its use here.
   void set_call_chain(const std::vector<Span>* chain) { chain_ = chain; }
 
-  /// Where everything told from now on stands, whatever place it names itself: for words that kadr runs on
-  /// the program's behalf and that stand nowhere in its text. Nothing: its own place again.
+  /// Position of everything reported from now on, whatever position it names itself: for words that kadr runs on
+  /// the program's behalf and that are nowhere in its text. Nothing: its own position again.
   void set_place(std::optional<Span> place) { place_ = place; }
 
   /// Errors found, repeated ones included: grows with every call of error().
   std::size_t errors() const { return errors_; }
-  /// True as soon as reading on is of no use.
+  /// True once further reading is pointless.
   bool full() const { return told_errors_ >= kMaxErrors; }
-  /// Says what the bounds left out.
+  /// Reports how much the bounds left out.
   void close(Span end);
 
  private:
@@ -50,7 +50,7 @@ class Report {
   Diagnostics& diagnostics_;
   const std::vector<Span>* chain_ = nullptr;
   std::optional<Span> place_;
-  std::set<Key> told_;  ///< code and place; as bounded as the diagnostics
+  std::set<Key> told_;  ///< code and position; as bounded as the diagnostics
   std::size_t errors_ = 0;
   std::size_t told_errors_ = 0;
   std::size_t warnings_ = 0;

@@ -17,7 +17,7 @@ constexpr std::ptrdiff_t kMaxPlainDigits = 15;        // their integer is exact 
 constexpr std::array<double, 19> kPowersOfTen = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,
                                                  1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};
 
-/// Takes in the digits that stand at `at`; returns the place behind them.
+/// Reads the digits at `at`; returns the position after them.
 const char* read_digits(const char* at, const char* end, std::uint64_t& mantissa) {
   for (; at < end && is_digit(*at); ++at) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*at - '0');
   return at;
@@ -42,7 +42,7 @@ bool Cursor::read_plain_number(double& value) {
     digits += decimals;
   }
   if (digits == 0 || digits > kMaxPlainDigits) return false;
-  // a number may go on behind a blank
+  // a number may continue after a blank
   const char* next = at;
   while (next < end && is_blank(*next)) ++next;
   if (next < end && (is_digit(*next) || *next == '.' || *next == ',')) return false;
@@ -64,7 +64,7 @@ NumberResult Cursor::read_number(double& value, Bytes& bytes) {
   int digits = 0;
   int decimals = 0;
   bool point = false;
-  std::uint32_t end = at_;  // behind the last character that belongs to the number
+  std::uint32_t end = at_;  // after the last character that belongs to the number
   for (;;) {
     if (is_digit(c)) {
       if (digits < kMaxFastDigits) mantissa = mantissa * 10 + static_cast<std::uint64_t>(c - '0');

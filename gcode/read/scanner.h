@@ -14,7 +14,7 @@ constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 constexpr char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
-/// What reading a number came to.
+/// Result of reading a number.
 enum class NumberResult : std::uint8_t {
   good,
   no_digits,      ///< "-", "." or nothing
@@ -27,8 +27,7 @@ class Cursor {
  public:
   explicit Cursor(std::string_view text, std::uint32_t at = 0) : text_(text), at_(at) {}
 
-  /// Next character that is not blank, '\0' at the end (a NUL byte in the text reads the same; at_end()
-  /// tells).
+  /// Next character that is not blank, '\0' at the end (a NUL byte in the text reads the same; at_end() tells).
   char peek() {
     while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
     return at_ < text_.size() ? text_[at_] : '\0';
@@ -44,10 +43,10 @@ class Cursor {
   std::string_view text() const { return text_; }
 
   /// Reads a number written without blanks and of few digits, which nearly all are, to the value that
-  /// read_number() gives. False, with the cursor where it was, if there is more to it.
+  /// read_number() gives. False, with the cursor unchanged, if it is more complicated.
   bool read_plain_number(double& value);
-  /// Reads sign, digits, point, digits. Correctly rounded. The cursor is left behind what was read.
-  /// @param bytes  where the number stands; on failure, the offending sign
+  /// Reads sign, digits, point, digits. Correctly rounded. The cursor is left after the number.
+  /// @param bytes  position of the number; on failure, of the offending sign
   NumberResult read_number(double& value, Bytes& bytes);
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// True if `path` lies below `folder`, both without symbolic links.
+/// True if `path` is below `folder`, both without symbolic links.
 bool lies_below(const fs::path& path, const fs::path& folder) {
   const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
   return end == folder.end();

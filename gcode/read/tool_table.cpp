@@ -38,7 +38,7 @@ class TableReader {
  public:
   TableReader(std::uint32_t file, Report& report) : file_(file), report_(report) {}
 
-  /// @param at  first byte that counts: behind a byte order mark
+  /// @param at  first byte that counts: after a byte order mark
   void read_line(std::string_view text, std::size_t at, std::uint32_t line) {
     line_ = line;
     present_.clear();

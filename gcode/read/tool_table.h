@@ -27,7 +27,7 @@ struct ToolTable {
   Tool* find(int number);
 };
 
-/// Reads a tool table: a tool a line, its words in any order, apart by blanks or tabs; `;` begins a remark.
+/// Reads a tool table: one tool per line, words in any order, separated by blanks or tabs; `;` begins a remark.
 /// Mistakes go to `diagnostics`, all of the file at once; a line with a mistake gives no tool.
 ToolTable read_tool_table(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics);
 

@@ -54,7 +54,7 @@ std::vector<Bytes> lexemes_of(const Line& line) {
   return lexemes;
 }
 
-/// Blanks between two lexemes; anything else there was lost by the parser.
+/// Blanks between two lexemes; the parser lost anything else there.
 void append_blanks(std::string& out, std::string_view gap) {
   for (const char c : gap) require(is_blank(c), "every byte of a line that is not blank belongs to an item");
   out += gap;

@@ -6,7 +6,7 @@
 
 #include "machine/base/diagnostic.h"
 
-/// What was written on one line of a control program: items in source order, expressions as a flat tree.
+/// One line of a control program as written: items in source order, expressions as a flat tree.
 /// Nothing is copied: offsets point into the text of the line.
 namespace kadr::gcode {
 
@@ -94,10 +94,10 @@ struct Item {
   std::int32_t first = -1;   ///< first node of this item
   std::int32_t target = -1;  ///< setting: root node of the parameter's index; -1: a named parameter
   std::int32_t name = -1;    ///< setting of a named parameter: number of the name
-  std::uint32_t equals = 0;  ///< setting: where `=` stands
+  std::uint32_t equals = 0;  ///< setting: position of `=`
 };
 
-/// What an O word says.
+/// Keywords of O words.
 enum class FlowWord : std::uint8_t {
   label,  ///< O and a number alone: a program's number, or the head of a subroutine that M98 calls
   sub,
@@ -123,7 +123,7 @@ struct FlowStatement {
   std::int32_t name = -1;         ///< number of the label in Names; -1: computed
   std::int32_t label_first = -1;  ///< computed label: its nodes
   std::int32_t label_root = -1;
-  Bytes label;                          ///< O and what names it
+  Bytes label;                          ///< O and its label
   Bytes keyword;                        ///< empty for a label alone
   std::vector<std::int32_t> arguments;  ///< root nodes; the nodes of one end where those of the next begin
   std::int32_t first = -1;              ///< first node of the first argument
@@ -138,8 +138,8 @@ struct Line {
   std::vector<Item> items;
   std::vector<ExpressionNode> nodes;
   FlowStatement flow;     ///< if has_flow
-  bool has_flow = false;  ///< an O word stands on the line
-  bool failed = false;    ///< a syntax error was told; items before it are valid
+  bool has_flow = false;  ///< there is an O word on the line
+  bool failed = false;    ///< a syntax error was reported; items before it are valid
 
   Span span(Bytes bytes) const {
     return {file, number, bytes.begin + 1, bytes.end > bytes.begin ? bytes.end - bytes.begin : 1};

@@ -28,10 +28,6 @@ constexpr std::size_t kTab_columns = 8;
 /// Calls shown from either end of a long chain.
 constexpr std::size_t kCallsShown = 4;
 
-std::string_view severity_name(Severity severity) {
-  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
-}
-
 /// Most columns of a code point; a mark that takes none counts too, or a line of them would never end.
 std::size_t columns_of(char32_t c) {
   if (c == U'\t') return kTab_columns;
@@ -79,9 +75,18 @@ struct Style {
 
 Style style_of(Severity severity, bool colour) {
   if (!colour) return {};
-  const std::string_view word = severity == Severity::error     ? "\x1b[1;31m"
-                                : severity == Severity::warning ? "\x1b[1;33m"
-                                                                : "\x1b[1;36m";
+  std::string_view word;
+  switch (severity) {
+    case Severity::note:
+      word = "\x1b[1;36m";
+      break;
+    case Severity::warning:
+      word = "\x1b[1;33m";
+      break;
+    case Severity::error:
+      word = "\x1b[1;31m";
+      break;
+  }
   return {word, "\x1b[1;34m", "\x1b[1m", "\x1b[0m"};
 }
 
@@ -183,7 +188,7 @@ Place place_of(const Span& span, const SourceSet& sources) {
 
 std::string render_human(const Diagnostic& d, const SourceSet& sources, bool colour) {
   const Style style = style_of(d.severity, colour);
-  std::string out = fmt::format("{}{}[{}]{}{}: {}{}\n", style.severity, severity_name(d.severity),
+  std::string out = fmt::format("{}{}[{}]{}{}: {}{}\n", style.severity, kSeverities.word(d.severity),
                                 code_name(d.code), style.off, style.bold, message_of(d), style.off);
   std::size_t gutter = 1;
   if (has_place(d.span, sources)) {
@@ -206,7 +211,7 @@ std::string render_human(const Diagnostic& d, const SourceSet& sources, bool col
 std::string render_gcc(const Diagnostic& d, const SourceSet& sources) {
   std::string out =
       fmt::format("{}: {}: {}{}{} [{}]", has_place(d.span, sources) ? place_text(d.span, sources) : "kadr",
-                  severity_name(d.severity), message_of(d), d.label.empty() ? "" : ": ", clean(d.label),
+                  kSeverities.word(d.severity), message_of(d), d.label.empty() ? "" : ": ", clean(d.label),
                   code_name(d.code));
   for (const Span& call : d.calls) {
     if (!has_place(call, sources)) continue;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "machine/base/codes.h"
+#include "machine/base/severity.h"
 
 namespace kadr {
 
@@ -59,8 +60,6 @@ class SourceSet {
  private:
   std::vector<std::unique_ptr<SourceText>> texts_;
 };
-
-enum class Severity : std::uint8_t { note, warning, error };
 
 /// One message to the user. `label` is printed at the caret and carries the measured value.
 struct Diagnostic {

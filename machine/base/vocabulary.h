@@ -66,9 +66,15 @@ struct Vocabulary {
     return true;
   }
 
-  constexpr std::string_view word(Enum value) const { return words[static_cast<std::size_t>(value)].word; }
-  constexpr std::string_view sentence(Enum value) const {
-    return words[static_cast<std::size_t>(value)].sentence;
+  /// Empty for a value that a part of a vocabulary (up_to, words_where) leaves out.
+  constexpr std::string_view word(Enum value) const { return entry(value).word; }
+  constexpr std::string_view sentence(Enum value) const { return entry(value).sentence; }
+  constexpr Word<Enum> entry(Enum value) const {
+    const auto index = static_cast<std::size_t>(value);
+    if (index < kCount && words[index].value == value) return words[index];
+    for (const Word<Enum>& each : words)
+      if (each.value == value) return each;
+    return {};
   }
   /// Nothing if the vocabulary doesn't have the word.
   constexpr std::optional<Enum> find(std::string_view word) const {
@@ -108,6 +114,21 @@ struct Vocabulary {
     return text;
   }
 };
+
+/// The words whose value `keep` accepts, in order; `keep` captures nothing.
+template <const auto& kWords, class Keep>
+constexpr auto words_where(Keep) {
+  constexpr std::size_t kKept = [] {
+    std::size_t kept = 0;
+    for (const auto& word : kWords) kept += Keep{}(word.value) ? 1 : 0;
+    return kept;
+  }();
+  Vocabulary<typename std::remove_cvref_t<decltype(kWords)>::Value, kKept> part{};
+  std::size_t next = 0;
+  for (const auto& word : kWords)
+    if (Keep{}(word.value)) part.words[next++] = word;
+  return part;
+}
 
 /// A word that was stored: of a vocabulary, or one that a newer or foreign writer knows. That one keeps its
 /// text, and is equal to no enumerator.

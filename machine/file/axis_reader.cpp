@@ -149,11 +149,9 @@ AxisModel read_axis(const Node& table, std::size_t index, const ClockModel& cloc
   read_range(r, axis, home2_u, keys, context);
   axis.step_u = step.value;
   const auto feed = read_key(r, axis, kMaxFeed, axis.kind);
-  read_key(r, axis, kMaxAccel, axis.kind);
-  read_key(r, axis, kMaxJerk, axis.kind);
+  read_keys(r, axis, kAxisLimitKeys, axis.kind);
   axis.junction_accel_u_s2 = axis.max_accel_u_s2;
-  read_key(r, axis, kJunctionAccel, axis.kind);
-  read_key(r, axis, kJunctionJerk, axis.kind);
+  read_keys(r, axis, kJunctionKeys, axis.kind);
   check_step_rate(axis, step, feed, clock, keys, context);
 
   if (const Node* plant = r.table("plant")) {

@@ -125,8 +125,9 @@ auto read_key(TableReader& r, Model& model, const OneKey& key, AxisKind kind = A
 
 /// Reads all keys of a table into a model that holds their defaults.
 template <class Model, class... Keys>
-void read_keys(TableReader& r, Model& model, const std::tuple<Keys...>& keys) {
-  std::apply([&](const auto&... each) { (read_key(r, model, each), ...); }, keys);
+void read_keys(TableReader& r, Model& model, const std::tuple<Keys...>& keys,
+               AxisKind kind = AxisKind::linear) {
+  std::apply([&](const auto&... each) { (read_key(r, model, each, kind), ...); }, keys);
 }
 
 // ---- a key as the documents show it

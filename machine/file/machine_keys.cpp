@@ -26,6 +26,10 @@ constexpr bool motor_keys_declared(std::index_sequence<kIndex...>) {
 static_assert(motor_keys_declared(std::make_index_sequence<std::variant_size_v<MotorLaw>>()),
               "each number that a motor needs has a key with .required(Need::motor)");
 
+// the motor's word and numbers alone
+static_assert(sizeof(TwoMassModel) == (1 + std::tuple_size_v<decltype(kPlantKeys)>)*sizeof(double),
+              "each number of TwoMassModel has its key");
+
 /// A table of plain keys, of single keys, and of whole tuples of keys, in the order given.
 class Documents {
  public:
@@ -77,7 +81,9 @@ std::vector<TableDocument> machine_keys() {
       .one(kRangeDocument)
       .one(kHome)
       .one(kHome2)
-      .all(kAxisLimitKeys);
+      .one(kMaxFeed)
+      .all(kAxisLimitKeys)
+      .all(kJunctionKeys);
   d.table("[axis.plant]", "the flexible machine; optional, an axis without it follows its steps exactly")
       .one(kMotor)
       .all(kPlantKeys);

@@ -78,7 +78,7 @@ inline constexpr auto kPlannerKeys = keys_of(
     key("block_ticks", &PlannerSettings::block_ticks, kBlockTicks,
         "blockwise: how a block gets its whole control periods"),
     key("law", &PlannerSettings::law, kRampLaws, "shape of a planned ramp"),
-    key("method", &PlannerSettings::method, kPlanMethods, "how the feed is planned"),
+    key("method", &PlannerSettings::method, kMachinePlanMethods, "how the feed is planned"),
     key("node_mm", &PlannerSettings::node_mm, Bounds{1e-3, 1e3}, "time laws: longest path between two nodes"),
     key("tube_levels", &PlannerSettings::tube_levels, Bounds{3, 1000}, "tube: speeds tried at a node"),
     key("rapid_law", &PlannerSettings::rapid_law, kRapidShapes, "how a G0 of a flexible axis is planned"),
@@ -167,8 +167,9 @@ inline constexpr auto kJunctionAccel =
 inline constexpr auto kJunctionJerk =
     key("junction_jerk_{u}_s3", &AxisModel::junction_jerk_u_s3, kJerkBounds,
         "at a corner the axis may change its acceleration by this in one control period");
-/// Those behind `home2_{u}`, in the order of the file.
-inline constexpr auto kAxisLimitKeys = keys_of(kMaxFeed, kMaxAccel, kMaxJerk, kJunctionAccel, kJunctionJerk);
+/// Those behind `max_{u}_s`, in the order of the file. The defaults of the second table depend on the first.
+inline constexpr auto kAxisLimitKeys = keys_of(kMaxAccel, kMaxJerk);
+inline constexpr auto kJunctionKeys = keys_of(kJunctionAccel, kJunctionJerk);
 
 inline constexpr auto kMotor =
     key("model", &TwoMassModel::motor, kMotorModels,

@@ -90,7 +90,9 @@ void write_axis(TomlWriter& w, const AxisModel& axis, double home2_u) {
          fmt::format("[{}, {}]", number_text(axis.soft_min_u), number_text(axis.soft_max_u)));
   write_key(w, axis, kHome, axis.kind);
   write_key(w, SecondHome{home2_u}, kHome2, axis.kind);
+  write_key(w, axis, kMaxFeed, axis.kind);
   write_keys(w, axis, kAxisLimitKeys, axis.kind);
+  write_keys(w, axis, kJunctionKeys, axis.kind);
   if (!axis.has_plant) return;
   w.table("  [axis.plant]", fmt::format("axis.{}.plant", axis.letter));
   write_key(w, axis.plant, kMotor);

@@ -65,7 +65,7 @@ ArcTable ArcTable::fitted(const ArcLength& arc, double feed_error, double place_
   for (int parts = kFewestParts;; parts *= 2) {
     ArcTable table(arc, parts);
     bool good = true;
-    // between its nodes a quintic piece is worst near the quarters (feed) and the middle (place)
+    // between its nodes a quintic piece is worst near the quarters (feed) and the middle (position)
     for (int i = 0; i < 8 * parts && good; ++i) {
       const double s = arc.length_u() * (i + 0.5) / (8.0 * parts), t = table.t(s);
       good = std::fabs(table.dt_ds(s) * arc.curve().speed(t) - 1) <= feed_error &&

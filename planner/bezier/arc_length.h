@@ -60,7 +60,7 @@ class ArcTable {
 /// One step of Newton's method on S(t) = s from a table's t.
 double polished(const ArcLength& arc, double t, double s_u);
 
-/// Largest errors of a t(S): |t~ - t|, |B(t~) - B(t)| and |ds~/ds - 1|, at 1201 places that lie closer at the
+/// Largest errors of a t(S): |t~ - t|, |B(t~) - B(t)| and |ds~/ds - 1|, at 1201 points that lie closer at the
 /// ends (u = (1 - cos)/2).
 struct ReparameterisationError {
   double reduced = 0;
@@ -70,7 +70,7 @@ struct ReparameterisationError {
 inline constexpr int kErrorPlaces = 1201;
 /// Place i of them, as a share of the length.
 double error_place(int i);
-/// Errors at one of these places, with their signs.
+/// Errors at one of these points, with their signs.
 struct PlaceError {
   double u = 0;  ///< share of the length
   double reduced = 0;

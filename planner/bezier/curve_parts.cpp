@@ -11,7 +11,7 @@ namespace {
 constexpr int kMostHalvings = 6;
 constexpr double kAlike = 0.7;        // of the largest curvature
 constexpr double kSlowest = 1e-3;     // of the largest |B'|: a cusp
-constexpr int kSpeedPlaces = 64;      // where |B'| is looked at
+constexpr int kSpeedPlaces = 64;      // points where |B'| is sampled
 constexpr double kSharpest_u = 1e-3;  // a radius below is a cusp too
 
 struct Cutter {

@@ -5,7 +5,7 @@
 
 namespace kadr::planner {
 
-/// What happens where one Bezier ends and the next begins.
+/// The joint where one Bezier ends and the next begins.
 struct JointReport {
   double gap_u = 0;              ///< between the two ends
   double tangent_angle_rad = 0;  ///< 0: the joint is G1
@@ -13,8 +13,8 @@ struct JointReport {
   double normal_angle_rad = 0;   ///< between the two curvature vectors
   double curvature_before_per_u = 0;
   double curvature_after_per_u = 0;
-  double curvature_jump_per_u =
-      0;  ///< length of the difference of the two vectors: v^2 times it is the jump of acceleration
+  /// length of the difference of the two vectors: v^2 times it is the jump of acceleration
+  double curvature_jump_per_u = 0;
   double second_jump = 0;  ///< |B2''(0) - B1''(1)|; 0 with C1: C2
 };
 JointReport joint_report(const Bezier& before, const Bezier& after);

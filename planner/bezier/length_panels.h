@@ -6,7 +6,7 @@
 
 namespace kadr::planner {
 
-/// Arc length S(t) = integral of |B'| over 0 <= t <= 1 (paper 004) of any curve that tells its speed |B'(t)|,
+/// Arc length S(t) = integral of |B'| over 0 <= t <= 1 (paper 004) of any curve that provides its speed |B'(t)|,
 /// and t(S) by Newton's method inside a bracket. [0, 1] is cut into panels of one Gauss-Legendre rule of
 /// eight points each, as many as it takes until twice as many change the length by less than 1e-14 of it.
 class LengthPanels {

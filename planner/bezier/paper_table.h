@@ -18,7 +18,7 @@ class NewtonOfLength {
 };
 
 /// The polynomial t = u + u (1 - u) q(u) of a degree whose largest |t - f(u)| is least; both ends are exact.
-/// Remez' exchange over the places of measure_error(): as many errors of equal size and alternating sign as
+/// Remez' exchange over the points of measure_error(): as many errors of equal size and alternating sign as
 /// there are unknowns and one.
 class MinimaxOfLength {
  public:
@@ -37,7 +37,7 @@ class MinimaxOfLength {
   double error_ = 0;
 };
 
-/// The exact t(S) and a Newton polynomial at the places of measure_error().
+/// The exact t(S) and a Newton polynomial at the points of measure_error().
 std::vector<double> exact_places(const ArcLength& arc);
 std::vector<double> places_of(const NewtonOfLength& newton);
 

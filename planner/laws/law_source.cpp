@@ -8,8 +8,7 @@
 namespace kadr::planner {
 namespace {
 
-/// A law that ends on a control tick may miss it by the rounding of its summed durations; far below a base
-/// tick.
+/// A law that ends on a control tick may miss it by the rounding of its summed durations; far below a base tick.
 constexpr double kEndSlack_s = 1e-9;
 
 /// Halves a piece of up to a day to below a tenth of a nanosecond.

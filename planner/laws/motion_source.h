@@ -13,16 +13,15 @@ namespace kadr::planner {
 using kadr::OverrideNote;
 using kadr::TickMotion;
 
-/// What the operator and the machine ask of this control tick.
+/// Requests of the operator and the machine for this control tick.
 struct OperatorInput {
-  double feed_override = 1.0;   ///< 0..2; the operator's and the spindle's percent together
+  double feed_override = 1.0;   ///< 0..2; the operator's and the spindle's override together
   double rapid_override = 1.0;  ///< 0..1
   bool hold = false;            ///< feed hold
   bool emergency_stop = false;  ///< stop now, whatever is locked
 };
 
-/// The one door between planning and the cycle: the cycle asks once per control tick how the path moves in
-/// it.
+/// The one door between planning and the cycle: the cycle asks once per control tick how the path moves in it.
 class MotionSource {
  public:
   virtual ~MotionSource() = default;
@@ -44,8 +43,8 @@ class LawSource final : public MotionSource {
   /// The law's state at the end of the last tick, and the piece that it lies in.
   const MotionState& state() const { return state_; }
   std::size_t piece() const { return hint_; }
-  /// Goes on from another time of the law, where it rests at path length s, as if `tick` control ticks had
-  /// passed before.
+  /// Goes on from another time of the law, where it rests at path length s, as if
+  /// `tick` control ticks had passed before.
   void seek(double time_s, double s_u, ControlTicks tick);
   double time_s() const;  ///< of the law, at the end of the last tick
 

@@ -103,8 +103,7 @@ double normal_share(double accel, double centripetal) {
                                  : kNormalShare;
 }
 
-/// One circular axis on an arc: the normal part first takes its share of speed, then the tangential limits
-/// follow.
+/// One circular axis on an arc: the normal part first takes its share of speed, then the tangential limits follow.
 void lower_speed_on_arc(SegmentCaps& caps, const ArcBounds& b, const machine::AxisModel& axis, int index,
                         double centripetal) {
   const double accel = axis.max_accel_u_s2 / b.skew;
@@ -124,7 +123,7 @@ void lower_tangential_on_arc(SegmentCaps& caps, const ArcBounds& b, const machin
   if (jerk < kInfinity) caps.lower_jerk((kTangentJerkShare * jerk - v * v * v * b.turning) / b.tangent);
 }
 
-/// One axis on a curve: as on an arc, with the axis' share of what happens in the plane of the curve.
+/// One axis on a curve: as on an arc, with the axis's share of the motion in the plane of the curve.
 void lower_speed_on_curve(SegmentCaps& caps, const CurveBounds& b, const machine::AxisModel& axis, int index,
                           double centripetal) {
   const auto j = static_cast<std::size_t>(index);
@@ -144,7 +143,7 @@ void lower_tangential_on_curve(SegmentCaps& caps, const CurveBounds& b, const ma
   const double normal = v * v * b.curvature_per_u;
   caps.lower_accel(std::sqrt(std::max(accel * accel - normal * normal, 0.0)));
   if (!(axis.max_jerk_u_s3 < kInfinity)) return;
-  // what the curve itself leaves; its third derivative has any direction
+  // the rest after the curve itself; its third derivative has any direction
   const double jerk = (axis.max_jerk_u_s3 - v * v * v * b.third_u2[j]) / b.plane[j];
   caps.lower_accel(kNormalJerkShare * jerk / (3.0 * v * b.curvature_per_u));
   caps.lower_jerk(kTangentJerkShare * jerk);
@@ -294,7 +293,7 @@ class TableMaker {
     table_.signature[2 * i] = signature;
   }
 
-  /// What is wrong with a segment's limits, or nothing. Written so that NaN is wrong too.
+  /// Error in a segment's limits, or nothing. Written so that NaN is an error too.
   const char* fault(std::size_t i, const SegmentCaps& caps) const {
     const PathSegment& seg = path_.segments[i];
     if (!seg.rapid && !(seg.feed_u_s > 0.0 && seg.feed_u_s < kInfinity)) return "feed";

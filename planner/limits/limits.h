@@ -12,12 +12,12 @@ namespace kadr::machine {
 struct MachineModel;
 }
 
-/// What geometry and machine allow on each place of a path, before any ramp is thought of.
+/// Limits that geometry and machine set at each place of a path, before any ramp.
 namespace kadr::planner {
 
 class Path;
 
-/// Why a cap is what it is: the signature of one place.
+/// The reason of a cap: the signature of one place.
 struct Signature {
   LimitedBy reason = LimitedBy::program;
   std::int8_t axis = -1;
@@ -46,7 +46,7 @@ struct PathLimitTable {
 ///   v^2 |kappa| <= 0.8 A_j,         (|e| a)^2 + (v^2 |kappa|)^2 <= A_j^2
 ///   v^3 |x'''|  <= 0.4 J_j,         |e| jerk + v^3 |x'''| <= 0.8 J_j,     3 v a |kappa| <= 0.6 J_j
 /// so that both parts together obey the axis at every angle (0.8^2 + 0.6^2 = 1). A finite centripetal limit
-/// asks for its own share instead of 0.8 A_j; it is met exactly up to 0.98 A_j.
+/// takes its own share instead of 0.8 A_j; it is met exactly up to 0.98 A_j.
 ///
 /// Curves (PathCurve) likewise, by bounds over the whole segment (CurveBounds: kappa, plane_j, |x'''_j|):
 ///   v^2 kappa <= 0.8 A_j/plane_j,   a^2 + (v^2 kappa)^2 <= (A_j/plane_j)^2,   v^3 |x'''_j| <= 0.4 J_j
@@ -59,7 +59,7 @@ struct PathLimitTable {
 /// With axis_limits = report the axis limits are left out wherever the path gives an acceleration limit;
 /// corners keep the junction rule and rapids their axis speed.
 ///
-/// @param feed_scale  factor on the programmed feeds: the highest percent that an operator will ask for
+/// @param feed_scale  factor on the programmed feeds: the highest override that an operator will request
 tl::expected<PathLimitTable, PlanError> limit_table(const Path& path, const machine::MachineModel& machine,
                                                     double feed_scale = 1.0);
 

@@ -3,7 +3,7 @@
 
 namespace kadr::planner {
 
-/// A wish that can't be planned; carries the place.
+/// A request that can't be planned; carries its position.
 struct PlanError {
   Diagnostic diagnostic;
 };

@@ -5,10 +5,10 @@
 
 #include "planner/limits/limits.h"
 
-/// Ramps and holds: what a plan is made of before it becomes pieces of time.
+/// Ramps and holds: the elements of a plan before it becomes pieces of time.
 namespace kadr::planner {
 
-/// Shape of a ramp, and what it may ask for.
+/// Shape of a ramp, and its limits.
 struct RampLimits {
   double accel_u_s2;
   double jerk_u_s3;  // may be inf with jerk_limited

@@ -9,7 +9,7 @@ struct MachineModel;
 
 namespace kadr::planner {
 
-/// What an axis limiter leaves of a feed (paper 003, section 5).
+/// Factor of an axis limiter on a feed (paper 003, section 5).
 struct LimitedFeed {
   double factor = 1.0;  ///< K_max = min over the axes of K_j (eq. 11), in (0, 1]
   int axis = -1;        ///< that it comes from, -1: none

@@ -18,7 +18,7 @@ bool all_equal(const std::vector<double>& v) {
   return std::adjacent_find(v.begin(), v.end(), std::not_equal_to<>()) == v.end();
 }
 
-/// Moves at 100 % whatever the percent keep their programmed feed as a hard cap.
+/// Moves at 100 % whatever the override keep their programmed feed as a hard cap.
 PathLimitTable with_fixed_feeds(const Path& path, PathLimitTable table, const std::array<bool, 3>& fixed) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     const PathSegment& segment = path.segments[i];
@@ -48,7 +48,7 @@ std::vector<double> rapid_caps(const Path& path, const PathLimitTable& table) {
   return caps;
 }
 
-/// Before a locked move that follows without a stop: its feed, which a percent does not go below.
+/// Before a locked move that follows without a stop: its feed, below which an override does not go.
 std::vector<double> lead_ins(const Path& path) {
   std::vector<double> least(path.size(), 0.0);
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
@@ -205,7 +205,7 @@ bool FeedTerrain::valleys(std::size_t segment, double below_u_s, double until_u,
   // a cap that is lower by rounding alone is no valley
   constexpr double kLower = 1.0 - 1e-12;
   double level = below_u_s;
-  // a thread keeps its feed to its end: what a percent asks for behind it counts from there on
+  // a thread keeps its feed to its end: an override takes effect after it
   const auto lock_end = std::upper_bound(lock_ends_.begin(), lock_ends_.end(), segment);
   const std::size_t free_places = lock_end == lock_ends_.end() ? last + 1 : 2 * *lock_end;
   const Percent behind{std::max(percent.feed, 1.0), std::max(percent.rapid, 1.0),

@@ -56,6 +56,8 @@ class FeedTerrain {
 
   /// Lowest limits over segments [first, last].
   RampLimits limits(std::size_t first, std::size_t last) const;
+  /// The same times a factor.
+  RampLimits scaled(std::size_t first, std::size_t last, double scale) const;
 
   /// Valleys ahead of a segment up to `until_u`, each lower than the one before and than `below_u_s`.
   /// @return whether there can be more of them behind `until_u`
@@ -77,7 +79,6 @@ class FeedTerrain {
   double limit_scale(const Percent& percent, std::size_t segment, double speed_u_s) const;
 
  private:
-  RampLimits scaled(std::size_t first, std::size_t last, double scale) const;
   double target_u_s(std::size_t segment, const Percent& percent) const;
   double factor(std::size_t place, const Percent& percent) const;
   /// First place of [from, last] whose cap may be at most that; last + 1: none.

@@ -13,7 +13,7 @@ inline MotionState moved(const MotionState& x, double t_s) {
           x.accel_u_s2 + t_s * x.jerk_u_s3, x.jerk_u_s3};
 }
 
-/// Speeds that rounding alone tells apart: a ramp between them would still take the root of that difference.
+/// Speeds that differ only by rounding: a ramp between them would still take the root of that difference.
 inline bool same_speed(double a_u_s, double b_u_s) {
   return std::fabs(a_u_s - b_u_s) <= 1e-14 * std::max(a_u_s, b_u_s);
 }

@@ -21,7 +21,7 @@ PathLimitTable caps_of(const Path& path, const FeedPlan& plan, const machine::Ma
   // a time law's own speeds are never exceeded. Eq. 7 and 8 by the letter: with F_HK and F_KK of blocks that
   // end without acceleration; ramps that run over many blocks have no such numbers, there F itself is what is
   // never exceeded
-  const bool time_law = machine.planner.method != machine::PlanMethod::scheduler;
+  const bool time_law = machine::facts(machine.planner.method).is_law;
   const bool by_block =
       mode == OverrideMode::corrected && machine.planner.scheduler == machine::SchedulerKind::blockwise;
   if (!time_law && !by_block) return std::move(*table);

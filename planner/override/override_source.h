@@ -11,17 +11,17 @@
 
 namespace kadr::planner {
 
-/// Plays a plan under an operator's percent: the law itself as long as 100 % is asked for, a FeedTracker from
+/// Plays a plan under the operator's override: the law itself as long as 100 % is requested, a FeedTracker from
 /// the first change to the end of that run (rest to rest). A run that the tracker ends rests to the next
-/// control tick; then the law goes on, pauses included.
+/// control tick; then the law continues, pauses included.
 ///
-/// While the law brakes for a place ahead, or a move is locked, a change waits (paper 003: the percent is not
-/// changed while braking); the log tells it by OverrideNote. An emergency stop does not wait.
+/// While the law brakes for a place ahead, or a move is locked, a change waits (paper 003: the override is not
+/// changed while braking); the log shows it as OverrideNote. An emergency stop does not wait.
 ///
-/// A rapid that planner.rapid_law takes care of gets its percent as it begins: a law of its own with so much
+/// A rapid planned by planner.rapid_law gets its override as it begins: a law of its own with that share
 /// of the speed, and as silent. Changes wait for the next one; a feed hold brakes it as any other move.
 ///
-/// Where an axis would be asked for more than its highest speed, an axis limiter lowers the feed to K_max
+/// If an axis would have to exceed its highest speed, an axis limiter lowers the feed to K_max
 /// times the one demanded, in the control tick after it was measured (eq. 12) or in the same one
 /// (predictive). Braking begins from the limited feed.
 class OverrideSource final : public MotionSource {
@@ -37,11 +37,11 @@ class OverrideSource final : public MotionSource {
   bool law_rests() const;
   /// Whether the tracker could take over.
   bool leave_law(const LawSource& source, const MotionLaw& law, const Percent& percent);
-  /// At rest at the end of a segment: the law goes on from there with the next control tick.
+  /// At rest at the end of a segment: the law continues from there with the next control tick.
   void return_to_law(std::size_t segment);
   /// The row of the plan that the law is in or begins with; nullptr: no rapid of planner.rapid_law.
   const PositionedSegment* rapid_of_law();
-  /// What a percent does to such a rapid; false: nothing, or the motion has to leave it.
+  /// Applies an override to such a rapid; false: nothing to do, or the motion has to leave it.
   bool advance_rapid(TickMotion& motion, const OperatorInput& input, const Percent& percent);
   void begin_slow_rapid(std::size_t segment, double ratio);
   void advance_tracker(TickMotion& motion, const Percent& percent, bool emergency);
@@ -64,7 +64,7 @@ class OverrideSource final : public MotionSource {
   std::vector<double> tangent_;
   PositioningPlanner rapids_;
   std::size_t next_rapid_ = 0;  ///< of plan.positioned: the first that the law is not past
-  MotionLaw slow_rapid_;        ///< the present one under a percent
+  MotionLaw slow_rapid_;        ///< the current one under an override
   std::optional<LawSource> slow_source_;
   double slow_ratio_ = 1;
   bool tracking_ = false, stopped_ = false;

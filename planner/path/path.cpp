@@ -29,8 +29,7 @@ std::pair<double, double> circle_derivative(const ArcShape& arc, double u, int o
   }
 }
 
-/// Where an extreme of one circular coordinate lies near u: zero of its derivative, Newton with a fixed
-/// count.
+/// Where an extreme of one circular coordinate lies near u: zero of its derivative, Newton with a fixed count.
 double polish_extreme(const ArcShape& arc, double u, bool first) {
   for (int i = 0; i < 4; ++i) {
     const auto d1 = circle_derivative(arc, u, 1);
@@ -64,9 +63,7 @@ Path Path::tail(std::size_t i) const {
   return rest;
 }
 
-std::string_view motion_name(const PathSegment& segment) {
-  return gcode::kBlockKinds.word(segment.made_by);
-}
+std::string_view motion_name(const PathSegment& segment) { return gcode::kBlockKinds.word(segment.made_by); }
 
 void eval_position(const Path& path, std::size_t segment, double s_u, std::span<double> position_u) {
   const PathSegment& seg = path.segments[segment];

@@ -27,19 +27,18 @@ namespace kadr::planner {
 
 enum class SegmentKind : std::uint8_t { line, arc, curve };
 
-/// Why the operator's percent does not count on a segment.
+/// Why the operator's override does not apply on a segment.
 enum class FeedLock : std::uint8_t {
   none,
   thread,    ///< in step with the spindle: G33, G33.1
-  disabled,  ///< M49, M50 P0, and what switches the override off by itself
+  disabled,  ///< M49, M50 P0, and codes that switch the override off themselves
 };
 
 /// Circle in a plane of two machine axes; the other axes move linearly with the angle (helix).
 /// The radius runs linearly with the angle from radius_begin to radius_end (equal but for rounding of the
 /// program):
 ///   p_first(phi)  = center_first  + r(phi) cos(phi),   p_second(phi) = center_second + r(phi) sin(phi)
-///   phi = angle_begin + sweep * u,  r = radius_begin + (radius_end - radius_begin) * u,  u = s/length in [0,
-///   1]
+///   phi = angle_begin + sweep * u,  r = radius_begin + (radius_end - radius_begin) * u,  u = s/length in [0, 1]
 struct ArcShape {
   int first_axis = 0;  ///< machine axis index
   int second_axis = 1;
@@ -58,21 +57,21 @@ using SegmentShape = std::variant<std::monostate, ArcShape, PathCurve>;
 struct PathSegment {
   SegmentKind kind = SegmentKind::line;
   bool rapid = false;
-  bool stop_at_end = false;  ///< exact stop (G61.1) or a stop asked for by the program
+  bool stop_at_end = false;  ///< exact stop (G61.1) or a stop requested by the program
   FeedLock lock = FeedLock::none;
   bool path_limits = false;                           ///< feed_length_u is of X Y Z: PathLimits apply to it
-  gcode::BlockKind made_by = gcode::BlockKind::feed;  ///< what the program asked for
+  gcode::BlockKind made_by = gcode::BlockKind::feed;  ///< kind of motion in the program
   std::int32_t shape = -1;  ///< arc: index into Path::arcs; curve: into Path::curves
   std::uint32_t block = 0;  ///< running number of the motion block; a spline has many segments, a tap two
   Span span;
   double length_u = 0;                          ///< > 0
   double begin_limit_u_s = machine::kInfinity;  ///< of the speed where it begins: a technology point
   double feed_length_u = 0;  ///< the length that the programmed feed measures (gcode::FeedLength), mm or deg
-  double feed_u_s =
-      0;  ///< programmed speed of s (already converted by length_u / feed_length_u); inf for a rapid
+  /// programmed speed of s (already converted by length_u / feed_length_u); inf for a rapid
+  double feed_u_s = 0;
 };
 
-/// What G64 P did to a path.
+/// Effect of G64 P on a path.
 struct Smoothing {
   std::size_t corners = 0;                               ///< rounded (RoundedCorner)
   std::size_t curves = 0;                                ///< dense lines that became curves (PointFit)
@@ -117,7 +116,7 @@ class Path {
   int axes_;
 };
 
-/// What a segment's block is called in logs and tables: "rapid", "line", "arc", "spline", "probe", "tap".
+/// Name of a segment's block in logs and tables: "rapid", "line", "arc", "spline", "probe", "tap".
 std::string_view motion_name(const PathSegment& segment);
 /// Position on a segment at local length s in [0, length]; exact at both ends (returns the node itself).
 void eval_position(const Path& path, std::size_t segment, double s_u, std::span<double> position_u);

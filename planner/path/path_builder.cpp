@@ -19,7 +19,7 @@ namespace {
 
 double norm(double a, double b) { return std::sqrt(a * a + b * b); }
 
-/// Signed angle of an arc. End points that coincide but for rounding leave it open whether a full turn or
+/// Signed angle of an arc. End points that coincide up to rounding leave it open whether a full turn or
 /// none is meant; the length that the program's reader gave decides.
 double signed_sweep(double from_first, double from_second, double to_first, double to_second, int turns,
                     double planar_length_u, double mean_radius_u) {
@@ -86,11 +86,11 @@ void PathBuilder::add_motion(const gcode::Block& block) {
     add_line(segment, tap, machine_point(tap.end));
     add_line(segment, tap, start);
   };
-  std::visit(Overloaded{along_line, to_contact, down_and_up,
-                        [&](const gcode::Arc& arc) { add_arc(segment, arc); },
-                        [&](const gcode::Spline& spline) { add_spline(segment, spline); },
-                        [](const gcode::NoMove auto&) {}},
-             block.action);
+  std::visit(
+      Overloaded{along_line, to_contact, down_and_up, [&](const gcode::Arc& arc) { add_arc(segment, arc); },
+                 [&](const gcode::Spline& spline) { add_spline(segment, spline); },
+                 [](const gcode::NoMove auto&) {}},
+      block.action);
 }
 
 PathSegment PathBuilder::segment_of(const gcode::Block& block, const gcode::Move& move) {
@@ -135,9 +135,10 @@ void PathBuilder::add_line(PathSegment segment, const gcode::Move& move, const P
 
 void PathBuilder::add_arc(PathSegment segment, const gcode::Arc& programmed) {
   if (programmed.plane_rotation_deg != 0) {
-    return fault(Code::arc_plane_turned, segment.span,
-                 fmt::format("G10 L2 R turns this plane by {:.6g} degrees about Z", programmed.plane_rotation_deg),
-                 "turn the work system back by R0, or write the arc as short lines");
+    return fault(
+        Code::arc_plane_turned, segment.span,
+        fmt::format("G10 L2 R turns this plane by {:.6g} degrees about Z", programmed.plane_rotation_deg),
+        "turn the work system back by R0, or write the arc as short lines");
   }
   ArcShape arc;
   if (!plane_axes(segment, programmed.plane, arc)) return;
@@ -165,7 +166,7 @@ void PathBuilder::add_arc(PathSegment segment, const gcode::Arc& programmed) {
   segment.length_u = std::sqrt(squares + planar * planar);
   set_feed(segment, programmed, std::sqrt(xyz_squares + planar * planar));
   settle();
-  // a circle of radius zero is a point: what is left is the straight motion of the other axes
+  // a circle of radius zero is a point: only the straight motion of the other axes remains
   append(segment, end, planar > 0.0 ? SegmentShape(arc) : SegmentShape());
 }
 
@@ -256,7 +257,7 @@ bool PathBuilder::add_curve(PathSegment segment, const gcode::Spline& spline, co
 }
 
 void PathBuilder::set_feed(PathSegment& segment, const gcode::Move& move, double xyz_u) {
-  // what F measures; a reader that gave no length leaves it to the geometry
+  // length that F measures; without one the geometry gives it
   segment.path_limits = xyz_u > 0.0;
   segment.feed_length_u = move.length_u > 0.0 ? move.length_u : xyz_u > 0.0 ? xyz_u : segment.length_u;
   if (segment.path_limits && move.feed_length != gcode::FeedLength::xyz) segment.feed_length_u = xyz_u;
@@ -329,7 +330,8 @@ bool PathBuilder::plane_axes(const PathSegment& segment, gcode::Plane program_pl
   if (arc.first_axis >= 0 && arc.second_axis >= 0) return true;
   const char missing =
       kAxisLetters[static_cast<std::size_t>(arc.first_axis < 0 ? plane.first : plane.second)];
-  fault(Code::arc_axis_missing, segment.span, fmt::format("the {} needs axis {}", motion_name(segment), missing),
+  fault(Code::arc_axis_missing, segment.span,
+        fmt::format("the {} needs axis {}", motion_name(segment), missing),
         "choose the plane with G17, G18 or G19, or a machine that has both of its axes");
   std::string letters;
   for (const machine::AxisModel& axis : machine_.axis) letters += axis.letter;

@@ -53,8 +53,8 @@ class PathBuilder {
 
   /// A straight feed move under G64 P that the path ends with.
   struct SmoothLine {
-    double length_u =
-        0;  ///< as programmed; the path may have less of it. 0: the path ends with something else
+    /// as programmed; the path may have less of it. 0: the path ends with something else
+    double length_u = 0;
     double tolerance_u = 0;  ///< P
     Point direction{};
   };
@@ -95,11 +95,11 @@ class PathBuilder {
   std::vector<int> program_axis_;  ///< [machine axes] index into AxisValues
   std::uint32_t blocks_ = 0;
   bool follows_spindle_ = false;
-  double pitch_u_rev_ = 0;  ///< of the move being added
+  double pitch_u_rev_ = 0;                       ///< of the move being added
   double speed_limit_u_s_ = machine::kInfinity;  ///< of the next segment's beginning
   SmoothLine last_line_;
-  std::size_t curve_begin_ =
-      0;  ///< first segment of the dense lines that the path ends with; 0: there are none
+  /// first segment of the dense lines that the path ends with; 0: there are none
+  std::size_t curve_begin_ = 0;
   double curve_tolerance_u_ = 0;
 };
 

@@ -16,7 +16,7 @@ constexpr double kDenseTurn = 0.6;  // |difference of the directions|
 constexpr double kDenseLengths = 4;
 // and if the curve through them, of curvature turn/length, will be well within the tolerance
 constexpr double kDenseShare = 0.5;
-// of half a line: what a corner leaves of it, so that there is a line between two corners
+// of half a line: kept by a corner, so that there is a line between two corners
 constexpr double kMostTrim = 1.0 - 1.0 / 1024;
 // below this there is no corner, only rounding
 constexpr double kStraight = 1e-9;
@@ -35,7 +35,7 @@ PathSegment of_length(PathSegment segment, double length_u) {
 
 }  // namespace
 
-/// What a segment is to the one that follows; length 0 if nothing is to be smoothed there.
+/// A segment as seen by the next one; length 0 if nothing can be smoothed there.
 PathBuilder::SmoothLine PathBuilder::smooth_line(const PathSegment& segment, const gcode::Move& move,
                                                  const Point& end) const {
   SmoothLine line;
@@ -103,8 +103,7 @@ void PathBuilder::settle() {
   last_line_ = last;
 }
 
-/// Curves through the nodes of segments [begin, end); where they leave the tolerance, the lines meet in a
-/// corner.
+/// Curves through the nodes of segments [begin, end); where they leave the tolerance, the lines meet in a corner.
 void PathBuilder::fit(std::size_t begin, std::size_t end) {
   if (end - begin < 2) return;
   const auto axes = program_axis_.size();
@@ -151,7 +150,7 @@ void PathBuilder::measure_from(std::size_t segment) {
     path_.start_s_u[i + 1] = path_.start_s_u[i] + path_.segments[i].length_u;
 }
 
-/// Appends a line behind a rounded corner, of which one half is of the line before.
+/// Appends a line after a rounded corner, half of which belongs to the line before.
 void PathBuilder::round_into(PathSegment segment, const Point& end, const SmoothLine& line) {
   const auto axes = program_axis_.size();
   const Point corner = last_point();

@@ -16,7 +16,7 @@ constexpr int kSamples = 16;
 constexpr double kSampleShare = 0.8;
 // ends of a pair point along its chord within 60 degrees: then the pair does not wind
 constexpr double kLeastForward = 0.5;
-// beside a cusp no pair fits: pieces this short are lines
+// next to a cusp no pair fits: pieces this short are lines
 constexpr double kShortest_mm = 1e-6;
 // where the velocity vanishes (a control point on the end) the direction is taken this far inside
 constexpr double kInside = 1e-6;
@@ -31,7 +31,7 @@ double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
 double cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
 double norm(Vector a) { return std::sqrt(dot(a, a)); }
 
-/// A place on the curve with its direction.
+/// A point on the curve with its direction.
 struct Station {
   double u = 0;
   Vector point, tangent;

@@ -19,7 +19,7 @@ PointLaw convolved(const PointLaw& law, std::span<const Impulse> impulses) {
   return PointLaw::from_edges(std::span(edges.data(), n), law.distance_u());
 }
 
-/// What an amplitude has fallen to after half a damped period.
+/// Factor on an amplitude after half a damped period.
 double half_period_decay(const Mode& mode) {
   return mode.zeta == 0.0 ? 1.0
                           : exact_exp(-mode.zeta * kPi / std::sqrt((1.0 - mode.zeta) * (1.0 + mode.zeta)));

@@ -22,7 +22,7 @@ PointLaw t_law(double distance_u, double duration_s, double xi);
 /// @pre 1 <= ramp <= shift
 PointLaw double_zero_law(double distance_u, double period_s, int ramp, int shift);
 
-/// The shortest law there is within both limits: bang-bang, with a cruise if the speed limit asks for one.
+/// The shortest law within both limits: bang-bang, with a cruise if the speed limit requires one.
 ///   T = 2 sqrt(d/a)  if d <= v^2/a,   else d/v + v/a
 PointLaw bang_bang_law(double distance_u, double speed_limit_u_s, double accel_limit_u_s2);
 
@@ -39,8 +39,7 @@ struct Impulse {
 /// Two impulses half a damped period apart, the second one K of the first: no residual vibration at the mode
 /// (ZV).   K = exp(-zeta pi/sqrt(1 - zeta^2))
 std::array<Impulse, 2> zv_impulses(const Mode& mode);
-/// Three impulses in the ratio 1 : 2K : K^2: the residual vibration and its slope over frequency are zero
-/// (ZVD).
+/// Three impulses in the ratio 1 : 2K : K^2: the residual vibration and its slope over frequency are zero (ZVD).
 std::array<Impulse, 3> zvd_impulses(const Mode& mode);
 /// Sum of copies of a law, shifted and scaled by the impulses: their convolution. Lasts as much longer as the
 /// last impulse is late; no peak grows.

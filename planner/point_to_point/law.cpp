@@ -10,7 +10,7 @@ namespace kadr::planner {
 namespace {
 
 constexpr double kSameMoment = 1e-13;  ///< of the duration: edges closer than that are one
-constexpr double kNothing = 1e-13;     ///< of the largest jump: what a sum of jumps leaves is zero
+constexpr double kNothing = 1e-13;     ///< of the largest jump: a smaller sum of jumps is zero
 constexpr double kEndTolerance = 1e-9;
 
 /// Jumps cancel in exact arithmetic; here they leave a few units in the last place of the largest one.

@@ -12,7 +12,7 @@ struct PointState {
   double accel_u_s2 = 0;
 };
 
-/// A jump of acceleration and of jerk at one moment; what happens between the jumps follows from them.
+/// A jump of acceleration and of jerk at one moment; the motion between the jumps follows from them.
 struct PointEdge {
   double time_s = 0;
   double accel_u_s2 = 0;

@@ -6,12 +6,12 @@ namespace kadr::planner {
 /// minimise() ends there at the latest.
 inline constexpr int kMostEvaluations = 100;
 
-/// A place and what a function is there.
+/// A point and the value of a function there.
 struct Minimum {
   double at = 0, value = 0;
 };
 
-/// Brent's search for a minimum between two places (Brent 1973, chapter 5): parabolas through the three best
+/// Brent's search for a minimum between two points (Brent 1973, chapter 5): parabolas through the three best
 /// points, golden sections where these do not help. At most kMostEvaluations; the same ones everywhere, since
 /// only + - * / and sqrt take part.
 /// @param tolerance  of the place, absolute, > 0

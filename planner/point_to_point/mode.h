@@ -14,10 +14,10 @@ struct Mode {
   double damped_period_s() const;  ///< 2 pi/(omega sqrt(1 - zeta^2))
 };
 
-/// What moves the base, and so decides which frequency rings.
+/// Drive of the base, which decides which frequency rings.
 enum class Drive : unsigned char {
   position,  ///< a stiff servo or rigid mechanics: the base follows the law whatever the load does
-  force,     ///< a motor's force F = (m0 + m1) a alone: base and load swing against each other
+  force,     ///< a motor's force F = (m0 + m1) a alone: base and load vibrate against each other
 };
 inline constexpr Vocabulary<Drive, 2> kDrives{{
     {Drive::position, "position", "the base follows the law whatever the load does"},
@@ -27,8 +27,8 @@ static_assert(kDrives.complete());
 
 /// The load as a law's acceleration sees it.
 struct DrivenMode {
-  Mode mode;        ///< what rings, and what a law has to be tuned to
-  double gain = 1;  ///< the load swings as if the base had `gain` times the law's acceleration
+  Mode mode;        ///< the ringing frequency, to which a law has to be tuned
+  double gain = 1;  ///< the load vibrates as if the base had `gain` times the law's acceleration
 
   /// position:  omega, zeta, gain 1
   /// force:     omega r, zeta r, gain r^2,  r = sqrt(1 + m1/m0): a law tuned to omega misses it

@@ -24,7 +24,7 @@ double envelope_u(const LinkState& state, const Mode& mode);
 
 /// The same at the end of a law, from its jumps alone: with S = zeta w + i wd
 ///   X = gain/wd |int a e^{S (t - T)} dt| = gain/wd |sum (da_i/S - dj_i/S^2) e^{S (t_i - T)}|
-/// Exact for every law but for rounding: some 1e-13 of the largest jump over w^2.
+/// Exact for every law up to rounding: some 1e-13 of the largest jump over w^2.
 double residual_amplitude_u(const PointLaw& law, const DrivenMode& driven);
 
 /// The same of a T law in closed form (eq. 20), D = T - ta:

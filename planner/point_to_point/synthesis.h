@@ -19,14 +19,14 @@ struct PointTask {
   double accel_limit_u_s2 = 0;  ///< > 0
 };
 
-/// Why there is no law, with what was measured and what is allowed.
+/// Why there is no law, with the measured and the allowed value.
 struct PointFault {
   enum class Kind : std::uint8_t {
     not_positive,  ///< a quantity that has to be a finite number above zero
     bad_damping,   ///< zeta outside 0 <= zeta < 1
     too_short,     ///< no law of this kind is as fast as the time asks for; allowed: the shortest time
     bad_share,     ///< outside of its range; allowed: the nearer end of it
-    too_fine,      ///< more zeros or frequencies than can be looked through (1e5)
+    too_fine,      ///< more zeros or frequencies than can be examined (1e5)
   };
   Kind kind;
   std::string what;  ///< "distance", "time of ZV on T", ...
@@ -68,7 +68,7 @@ struct ZeroLaw {
 PointResult<std::vector<ZeroLaw>> zero_laws(const PointTask& task, double duration_s, const Mode& mode,
                                             const Load& load);
 
-/// What synthesis found.
+/// Result of a synthesis.
 struct TChoice {
   double xi = 0;
   std::optional<ZeroLaw> zero;  ///< if it is one, exactly

@@ -3,7 +3,7 @@
 
 namespace kadr::planner {
 
-/// What the drive moves (paper 001, eq. 21): a load of mass m on a vertical axis, its own inertia p m and a
+/// The moved masses (paper 001, eq. 21): a load of mass m on a vertical axis, its own inertia p m and a
 /// counterweight k m.
 struct Load {
   double mass_kg = 1;
@@ -28,8 +28,8 @@ struct Work {
   double least_W = 0;        ///< smallest one; below 0 the drive brakes
   double absolute_J = 0;     ///< int |P| dt, eq. 22 as Table 2 means it: braking costs as much as driving
   double positive_J = 0;     ///< int max(P, 0) dt: braking is free
-  double recuperated_J = 0;  ///< int max(-P, 0) dt: what braking could give back
-  double copper_m2_s3 = 0;   ///< int a^2 dt: heat in the windings, but for constants of the motor
+  double recuperated_J = 0;  ///< int max(-P, 0) dt: energy that braking could return
+  double copper_m2_s3 = 0;   ///< int a^2 dt: heat in the windings, up to constants of the motor
 };
 
 /// Exact: every piece is split where q a + c changes its sign, and between

@@ -7,10 +7,10 @@
 namespace kadr::planner {
 namespace {
 
-constexpr int kScan = 24;  ///< places of a period looked at
+constexpr int kScan = 24;  ///< points sampled per period
 constexpr int kBisections = 60;
 
-/// F of a ramp: how much it leaves swinging, and at which angle.
+/// F of a ramp: the vibration it leaves, with its phase.
 struct Swing {
   double size, angle_rad;
 };
@@ -62,7 +62,7 @@ class Search {
     }
     return low;
   }
-  /// By how much of a turn the two swings miss each other, -1/2 to 1/2.
+  /// Phase difference of the two vibrations in turns, -1/2 to 1/2.
   double late_turns(double shift_s) const {
     const double turns =
         (damped_rad_s_ * shift_s + down_.angle_rad - left_by(ramp_for(shift_s)).angle_rad) / (2.0 * kPi);

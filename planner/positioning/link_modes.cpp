@@ -46,7 +46,7 @@ Quartic characteristic(const machine::TwoMassModel& m, const machine::Motor& mot
   return {m0 * m1, m0 * c + (b + c) * m1, m0 * k + b * c + (km + k) * m1, b * k + km * c, km * k};
 }
 
-/// The root that Newton's method comes to from an undamped one, if it swings.
+/// The root that Newton's method finds from an undamped one, if it oscillates.
 std::optional<Complex> root_near(const Quartic& q, double omega_rad_s) {
   Complex s{0, omega_rad_s};
   for (int i = 0; i < kNewtonSteps; ++i) s = s - q.at(s) / q.slope(s);

@@ -12,7 +12,7 @@ namespace kadr::planner {
 /// Damping ratio from which a vibration is left to itself: in five periods it falls to a fifth.
 inline constexpr double kDampedEnough = 0.05;
 
-/// The vibrations that motion along an axis leaves behind, as the driven system has them; none without a
+/// The vibrations that motion along an axis excites in the driven system; none without a
 /// plant.
 ///
 /// A motor that follows its command moves the base whatever the load does, so the link swings at its own

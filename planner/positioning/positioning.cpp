@@ -19,16 +19,16 @@ namespace {
 using machine::RapidShape;
 
 constexpr double kSameMode = 1e-6;    ///< relative
-constexpr double kMostPeriods = 1e4;  ///< in a motion: what swings faster is not felt, and not tuned to
+constexpr double kMostPeriods = 1e4;  ///< in a motion: faster vibrations are negligible, and not tuned for
 constexpr double kTShare = 0.01;  ///< of the distance between zeros of a T law: frequency known well enough
 constexpr double kZvUncertainty = 0.01;
 constexpr double kRampSearch = 0.03;  ///< of a period, either way
-constexpr double kSilent = 1e-3;  ///< of what a single jump of acceleration leaves: a law without residual
+/// of the residual of a single jump of acceleration: a law without residual
+constexpr double kSilent = 1e-3;
 constexpr double kMostShifts = 50;
-constexpr double kWhole = 1e-12;  ///< relative: a time that is whole but for rounding
+constexpr double kWhole = 1e-12;  ///< relative: a time that is whole up to rounding
 
-/// What a law is made of before the impulses: constant acceleration, cruise and deceleration, averaged over a
-/// window.
+/// A law before the impulses: constant acceleration, cruise and deceleration, averaged over a window.
 struct Ramps {
   double ramp_s = 0, down_s = 0;  ///< of acceleration and deceleration
   double shift_s = 0;             ///< between the beginnings of both ramps
@@ -169,7 +169,7 @@ class Maker {
   Ramps equal_ramps(double ramp_s, double shift_s, bool free_shift) const {
     return with_window({ramp_s, ramp_s, shift_s, 0, free_shift});
   }
-  /// As long a window as the jerk limit asks for.
+  /// The averaging window that the jerk limit requires.
   Ramps with_window(Ramps b) const {
     if (task_.jerk_u_s3 < machine::kInfinity) b.window_s = accel_u_s2(b) / task_.jerk_u_s3;
     return b;
@@ -203,7 +203,7 @@ class Maker {
     return silent ? *silent : tuned_to_least(best);
   }
 
-  /// With damping: the fastest that cancels its own swing (damped_zero()) within the limits.
+  /// With damping: the fastest law that cancels its own vibration (damped_zero()) within the limits.
   std::optional<Ramps> silent_damped() const {
     const double period = mode_[0].driven.mode.damped_period_s();
     std::optional<Ramps> best;

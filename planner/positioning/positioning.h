@@ -24,7 +24,7 @@ struct ExcitedMode {
   double share = 0;  ///< |dx/ds|: of the path's acceleration that the axis gets
 };
 
-/// Limits along the path, and what must not ring.
+/// Limits along the path, and the vibrations to cancel.
 struct PositioningTask {
   double distance_u = 0;
   double speed_u_s = 0;
@@ -57,13 +57,12 @@ struct Positioning {
 ///           else zv if the frequency is known to 1 %, else zvd
 ///
 /// At most kMostTuned vibrations are tuned out; what others leave is residual_u(). A finite jerk limit is
-/// kept by averaging over accel/jerk seconds, and so is a whole number of ticks: that leaves zeros where they
-/// are.
+/// kept by averaging over accel/jerk seconds, and so is a whole number of ticks: that leaves zeros where they are.
 Positioning plan_positioning(const PositioningTask& task);
 inline constexpr std::size_t kMostTuned = 2;
 
 /// Appends the pieces of a law that begins at path length s.
-/// @param why  what holds the speed where it cruises
+/// @param why  the limit of the cruising speed
 void append_pieces(const PointLaw& law, double s_u, const Signature& why, std::vector<JerkPiece>& out);
 
 /// Amplitude of a mode's vibration after the law, in units of its axis.

@@ -10,7 +10,7 @@ namespace {
 
 // a time that is whole but for this share is taken as whole
 constexpr double kWhole = 1e-12;
-// holds shorter than this share of their block are rounding
+// holds shorter than this share of their block are rounding noise noise
 constexpr double kNoHold = 1e-14;
 // ramps by less than this share of their speed are the last bits of a bisection
 constexpr double kNoRamp = 1e-13;
@@ -103,7 +103,7 @@ double append_elements(const BlockDiagram& block, double s_u, double tau_s, cons
                        std::vector<Element>& out) {
   const std::size_t first = out.size();
   double wanted = static_cast<double>(block.ticks) * tau_s;
-  // what is left of the last control tick is spent at the end's speed, or at rest
+  // the rest of the last control tick is spent at the end's speed, or at rest
   const double left = block.rule == TickRule::scale ? wanted - block.time_s() : 0.0;
   if (block.end_u_s == 0.0) wanted -= left;
   const double entry = block.entry_u_s * block.kl;
@@ -123,7 +123,7 @@ double append_elements(const BlockDiagram& block, double s_u, double tau_s, cons
   double tail = end * left;
   double hold = block.length_u - up - down - tail;
   if (!(hold > kNoHold * block.length_u)) hold = 0.0;
-  // scaled ramps keep their length but for rounding
+  // scaled ramps keep their length up to rounding
   if (tail > 0.0) tail = block.length_u - up - down - hold;
   const auto add_hold = [&](double length, double speed) {
     if (length > 0.0) out.push_back({s_u, length, speed, speed, {0, 0}, why.hold});

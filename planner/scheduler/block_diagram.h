@@ -51,14 +51,14 @@ void fill_block_ticks(BlockDiagram& block, double tau_s, machine::BlockTicks how
 /// @return within 1e-15 v0 of the exact value, [0, v0]
 double lowest_exit_u_s(double v0_u_s, double distance_u, RampLimits limits);
 
-/// What held the speeds of a block, for its pieces.
+/// Limits of the speeds of a block, for its pieces.
 struct BlockReasons {
   Signature up, hold, down;
 };
 
 /// Elements of a block that begins at s, kl applied; the rest at the end of a block that stops early is not
 /// among them.
-/// @return factor on all times (1 but for rounding) with which they last ticks * tau_s less that rest
+/// @return factor on all times (1 up to rounding) with which they last ticks * tau_s minus that rest
 double append_elements(const BlockDiagram& block, double s_u, double tau_s, const BlockReasons& why,
                        std::vector<Element>& out);
 

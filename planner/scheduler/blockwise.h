@@ -18,8 +18,8 @@ inline constexpr double kLongest_s = 1e9;
 ///              then the rules of fill_block_ticks
 ///
 /// Lowering an entry never breaks a lower exit, as S(v0 -> v1) grows with v0; so the forward pass needs no
-/// way back. Against ramps over many blocks this costs time on short blocks: 40 mm at 100 mm/s in blocks of
-/// 0.5 mm take 0.901 s in place of 0.500 (a = 2000, j = 40000), and 1.362 s with whole ticks.
+/// way back. Compared with ramps over many blocks this costs time on short blocks: 40 mm at 100 mm/s in blocks of
+/// 0.5 mm take 0.901 s instead of 0.500 (a = 2000, j = 40000), and 1.362 s with whole ticks.
 class BlockScheduler {
  public:
   /// Does the backward pass. All three are kept by reference.
@@ -28,7 +28,7 @@ class BlockScheduler {
   bool next(BlockDiagram& block);
   /// The block made last.
   std::size_t segment() const { return behind_ - 1; }
-  /// What holds that block's feed.
+  /// Limits of that block's feed.
   BlockReasons reasons() const;
 
  private:

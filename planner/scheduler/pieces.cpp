@@ -12,7 +12,7 @@ namespace {
 /// A guard: halving alone would need 54 steps to the last bit, and Newton helps.
 constexpr int kBracketSteps = 80;
 
-/// Time within a piece at which it has gone `way`: closed form at constant speed, else Newton in a bracket.
+/// Time within a piece at which it has covered `way`: closed form at constant speed, else Newton in a bracket.
 double time_of_way(const JerkPiece& p, double way) {
   if (!(way > 0.0)) return 0.0;
   if (p.is_hold()) return std::min(way / p.speed_u_s, p.duration_s);

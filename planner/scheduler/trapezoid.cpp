@@ -1,9 +1,10 @@
+#include "planner/scheduler/trapezoid.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "machine/infinity.h"
 #include "planner/path/path.h"
-#include "planner/scheduler/run_planner.h"
 
 namespace kadr::planner {
 namespace {

@@ -1,8 +1,9 @@
+#include "planner/scheduler/whole_ticks.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "machine/base/require.h"
-#include "planner/scheduler/run_planner.h"
 
 namespace kadr::planner {
 namespace {

@@ -6,7 +6,7 @@
 
 namespace kadr::planner {
 
-/// What holds a law back at a node: the first limit that it reaches.
+/// The limit of a law at a node: the first one that it reaches.
 struct ActiveLimit {
   enum class Kind : std::uint8_t {
     none,

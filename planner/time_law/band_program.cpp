@@ -7,7 +7,7 @@
 namespace kadr::planner {
 namespace {
 
-constexpr double kToBoundary = 0.99;  ///< part of the way to a bound that a step may take
+constexpr double kToBoundary = 0.99;  ///< share of the distance to a bound that a step may take
 constexpr double kFall = 0.5;         ///< part of itself that an x may lose in a step
 constexpr double kFalls = 0.9;        ///< a gap that falls less is at its rounding
 constexpr std::uint32_t kStill = 4;   ///< after so many steps of that kind
@@ -153,8 +153,7 @@ void InteriorPoint::factor() {
   hessian_.factor();
 }
 
-/// Newton's step towards slack * multiplier = centre; the corrector takes the last step's product into
-/// account.
+/// Newton's step towards slack * multiplier = centre; the corrector takes the last step's product into account.
 void InteriorPoint::direction(double centre, bool corrected) {
   for (std::size_t i = 0; i < n_; ++i) step_[i] = -dual_[i];
   for (std::size_t k = 0; k < p_.rows.size(); ++k) {

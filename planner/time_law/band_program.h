@@ -15,22 +15,21 @@ struct BandRow {
   double bound = 1;
 };
 
-/// min J(x) over the squared speeds x under rows; x of both ends is given. J is convex, its Hessian
-/// tridiagonal.
+/// min J(x) over the squared speeds x under rows; x of both ends is given. J is convex, its Hessian tridiagonal.
 struct BandProgram {
   std::vector<double> ds_u;    // [nodes], of the interval that ends at a node
   std::vector<double> weight;  // [nodes], of (x_i - x_(i-1))^2
   std::vector<double> cap;     // [nodes], highest x
   std::vector<BandRow> rows;   // every one that can matter, caps among them
-  double unit_u2_s2 = 1;       ///< what x is counted in
+  double unit_u2_s2 = 1;       ///< unit of x
 };
 
 /// J of a problem and the caps of its nodes as a program without rows; x counts in the highest cap's square.
 BandProgram cost_program(const LawProblem& problem, const std::vector<NodeCap>& caps);
-/// Adds a row unless the caps alone keep it.
+/// Adds a row unless the caps already imply it.
 /// @return whether it was added
 bool add_row(BandProgram& program, const BandRow& row);
-/// Where a row came from: accel_rows() and which side of it.
+/// Origin of a row: accel_rows() and its side.
 struct RowOrigin {
   std::size_t row;
   bool upper;

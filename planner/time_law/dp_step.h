@@ -41,7 +41,7 @@ constexpr double kDpTolerance = 1e-9;  ///< relative, of acceleration limits
 ///   max_r (-1/|b_r| - (a_r/b_r) x_j) <= x_k <= min_r (1/|b_r| - (a_r/b_r) x_j);
 /// the cost is the least of cost_k + 2 ds/(v_k + v_j) + w (x_j - x_k)^2 in it. Variants differ in lanes alone
 /// and give the same bits: no fused operations, each element on its own, the least of them exact.
-/// @return transitions that were looked at
+/// @return number of transitions evaluated
 std::uint64_t dp_step_sse2(const DpStep& step);
 std::uint64_t dp_step_avx2(const DpStep& step);  ///< on processors that have AVX2
 using DpStepFunction = std::uint64_t (*)(const DpStep&);

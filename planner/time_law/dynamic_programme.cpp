@@ -102,7 +102,7 @@ bool DynamicProgramme::step(std::size_t i) {
   return here_.last >= 0;
 }
 
-/// From the last node back: the k that gave each cost is looked for once more.
+/// From the last node back: finds the k that gave each cost again.
 LawSolution DynamicProgramme::read_back(const std::vector<LevelRange>& levels) {
   const std::size_t n = problem_.nodes();
   std::vector<double> speed(n);

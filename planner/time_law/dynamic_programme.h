@@ -23,7 +23,7 @@ class DynamicProgramme {
   void on_progress(std::function<void(double)> each) { progress_ = std::move(each); }
 
   const std::vector<std::int32_t>& level() const { return level_; }  ///< [nodes], of the last solution
-  std::uint64_t transitions() const { return transitions_; }         ///< looked at in all runs
+  std::uint64_t transitions() const { return transitions_; }         ///< evaluated in all runs
 
  private:
   struct NodeLevels {

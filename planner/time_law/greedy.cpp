@@ -18,8 +18,7 @@ struct Range {
   double low, high;
 };
 
-/// The strips |a x + b y| <= 1 of one interval, x before and y after it, in units of the highest squared
-/// speed.
+/// The strips |a x + b y| <= 1 of one interval, x before and y after it, in units of the highest squared speed.
 struct Strips {
   std::vector<double> a, b;
 };

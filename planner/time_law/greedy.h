@@ -4,8 +4,7 @@
 namespace kadr::planner {
 
 /// The time optimum (J without penalty) by reachability: backwards the range of squared speeds from which the
-/// end can be reached, then forwards the highest of it in every interval. Two unknowns a step, so linear in
-/// nodes.
+/// end can be reached, then forwards the highest of it in every interval. Two unknowns a step, so linear in nodes.
 class GreedyOptimum final : public LawSolver {
  public:
   std::string_view name() const override { return "greedy"; }

@@ -32,7 +32,7 @@ LawResult InteriorPointOptimum::solve_from(const LawProblem& problem, const LawS
     const bool inner = i > 0 && i + 1 < n;
     x[i] = (inner ? kBelow : 1.0) * v * v / program.unit_u2_s2;
   }
-  // a law may stand still for a moment; the method must not
+  // a law may rest for a moment; the method must not
   for (std::size_t i = 1; i + 1 < n; ++i) x[i] = std::max(x[i], 1e-9 * program.cap[i]);
   BandOptions options;
   options.relative_gap = relative_gap_;

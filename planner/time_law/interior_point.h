@@ -13,7 +13,7 @@ class InteriorPointOptimum final : public LawSolver {
   LawResult solve(const LawProblem& problem) override;
   /// The same, begun at a law that is known.
   LawResult solve_from(const LawProblem& problem, const LawSolution& known);
-  /// Of the last solution; where none was reached, the best that was found on the way.
+  /// Of the last solution, or the best one found if none was reached.
   const Certificate& certificate() const { return certificate_; }
 
  private:

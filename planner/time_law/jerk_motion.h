@@ -6,7 +6,7 @@
 
 namespace kadr::planner {
 
-/// What a motion must keep between two nodes.
+/// Limits of a motion between two nodes.
 struct IntervalLimits {
   double speed_u_s;
   double accel_u_s2;

@@ -151,9 +151,9 @@ class JerkPlanner {
 
 }  // namespace
 
-tl::expected<double, PlanError> plan_jerk_law(const Path& path, const PathLimitTable& table, const Run& run,
-                                              const machine::MachineModel& machine,
+tl::expected<double, PlanError> plan_jerk_law(const RunTask& task, const Run& run,
                                               std::vector<JerkPiece>& out) {
+  const auto& [path, table, machine] = task;
   RunProblem stated = run_problem(path, table, run, machine, RunLimits::path);
   if (const auto wrong = check_problem(stated.problem))
     return tl::unexpected(law_not_found(path, stated, *wrong));

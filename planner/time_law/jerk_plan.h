@@ -13,8 +13,7 @@ namespace kadr::planner {
 ///   v/k, a/k^2, j/k^3   with the least k >= 1 that keeps every limit.
 /// @param out  pieces are appended, their times begin at 0 each
 /// @return k
-tl::expected<double, PlanError> plan_jerk_law(const Path& path, const PathLimitTable& table, const Run& run,
-                                              const machine::MachineModel& machine,
+tl::expected<double, PlanError> plan_jerk_law(const RunTask& task, const Run& run,
                                               std::vector<JerkPiece>& out);
 
 }  // namespace kadr::planner

@@ -8,22 +8,18 @@
 #include "machine/base/numbers.h"
 #include "machine/machine.h"
 #include "planner/path/path.h"
-#include "planner/time_law/certified.h"
-#include "planner/time_law/greedy.h"
-#include "planner/time_law/tube.h"
 
 namespace kadr::planner {
 namespace {
-
-using machine::PlanMethod;
 
 constexpr double kArcStep_rad = 2.0 * kPi / 180.0;
 constexpr double kLeastIntervals = 100.0;  ///< of a run
 constexpr double kPaperLength_u = 2846.9;
 constexpr double kRampIntervals = 8.0;
-constexpr double kWiden = 0.3;   ///< an interval's length by its distance from a slow joint
-constexpr double kSlower = 0.9;  ///< of a segment's cap: a joint that is slow
-constexpr double kAtCap = 1e-9;  ///< relative: a speed that its cap holds
+constexpr double kWiden = 0.3;            ///< an interval's length by its distance from a slow joint
+constexpr double kSlower = 0.9;           ///< of a segment's cap: a joint that is slow
+constexpr double kAtCap = 1e-9;           ///< relative: a speed that its cap holds
+constexpr double kAtCapRounding = 1e-12;  ///< relative: a speed that rounding alone keeps off its cap
 
 /// Angle of an arc's intervals; a curve counts by the limits along its path, which hold all over it.
 double arc_step_rad(const Path& path, std::size_t segment, double intervals) {
@@ -185,22 +181,6 @@ class ProblemMaker {
   RunProblem out_;
 };
 
-LawResult solve(const LawProblem& problem, const machine::MachineModel& machine) {
-  if (machine.planner.method != PlanMethod::tube) return CertifiedLaw().solve(problem);
-  TubeOptions options;
-  options.levels = machine.planner.tube_levels;
-  options.grid = TubeGrid::nominal_kept;
-  TubeDp tube(options);
-  LawResult law = tube.solve(problem);
-  if (law) return law;
-  // levels over the whole range can be too coarse for short intervals: then the tube begins round the time
-  // optimum
-  LawResult known = GreedyOptimum().solve(problem);
-  if (!known) return known;
-  const double fastest = *std::max_element(known->speed_u_s.begin(), known->speed_u_s.end());
-  return tube.refine(problem, *known, options.relative_half_width * fastest);
-}
-
 }  // namespace
 
 PlanError law_not_found(const Path& path, const RunProblem& run, const LawFailure& failure) {
@@ -227,8 +207,9 @@ RunProblem run_problem(const Path& path, const PathLimitTable& table, const Run&
   return ProblemMaker(path, table, run, machine, limits).make();
 }
 
-tl::expected<void, PlanError> plan_time_law(const Path& path, const PathLimitTable& table, const Run& run,
-                                            const machine::MachineModel& machine, std::vector<Element>& out) {
+tl::expected<void, PlanError> plan_time_law(const RunTask& task, const Run& run, const RunSolver& solve,
+                                            std::vector<Element>& out) {
+  const auto& [path, table, machine] = task;
   RunProblem stated = run_problem(path, table, run, machine);
   LawProblem& p = stated.problem;
   if (const auto wrong = check_problem(p)) return tl::unexpected(law_not_found(path, stated, *wrong));
@@ -238,7 +219,7 @@ tl::expected<void, PlanError> plan_time_law(const Path& path, const PathLimitTab
   std::vector<double>& v = law->speed_u_s;
   // speeds that only rounding keeps off their cap are on it, so that holds are holds
   for (std::size_t i = 1; i + 1 < v.size(); ++i)
-    if (std::fabs(v[i] - caps[i].speed_u_s) <= 1e-12 * v[i]) v[i] = caps[i].speed_u_s;
+    if (std::fabs(v[i] - caps[i].speed_u_s) <= kAtCapRounding * v[i]) v[i] = caps[i].speed_u_s;
   for (std::size_t i = 1; i < v.size(); ++i) {
     const double length = p.ds_u(i);
     const Signature why = law_signature(table, stated.segment[i], p.cap_u_s[i], std::max(v[i - 1], v[i]));

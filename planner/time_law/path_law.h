@@ -2,6 +2,7 @@
 #include <tl/expected.hpp>
 
 #include "planner/limits/ramp.h"
+#include "planner/limits/run_method.h"
 #include "planner/time_law/solver.h"
 
 namespace kadr::planner {
@@ -34,9 +35,12 @@ PlanError law_not_found(const Path& path, const RunProblem& run, const LawFailur
 /// What holds the speed in an interval of a segment that ends at a node with a cap.
 Signature law_signature(const PathLimitTable& table, std::size_t segment, double cap_u_s, double speed_u_s);
 
-/// Plans a run by planner.method "tube" or "certified": one element for every interval whose speed changes,
-/// holds joined.
-tl::expected<void, PlanError> plan_time_law(const Path& path, const PathLimitTable& table, const Run& run,
-                                            const machine::MachineModel& machine, std::vector<Element>& out);
+/// How a law is found for a run.
+using RunSolver = LawResult(const LawProblem& problem, const machine::MachineModel& machine);
+
+/// Plans a run by a law of constant acceleration between nodes: one element for every interval whose speed
+/// changes, holds joined.
+tl::expected<void, PlanError> plan_time_law(const RunTask& task, const Run& run, const RunSolver& solve,
+                                            std::vector<Element>& out);
 
 }  // namespace kadr::planner

@@ -21,8 +21,8 @@ struct LawSolution {
 
 using LawResult = tl::expected<LawSolution, LawFailure>;
 
-/// Told how far a method is: what it does ("pass 3"), and how much of that is done, 0..1; below 0: not known.
-/// Called often.
+/// Told how far a method is: what it does ("pass 3"), and how much of that is done, 0..1;
+/// below 0: not known. Called often.
 using LawProgress = std::function<void(std::string_view stage, double done)>;
 
 /// A method to solve a LawProblem. Every solution, from whichever method, is looked at by verify_law().

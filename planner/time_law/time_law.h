@@ -5,6 +5,7 @@
 #include "planner/time_law/greedy.h"
 #include "planner/time_law/interior_point.h"
 #include "planner/time_law/jerk_limited.h"
+#include "planner/time_law/law_methods.h"
 #include "planner/time_law/metrics.h"
 #include "planner/time_law/spline_fit.h"
 #include "planner/time_law/stretch.h"

@@ -32,6 +32,8 @@ struct VerifyOptions {
   int quadrants = 1'000'000'000;  ///< of an arc in a piece, at whose ends the limits are looked at
   int chords = 256;               ///< of every curve, whose sum is compared with its length
 
+  /// Whether the law stands at its pauses alone. A run under an override also stands wherever that is 0.
+  bool stands_at_pauses_alone = true;
   /// Whether acceleration, jerk and centripetal acceleration are looked at on curves that turn back.
   bool curves_that_turn_back = true;
 

@@ -4,13 +4,15 @@
 #include <cmath>
 
 #include "machine/machine.h"
+#include "planner/verify/verify_context.h"
 #include "planner/verify/verify_pauses.h"
 
 namespace kadr::planner {
 namespace {
 
 // a block's end is a product and a sum; every pause before it adds its rounding
-constexpr double kLinkUlps = 4.0;
+constexpr double kBlockUlps = 4.0;
+constexpr double kBlockAccelUlps = 32.0;  // of a time: the acceleration that a jerk makes in it
 // kl are numbers near 1: their products agree to this
 constexpr double kSameFeed = 1e-9;
 
@@ -20,38 +22,29 @@ bool is_blockwise(const machine::MachineModel& machine) {
 
 class BlockVerifier {
  public:
-  BlockVerifier(const FeedPlan& plan, const machine::MachineModel& machine, const VerifyOptions& options,
-                std::size_t pauses, const std::function<bool(std::size_t)>& jerk_limited,
-                std::vector<Violation>& found)
-      : plan_(plan),
-        law_(plan.law),
-        tau_s_(machine.clock.tau_s()),
-        whole_ticks_(machine.planner.whole_ticks),
-        tick_ulps_(kLinkUlps + static_cast<double>(pauses)),
-        options_(options),
-        jerk_limited_(jerk_limited),
-        found_(found) {
-    for (const JerkPiece& p : law_.pieces) top_speed_ = std::max(top_speed_, p.speed_u_s);
-  }
+  explicit BlockVerifier(VerifyContext& context)
+      : c_(context),
+        law_(context.law),
+        tau_s_(context.machine.clock.tau_s()),
+        tick_ulps_(kBlockUlps + static_cast<double>(context.pauses.size())) {}
 
   void run() {
-    for (std::size_t i = 0; i < plan_.segments.size() && !full(); ++i) {
-      const SegmentPlan& row = plan_.segments[i];
+    for (std::size_t i = 0; i < c_.plan.segments.size() && !c_.full(); ++i) {
+      const SegmentPlan& row = c_.plan.segments[i];
       check_row(i, row);
       check_diagram(i, row.end_time_s);
     }
   }
 
  private:
-  bool full() const { return found_.size() >= options_.most; }
   void report(const char* what, double time, std::size_t segment, double value, double limit) {
-    if (!full()) found_.push_back({what, time, static_cast<std::uint32_t>(segment), -1, value, limit});
+    c_.report(what, time, segment, -1, value, limit);
   }
 
   void check_row(std::size_t i, const SegmentPlan& row) {
     const double time = row.end_time_s;
     const double off = std::fabs(time - std::floor(time / tau_s_ + 0.5) * tau_s_);
-    if (whole_ticks_ && !(off <= kTickSlack_s + tick_ulps_ * kUlp * time))
+    if (c_.machine.planner.whole_ticks && !(off <= kTickSlack_s + tick_ulps_ * kUlp * time))
       report("whole ticks", time, i, off, kTickSlack_s);
     const bool sound = row.rule == TickRule::scale ? row.kl > 0.0 && row.kl <= 1.0 : row.kl == 1.0;
     if (!sound) report("kl", time, i, row.kl, 1.0);
@@ -66,41 +59,36 @@ class BlockVerifier {
       if (stands(law_.pieces[piece_]) && begins_at(law_.pieces[piece_], end_s)) break;  // a pause behind it
       const JerkPiece& p = law_.pieces[piece_];
       const double change = verified_state(p, p.duration_s).v - p.speed_u_s;
-      const double tolerance = options_.relative_tolerance * top_speed_;
+      const double tolerance = c_.options.relative_tolerance * c_.top_speed_u_s();
       if (change > tolerance && falls) report("block diagram", p.begin_s, i, change, 0.0);
       falls = falls || change < -tolerance;
     }
     if (first == piece_) return report("block without pieces", end_s, i, 0.0, 1.0);
     const JerkPiece& p = law_.pieces[piece_ - 1];
     const double gap = std::fabs(p.begin_s + p.duration_s - end_s);
-    if (!(gap <= kLinkUlps * kUlp * end_s)) report("block end inside a piece", end_s, i, gap, 0.0);
-    if (!jerk_limited_(i)) return;
+    if (!(gap <= kBlockUlps * kUlp * end_s)) report("block end inside a piece", end_s, i, gap, 0.0);
+    if (!c_.jerk_limited(i)) return;
     check_rest_of_accel(i, law_.pieces[first], 0.0);
     check_rest_of_accel(i, p, p.duration_s);
   }
 
   static bool begins_at(const JerkPiece& p, double time_s) {
-    return std::fabs(p.begin_s - time_s) <= kLinkUlps * kUlp * time_s;
+    return std::fabs(p.begin_s - time_s) <= kBlockUlps * kUlp * time_s;
   }
 
   void check_rest_of_accel(std::size_t i, const JerkPiece& p, double t) {
     const double accel = std::fabs(verified_state(p, t).a);
     const double jerk = std::fabs(p.jerk_u_s3);
-    const double tolerance = options_.relative_tolerance * (std::fabs(p.accel_u_s2) + jerk * p.duration_s) +
-                             32.0 * kUlp * p.begin_s * jerk;
+    const double tolerance = c_.options.relative_tolerance * (std::fabs(p.accel_u_s2) + jerk * p.duration_s) +
+                             kBlockAccelUlps * kUlp * p.begin_s * jerk;
     if (!(accel <= tolerance)) report("acceleration at a block end", p.begin_s + t, i, accel, tolerance);
   }
 
-  const FeedPlan& plan_;
+  VerifyContext& c_;
   const MotionLaw& law_;
   double tau_s_;
-  bool whole_ticks_;
   double tick_ulps_;
-  const VerifyOptions& options_;
-  const std::function<bool(std::size_t)>& jerk_limited_;
-  std::vector<Violation>& found_;
   std::size_t piece_ = 0;
-  double top_speed_ = 0;
 };
 
 }  // namespace
@@ -133,10 +121,8 @@ double StatedJumps::stated_jump_u_s(double time_s) {
   return std::fabs(behind - before) <= kSameFeed * before ? row.end_jump_u_s : 0.0;
 }
 
-void verify_blocks(const FeedPlan& plan, const machine::MachineModel& machine, const VerifyOptions& options,
-                   std::size_t pauses, const std::function<bool(std::size_t)>& jerk_limited,
-                   std::vector<Violation>& found) {
-  if (is_blockwise(machine)) BlockVerifier(plan, machine, options, pauses, jerk_limited, found).run();
+void verify_blocks(VerifyContext& c) {
+  if (is_blockwise(c.machine)) BlockVerifier(c).run();
 }
 
 }  // namespace kadr::planner

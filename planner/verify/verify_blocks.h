@@ -1,5 +1,4 @@
 #pragma once
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -32,13 +31,11 @@ class StatedJumps {
   std::size_t row_ = 0;
 };
 
+class VerifyContext;
+
 /// For planner.scheduler = blockwise, at every block end: a whole number of control ticks (where asked), and
 /// acceleration zero on both sides where jerk is limited; within a block the feed first rises, then falls
 /// (paper 003, Fig. 2 and 3). Does nothing for another scheduler.
-/// @param pauses        how many the law has
-/// @param jerk_limited  whether anything limits the jerk on a segment
-void verify_blocks(const FeedPlan& plan, const machine::MachineModel& machine, const VerifyOptions& options,
-                   std::size_t pauses, const std::function<bool(std::size_t)>& jerk_limited,
-                   std::vector<Violation>& found);
+void verify_blocks(VerifyContext& c);
 
 }  // namespace kadr::planner

@@ -1,7 +1,6 @@
 #pragma once
-#include <functional>
+#include <cstddef>
 #include <span>
-#include <vector>
 
 #include "planner/verify/verify.h"
 
@@ -26,13 +25,11 @@ class HeldTimes {
   std::size_t next_ = 0;
 };
 
+class VerifyContext;
+
 /// The law stands at every pause, as long as it asks for, and nowhere else, except that a blockwise plan may
-/// stand for a part of a control tick to fill it. Times of the plan add up to the law's.
-/// @param slack_u    lengths of the path closer than this are one
-/// @param may_stand  whether a motion may stand at a length of the path for reasons of its own
-void verify_pauses(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
-                   std::span<const Pause> pauses, double slack_u,
-                   const std::function<bool(double)>& may_stand, const VerifyOptions& options,
-                   std::vector<Violation>& found);
+/// stand for a part of a control tick to fill it, and a shaped rapid between its copies. Times of the plan
+/// add up to the law's.
+void verify_pauses(VerifyContext& c);
 
 }  // namespace kadr::planner

@@ -176,7 +176,7 @@ WindPoint eye_of(const Contact& c, const WindValues& p, double theta_rad) {
   const double cos_lat = std::sqrt(1 - sin_lat * sin_lat);
   const double side = c.x_mm >= 0 ? 1 : -1;
   const SinCos alpha = exact_sincos(c.alpha_rad);
-  // tangent: cos(alpha) along the meridian in the way of travel, sin(alpha) round the mandrel
+  // tangent: cos(alpha) along the meridian in the direction of travel, sin(alpha) around the mandrel
   const double axial = alpha.cos * c.way * cos_lat;
   const double radial = -alpha.cos * side * c.way * sin_lat;
   const double hoop = alpha.sin;

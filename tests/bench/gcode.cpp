@@ -70,9 +70,11 @@ void interpret(benchmark::State& state) {
     Diagnostics diagnostics;
     double sum = 0;
     gcode::interpret(
-        sources(), 0, {}, [&](const gcode::Block& b) {
+        sources(), 0, {},
+        [&](const gcode::Block& b) {
           if (const gcode::Move* move = gcode::move_of(b)) sum += move->end[0];
-        }, diagnostics);
+        },
+        diagnostics);
     benchmark::DoNotOptimize(sum);
     if (diagnostics.has_errors()) state.SkipWithError("the program has errors");
   }

@@ -9,7 +9,7 @@
 #include "emulator/log/run_log.h"
 #include "machine/machine.h"
 
-/// Encoding and writing of the log: nanoseconds a pulse and a control tick, bytes a pulse and a tick, MB/s.
+/// Encoding and writing of the log: nanoseconds per pulse and control tick, bytes per pulse and tick, MB/s.
 namespace {
 
 using namespace kadr;

@@ -32,15 +32,6 @@ machine::MachineModel bench_machine(machine::MotorModel motor) {
   return m;
 }
 
-emulator::Job bench_job(const std::string& program, const machine::MachineModel& model) {
-  emulator::Job job;
-  job.program = job.sources.add(SourceText("bench.ngc", program));
-  job.machine.model = model;
-  Diagnostics diagnostics;
-  emulator::prepare(job, diagnostics);
-  return job;
-}
-
 std::int64_t file_bytes(const std::string& path) {
   struct stat s {};
   return stat(path.c_str(), &s) == 0 ? s.st_size : 0;
@@ -51,7 +42,12 @@ void run_pipeline(benchmark::State& state, machine::MotorModel motor, bool plant
                   int moves, machine::IntegratorKind integrator = machine::IntegratorKind::smooth) {
   machine::MachineModel model = bench_machine(motor);
   model.plant.integrator = integrator;
-  const emulator::Job job = bench_job(diagonals(moves), model);
+  SourceSet sources;
+  emulator::JobInputs given;
+  given.program = sources.add(SourceText("bench.ngc", diagonals(moves)));
+  given.machine.model = model;
+  Diagnostics diagnostics;
+  const auto job = emulator::prepare(given, sources, diagnostics);
   const std::string path = "/tmp/kadr_bench.lcmlog";
   emulator::RunOptions options;
   options.plant = plant;
@@ -64,10 +60,10 @@ void run_pipeline(benchmark::State& state, machine::MotorModel motor, bool plant
     if (log) {
       file = *emulator::open_lcm_log({path, ""});
       emulator::RunHeader header;
-      header.machine = &job.machine.model;
+      header.machine = &model;
       if (!file->begin(header)) state.SkipWithError("log");
     }
-    const auto summary = emulator::run(job, file.get(), options);
+    const auto summary = emulator::run(*job, file.get(), options);
     if (!summary) {
       state.SkipWithError("run");
       break;

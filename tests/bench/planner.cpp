@@ -130,7 +130,7 @@ void law_source_tick(benchmark::State& state) {
 }
 BENCHMARK(law_source_tick);
 
-/// The control law of one tick: the plan played as it is, a settled percent, one that changes in every tick.
+/// The control law of one tick: the plan played as it is, a settled override, one that changes in every tick.
 enum class Hand { none, settled, restless };
 
 void control_tick(benchmark::State& state, Shape shape, Hand hand) {

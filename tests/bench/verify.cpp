@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "emulator/emulator.h"
@@ -67,41 +68,50 @@ Work wind_work(const char* kind) {
           "winder4"};
 }
 
-emulator::Job job_of(const Work& work) {
-  emulator::Job job;
+struct Inputs {
+  SourceSet sources;
+  emulator::JobInputs given;
+};
+
+Inputs inputs_of(const Work& work) {
+  Inputs in;
   Diagnostics diagnostics;
   if (work.text.empty()) {
     const auto scenario =
-        emulator::read_scenario(std::string(KADR_SOURCE_DIR "/scenarios/") + work.name, job.sources);
-    emulator::open_job(*scenario, job, diagnostics);
-    return job;
+        emulator::read_scenario(std::string(KADR_SOURCE_DIR "/scenarios/") + work.name, in.sources);
+    emulator::open_job(*scenario, in.given, in.sources, diagnostics);
+    return in;
   }
-  job.machine = *machine::read_machine(
-      SourceText(work.machine + ".toml", std::string(machine::shipped_machine(work.machine))), job.sources,
+  in.given.machine = *machine::read_machine(
+      SourceText(work.machine + ".toml", std::string(machine::shipped_machine(work.machine))), in.sources,
       {});
-  job.program = job.sources.add(SourceText("bench.ngc", work.text));
-  return job;
+  in.given.program = in.sources.add(SourceText("bench.ngc", work.text));
+  return in;
 }
 
 void verify(benchmark::State& state, const Work& work) {
   double prepare_s = 1e300, plan_s = 0, verify_s = 0, segments = 0;
   for (auto _ : state) {
     const auto options = planner::production_check();
-    emulator::Job job;
+    std::optional<Inputs> in;
+    std::optional<emulator::Job> job;
     const double begin_s = cpu_s();
     for (int round = 0; round < 3 || cpu_s() - begin_s < 0.25; ++round) {
-      job = job_of(work);
+      job.reset();
+      in.emplace(inputs_of(work));
       Diagnostics diagnostics;
       const double from_s = cpu_s();
-      if (!emulator::prepare(job, diagnostics, emulator::SoftLimitRule::warning))
-        return state.SkipWithError("refused");
+      auto made = emulator::prepare(in->given, in->sources, diagnostics, emulator::SoftLimitRule::warning);
+      if (!made) return state.SkipWithError("refused");
       prepare_s = std::min(prepare_s, cpu_s() - from_s);
+      job.emplace(std::move(*made));
     }
-    const auto& machine = job.machine.model;
-    auto plan = *planner::plan(job.path, machine);
-    plan_s = least_s([&] { benchmark::DoNotOptimize(planner::plan(job.path, machine)); });
-    verify_s = least_s([&] { benchmark::DoNotOptimize(planner::verify(job.path, plan, machine, options)); });
-    segments = static_cast<double>(job.path.size());
+    const auto& machine = in->given.machine.model;
+    auto plan = *planner::plan(job->read.path, machine);
+    plan_s = least_s([&] { benchmark::DoNotOptimize(planner::plan(job->read.path, machine)); });
+    verify_s =
+        least_s([&] { benchmark::DoNotOptimize(planner::verify(job->read.path, plan, machine, options)); });
+    segments = static_cast<double>(job->read.path.size());
   }
   state.counters["segments"] = segments;
   state.counters["verify_ms"] = 1e3 * verify_s;
@@ -111,24 +121,24 @@ void verify(benchmark::State& state, const Work& work) {
 
 /// Every control tick of a run with and without the check: the difference, as often as a run makes it.
 void node_check(benchmark::State& state, const Work& work) {
-  constexpr double kEvery = 127;  // emulator/cycle/run.cpp
+  constexpr double kEvery = 127;  // emulator/cycle/session.cpp
   double percent = 0;
   for (auto _ : state) {
-    emulator::Job job = job_of(work);
+    Inputs in = inputs_of(work);
     Diagnostics diagnostics;
-    emulator::prepare(job, diagnostics, emulator::SoftLimitRule::warning);
+    const auto job = emulator::prepare(in.given, in.sources, diagnostics, emulator::SoftLimitRule::warning);
     const auto ticks_s = [&](bool check) {
       return least_s([&] {
-        emulator::CrossingInterpolator interpolator(job.path, job.machine.model);
+        emulator::CrossingInterpolator interpolator(job->read.path, in.given.machine.model);
         interpolator.set_self_check(check);
-        planner::LawSource source(job.plan.law, job.machine.model);
+        planner::LawSource source(job->planned.plan.law, in.given.machine.model);
         StepBatch batch;
         while (!source.finished()) interpolator.advance(source.advance({}), batch);
       });
     };
     emulator::RunOptions options;
     options.plant = false;
-    const double run_s = least_s([&] { benchmark::DoNotOptimize(emulator::run(job, nullptr, options)); });
+    const double run_s = least_s([&] { benchmark::DoNotOptimize(emulator::run(*job, nullptr, options)); });
     percent = 100 * (ticks_s(true) - ticks_s(false)) / kEvery / run_s;
   }
   state.counters["node_check_of_run_pct"] = percent;

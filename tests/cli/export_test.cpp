@@ -208,7 +208,7 @@ TEST_CASE("kadr plot draws within the width asked for, in Braille or ASCII, the 
 
 TEST_CASE("kadr plot --path fills the rows asked for and no more, and calls a low end of dust 0") {
   const Scratch scratch;
-  // 100 mm by 20 mm, from a home that is 0 but for rounding
+  // 100 mm by 20 mm, from a home that is 0 up to rounding
   scratch.write("flat.ngc", "G21 G90\nG1 X100 Y10 F6000\nX0 Y20\nM2\n");
   REQUIRE(call({"run", "flat.ngc", "--set", "axis.Y.home_mm=7.07e-6", "-q"}, scratch.path()).code == 0);
   for (const std::string ascii : {"", "--ascii"}) {

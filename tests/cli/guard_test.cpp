@@ -34,9 +34,9 @@ TEST_CASE("a broken plan ends a command with 70") {
   const char* argv[] = {"kadr", "check", "part.ngc"};
   const auto end_of = [&](const emulator::PlanFunction& plan) {
     return guarded(3, argv, [&] {
-      emulator::Job job = test::make_job("G1 X40 F1200\nM2\n", test::test_machine());
+      test::TestInputs in = test::make_inputs("G1 X40 F1200\nM2\n", test::test_machine());
       Diagnostics diagnostics;
-      return emulator::prepare(job, diagnostics, emulator::SoftLimitRule::error, plan) ? 0 : 1;
+      return in.prepare(diagnostics, emulator::SoftLimitRule::error, plan) ? 0 : 1;
     });
   };
   CHECK(end_of(planner::plan) == 0);

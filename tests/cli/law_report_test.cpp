@@ -28,7 +28,7 @@ TimeLawProblem small_problem() {
 
 TEST_CASE("a law that breaks a limit is told with axis, place, value and limit, and the answer is no") {
   const TimeLawProblem problem = small_problem();
-  LawStudy study = study_laws(problem, {LawMethod::greedy}, false);
+  LawStudy study = study_laws(problem, {PlanMethod::greedy}, false);
   REQUIRE(study.good());
   // a law that is twice as fast as found breaks what verify_law() looks at
   MethodOutcome& greedy = study.outcomes[0];

@@ -181,7 +181,7 @@ TEST_CASE("every edge of a VCD is the pulse that the table says, one slot a puls
     const Json j = Json::parse(run.out);
     const Dump dump = read_vcd(scratch.read("a.vcd"));
     CHECK(dump.timescale == "100ns");
-    // 1000 slots a second: slot i at (i + 1) ms
+    // 1000 slots per second: slot i at (i + 1) ms
     const auto expected = pulses_of(
         j, [](std::size_t i, std::size_t, std::size_t) { return static_cast<double>(i + 1) * 10'000.0; });
     CHECK(dump.rises == expected);

@@ -10,7 +10,7 @@ namespace kadr::fuzz {
 
 /// A span lies within its text: a place on a line that is there, or one behind its end.
 void check_span(const Span& span, const SourceSet& sources);
-/// Every diagnostic has its place and can be told in each form: for people, gcc, JSON, SARIF.
+/// Every diagnostic has its position and can be printed in each form: for people, gcc, JSON, SARIF.
 void check_diagnostics(const Diagnostics& diagnostics, const SourceSet& sources);
 
 }  // namespace kadr::fuzz

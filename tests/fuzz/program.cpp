@@ -8,7 +8,7 @@
 #include "machine/base/require.h"
 
 /// Scanner, parser and interpreter: whatever the text, blocks are finite and have their place, diagnostics
-/// can be told, the text prints back from its tree, and bounds end what would not.
+/// can be printed, the text prints back from its tree, and bounds end what would not end.
 namespace {
 
 using namespace kadr;

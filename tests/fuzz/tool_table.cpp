@@ -5,7 +5,7 @@
 #include "gcode/read/tool_table.h"
 #include "machine/base/require.h"
 
-/// Tool tables: whatever the text, tools are finite and within their ranges, diagnostics can be told, and a
+/// Tool tables: whatever the text, tools are finite and within their ranges, diagnostics can be printed, and a
 /// table reads back from its own text.
 namespace {
 

@@ -334,7 +334,7 @@ TEST_CASE("inverse time holds for the programmed length: a longer path takes lon
 }
 
 TEST_CASE("the first move after G40 is as long as the way back to the contour makes it") {
-  // half an inch beside X2: a move that names A only moves the tool by that, at F1 in inches
+  // half an inch off X2: a move that names A only moves the tool by that, at F1 in inches
   const std::vector<LineOrArc> moves =
       run("G20\nF1\nG0 X-1\nG41.1 D1\nG1 X0\nX2\nG40\nG1 A90\nG1 A0\nM2\n").moves();
   REQUIRE(moves.size() == 5);
@@ -380,7 +380,7 @@ TEST_CASE("tool radius and orientation come from the table, of the tool in the s
 
 TEST_CASE("in G18 the plane of compensation turns with the work system") {
   // turned by 90 degrees the program's X is the machine's Y: left of the way along Z is Y2, and a move along
-  // X goes on along Y
+  // X continues along Y
   const std::vector<LineOrArc> moves =
       run("G21 G18 F100\nG10 L2 P1 R90\nG41.1 D4\nG1 Z20\nG1 Y-3\nG2 Z22 X-2 K0 I-2\nG40\nG0 X9\nM2\n")
           .moves();

@@ -55,7 +55,7 @@ InterpretOptions machine_for(const std::string& program) {
   return options;
 }
 
-/// The tools of NAME.tools beside a bad program NAME.ngc.
+/// The tools of NAME.tools next to a bad program NAME.ngc.
 std::optional<ToolTable> tools_beside(std::filesystem::path path) {
   path.replace_extension(".tools");
   if (!std::filesystem::exists(path)) return std::nullopt;

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "gcode/dialect/codes.h"
 #include "support.h"
 
 using namespace kadr;
@@ -50,6 +51,13 @@ TEST_CASE("G70 and G71 are inches and millimetres in fanuc only") {
   CHECK(last_point("G70 G0 X1\n", of(Dialect::fanuc))[0] == 25.4);
   CHECK(last_point("G70\nG71 G0 X1\n", of(Dialect::fanuc))[0] == 1);
   CHECK(only_code("G70\n") == Code::word_not_run);
+}
+
+TEST_CASE("a dialect means codes of LinuxCNC by its own") {
+  CHECK(meant_code(Dialect::fanuc, 'G', 700) == code::g20);
+  CHECK(meant_code(Dialect::fanuc, 'G', 710) == code::g21);
+  CHECK(meant_code(Dialect::fanuc, 'M', 700) == 700);
+  CHECK(meant_code(Dialect::marlin, 'G', 700) == 700);
 }
 
 TEST_CASE("P of a fanuc M98 tells repeats and program, unless L tells the repeats") {

@@ -98,7 +98,7 @@ TEST_CASE("while, do and repeat, left by break, shortened by continue") {
 }
 
 TEST_CASE("what loops leave behind acts on later loops, as in rs274") {
-  // a repeat that is left goes on with the passes that were left
+  // a repeat that is left continues with its remaining passes
   CHECK(
       printed(
           "O1 while [#1 LT 2]\n#1=[#1+1]\nO2 repeat [2]\n(PRINT,#1)\nO3 if [#1 EQ 1]\nO1 continue\nO3 endif\n"
@@ -111,7 +111,7 @@ TEST_CASE("what loops leave behind acts on later loops, as in rs274") {
   // a continue in a do: the next repeat runs twice, but only the next one
   CHECK(printed("O1 do\nO1 continue\nO1 while [0]\nO2 repeat [2]\n(PRINT,a)\nO2 endrepeat\n"
                 "O3 repeat [1]\n(PRINT,b)\nO3 endrepeat\nM2\n") == Texts{"a", "a", "a", "a", "b"});
-  // ... or the next break of a while goes on
+  // ... or the next break of a while continues
   CHECK(printed("O1 do\nO1 continue\nO1 while [0]\nO2 while [#1 LT 3]\n#1=[#1+1]\n(PRINT,#1)\nO2 break\n"
                 "O2 endwhile\nM2\n") == Texts{"1.000000", "2.000000"});
 }
@@ -130,7 +130,7 @@ TEST_CASE("a definition that is passed over gives the value of its endsub") {
 TEST_CASE("M98 and M99 have lines of their own, as in rs274") {
   const std::string sub = "M2\nO100\nG0 X5\nM99\n";
   CHECK(only_code("G0 X1 M98 P100\n" + sub) == Code::o_word_place);
-  // words behind M98 are not run, but told
+  // words after M98 are not run, but reported
   const Outcome passed_over = run("M98 P100 G0 Y1\n" + sub);
   CHECK_FALSE(passed_over.diagnostics.has_errors());
   CHECK(passed_over.moves().size() == 1);
@@ -319,7 +319,7 @@ TEST_CASE("a call finds its file beside the program, then in the folders given")
   // the file is there, the sub of its name is not
   folder.write("parts/empty.ngc", "G0 X1\n");
   CHECK(run("O<empty> call\nM2\n", {}, program).codes() == std::vector<Code>{Code::sub_file});
-  // mistakes of a called file are told at their place in it
+  // mistakes of a called file are reported at their position in it
   folder.write("parts/broken.ngc", "O<broken> sub\nG0 X1..2\nO<broken> endsub\n");
   const Outcome broken = run("O<broken> call\nM2\n", {}, program);
   CHECK(broken.codes() == std::vector<Code>{Code::bad_number});

@@ -35,7 +35,7 @@ Formatted formatted(const std::string& text) {
 
 std::string form(const std::string& text) { return formatted(text).text; }
 
-/// What a program does, line numbers included, and what is told about it.
+/// The blocks of a program, line numbers included, and its diagnostics.
 std::string meaning(const std::string& text) {
   const Outcome outcome = run(text);
   std::string out;

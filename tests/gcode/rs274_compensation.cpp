@@ -77,7 +77,7 @@ class ContourGenerator {
     return random_.chance(0.1) ? "F" + number(random_.real(50, 900)) : "";
   }
 
-  /// @param last  the program may end beside it
+  /// @param last  the program may end next to it
   void contour(bool from_new_place, bool last) {
     if (from_new_place) {
       const double start_first = random_.real(-20, 20), start_second = random_.real(-20, 20);

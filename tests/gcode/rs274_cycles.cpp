@@ -39,7 +39,7 @@ class CyclePrograms {
     return fmt::format("{:.{}f}", random_.real(low, high), decimals);
   }
   /// Numbers that depths are often multiples of, so that the last peck ends where the hole does. Under G91
-  /// levels are sums: whether an empty peck follows hangs on their last bit, which both sides need not share.
+  /// levels are sums: whether an empty peck follows depends on their last bit, which both sides need not share.
   std::string step() {
     if (incremental_) return number(0.2, 3, 4);
     static const char* const kSteps[] = {"0.1", "0.25", "0.3", "0.5", "0.7", "1", "1.1", "1.25", "2", "3"};
@@ -73,7 +73,7 @@ class CyclePrograms {
         "G10 L2 P1 R0",
         "G92 X1 Z0.5",
         "G92.1",
-        // not where a level may then be R but for its last bit
+        // not where a level may then be R up to its last bit
         "G43.1 Z2.0173",
         "G49",
         "G55",
@@ -166,7 +166,7 @@ class CyclePrograms {
     if (loops) line(fmt::format("o{} endrepeat", labels_));
     if (random_.chance(0.5)) line("G80");
   }
-  /// Between the lines of a sequence, which goes on behind it.
+  /// Between the lines of a sequence, which continues after it.
   void interruption() {
     static const char* const kLines[] = {"G4 P0.1",
                                          "F300",

@@ -11,7 +11,7 @@ using namespace kadr::gcode::test;
 
 namespace {
 
-/// Parameters that tell the interpreter's state and that the stand-alone rs274 knows too.
+/// Parameters of the interpreter's state that the stand-alone rs274 has too.
 const std::vector<std::string>& state_parameters() {
   static const std::vector<std::string> kNames = {"_x",
                                                   "_y",

@@ -460,7 +460,7 @@ void Generator::probe() {
   if (modes_.inverse || modes_.per_turn) return;
   text_ += fmt::format("{} X{} Z{}\n", w_.pick({"G38.2", "G38.3", "G38.4", "G38.5"}), number(-30, 30),
                        number(-30, 30));
-  // the stand-alone rs274 ends a little before the end: every axis is told anew
+  // the stand-alone rs274 ends a little before the end: every axis is given again
   text_ += "G90 G0 X1 Y1 Z1\n";
   modes_.incremental = false;
 }

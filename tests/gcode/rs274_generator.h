@@ -8,7 +8,7 @@
 
 namespace kadr::gcode::test {
 
-/// Subjects of a generated program beside straight moves, arcs, planes, units and distance modes.
+/// Subjects of a generated program besides straight moves, arcs, planes, units and distance modes.
 struct Subjects {
   bool offsets = false;   ///< G10 L2 L20, G92 family, G54 .. G59.3, G43.1, G28 G30
   bool rotation = false;  ///< G10 L2 R, G52

@@ -115,7 +115,7 @@ std::string with_mistake(Random& random, const std::string& line) {
   // rs274 refuses a line that does not fit its buffer, whatever it says
   constexpr std::size_t kOracleLineBytes = 250;
   if (damaged.size() > kOracleLineBytes) return line;
-  // rs274 takes the second of two polar words of a kind; kadr tells it
+  // rs274 takes the second of two polar words of a kind; kadr reports it
   for (const char polar : {'@', '^'}) {
     if (std::count(damaged.begin(), damaged.end(), polar) > 1) return line;
   }

@@ -31,7 +31,7 @@ struct Trace {
   std::vector<Code> errors;  ///< kadr only
 };
 
-/// A program and what lies beside it.
+/// A program and the files next to it.
 struct TestProgram {
   std::string text;
   ToolTable tools;

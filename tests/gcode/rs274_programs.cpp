@@ -37,7 +37,7 @@ std::vector<fs::path> programs_under(const fs::path& folder) {
   return paths;
 }
 
-/// NAME.tbl beside NAME.ngc, else a table with most tools that a program may want.
+/// NAME.tbl next to NAME.ngc, else a table with most tools that a program may want.
 ToolTable tools_of(const fs::path& path) {
   ToolTable table;
   const fs::path beside = fs::path(path).replace_extension(".tbl");

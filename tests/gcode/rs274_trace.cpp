@@ -291,9 +291,9 @@ struct CallOf {
     return numbers({static_cast<double>(tool.tool)});
   }
   Maybe operator()(const DigitalOutput& output) const {
-    return named(fmt::format("{}_{}_OUTPUT_BIT", output.on ? "SET" : "CLEAR",
-                             output.with_motion ? "MOTION" : "AUX"),
-                 {static_cast<double>(output.number)});
+    return named(
+        fmt::format("{}_{}_OUTPUT_BIT", output.on ? "SET" : "CLEAR", output.with_motion ? "MOTION" : "AUX"),
+        {static_cast<double>(output.number)});
   }
   Maybe operator()(const AnalogOutput& output) const {
     return named(fmt::format("SET_{}_OUTPUT_VALUE", output.with_motion ? "MOTION" : "AUX"),
@@ -337,7 +337,8 @@ std::vector<Call> own_calls(const std::vector<Block>& blocks) {
   std::vector<Call> calls;
   bool inverse = false;
   for (const Block& b : blocks) {
-    if (const auto* feed = std::get_if<SetFeedMode>(&b.action)) inverse = feed->mode == FeedMode::inverse_time;
+    if (const auto* feed = std::get_if<SetFeedMode>(&b.action))
+      inverse = feed->mode == FeedMode::inverse_time;
     if (is<SetFeedRate>(b) && inverse) continue;
     std::string line;
     append_canon(line, b);

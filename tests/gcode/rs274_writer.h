@@ -26,7 +26,7 @@ class Writer {
   std::string expression(int depth);
   /// Something that stands where a value may stand; has a value for every state of the parameters.
   std::string operand(int depth);
-  /// A readable parameter: numbered, named, computed, or one that tells the interpreter's state.
+  /// A readable parameter: numbered, named, computed, or one of the interpreter's state.
   std::string parameter();
   /// A parameter that may be set: "#31", "#<name>".
   std::string settable_parameter();

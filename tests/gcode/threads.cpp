@@ -38,7 +38,7 @@ TEST_CASE("G33 moves by K for each turn of the spindle") {
   CHECK(tail[0] == "START_SPEED_FEED_SYNC 1.500000 0");
   CHECK(tail[1].substr(0, 45) == "STRAIGHT_FEED 20.000000 0.000000 -10.000000 0");
   CHECK(tail[2] == "STOP_SPEED_FEED_SYNC");
-  // 300 rpm are 5 turns a second: 7.5 mm/s
+  // 300 rpm are 5 turns per second: 7.5 mm/s
   const LineOrArc thread = outcome.moves().back();
   CHECK(thread.pitch_u_rev == 1.5);
   CHECK(thread.feed_u_s == doctest::Approx(7.5).epsilon(1e-15));
@@ -46,7 +46,7 @@ TEST_CASE("G33 moves by K for each turn of the spindle") {
 }
 
 TEST_CASE("the pitch of a tapered thread is along the thread") {
-  // X by 3, Z by 4: 5 mm of thread at 1 mm a turn and 1 turn a second take 5 s
+  // X by 3, Z by 4: 5 mm of thread at 1 mm per turn and 1 turn per second take 5 s
   const LineOrArc thread = moves_of("M3 S60\nG33 X3 Z4 K1\n").back();
   CHECK(thread.length_u == 5);
   CHECK(thread.feed_u_s == doctest::Approx(1).epsilon(1e-15));
@@ -115,7 +115,7 @@ TEST_CASE("one pass of G76 draws back by K, comes in, threads and goes out; the 
     CHECK(m[i].end[2] == doctest::Approx(xz[i][1]).epsilon(1e-12));
     CHECK((m[i].kind == BlockKind::feed) == (i == 3 || i == 7));
   }
-  // 1.5 mm a turn at 5 turns a second
+  // 1.5 mm per turn at 5 turns per second
   CHECK(m[3].feed_u_s == doctest::Approx(7.5).epsilon(1e-15));
   CHECK_FALSE(m[3].feed_override_enabled);
   CHECK(m[9].feed_override_enabled);
@@ -181,7 +181,7 @@ TEST_CASE("under G95 F is the way per turn of the spindle") {
   CHECK(outcome.trace[2] == "SET_FEED_RATE 0.200000");
   CHECK(outcome.trace[6] == "SET_FEED_RATE 0.254000");
   const auto m = outcome.moves();
-  // 10 turns a second
+  // 10 turns per second
   CHECK(m[0].pitch_u_rev == 0.2);
   CHECK(m[0].feed_u_s == doctest::Approx(2).epsilon(1e-15));
   CHECK(m[1].feed_u_s == doctest::Approx(2.54).epsilon(1e-15));

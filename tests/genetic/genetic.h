@@ -21,7 +21,7 @@ struct GeneticOptions {
   double weight = 10;  ///< of the penalty, joules
 };
 
-/// What the runs found, beside the exact answer of best_t_law().
+/// Results of the runs, next to the exact answer of best_t_law().
 struct GeneticOutcome {
   double exact_xi = 0, exact_value = 0;  ///< value: J, or mm with damping
   std::uint32_t hits = 0;                ///< within 1e-5 of the exact xi

@@ -18,7 +18,7 @@ GeneticProblem table1(double zeta) {
 
 TEST_CASE(
     "no seed of the genetic algorithm beats the exact optimum; most find it, some end on a costlier law") {
-  // beside a zero the penalty rises by 10 J * 209 per xi and the energy falls by 20 J per xi: nothing to gain
+  // next to a zero the penalty rises by 10 J * 209 per xi and the energy falls by 20 J per xi: nothing to gain
   const GeneticOutcome out = run_genetic(table1(0), {.seeds = 60});
   CHECK(out.exact_xi == doctest::Approx(.325).epsilon(1e-12));
   CHECK(out.exact_value == doctest::Approx(11.189352).epsilon(1e-7));

@@ -4,9 +4,12 @@
 #include <cstdlib>
 #include <random>
 #include <string>
+#include <tuple>
 
+#include "machine/file/machine_keys.h"
 #include "machine/machine.h"
 #include "machine/machine_file.h"
+#include "machine/motor.h"
 
 using namespace kadr;
 using namespace kadr::machine;
@@ -198,19 +201,17 @@ class MachineMaker {
   }
 
   TwoMassModel plant(bool linear) {
-    TwoMassModel p;
-    p.motor = static_cast<MotorModel>(pick(linear ? 2 : 3));
-    p.base_mass_kg = positive(20);
-    p.link_mass_kg = positive(20);
-    p.link_stiffness_N_per_m = positive(1e6);
-    p.link_damping_Ns_per_m = positive(100);
-    p.base_friction_Ns_per_m = pick(2) == 0 ? 0 : positive(10);
-    if (p.motor == MotorModel::spring || pick(2) == 0) p.motor_stiffness_N_per_m = positive(1e7);
-    if (p.motor != MotorModel::rigid) p.motor_damping_Ns_per_m = positive(1e3);
-    if (p.motor == MotorModel::stepper || pick(2) == 0) {
-      p.holding_force_N = positive(1e3);
-      p.tooth_pitch_u = positive(1);
-    }
+    AxisModel axis;
+    TwoMassModel& p = axis.plant;
+    do {
+      p.motor = kMotorModels.words[static_cast<std::size_t>(pick(kMotorModels.size()))].value;
+    } while (linear && !Motor(axis).linear());
+    const auto draw = [&](const auto& key) {
+      const bool needed =
+          key.need == Need::link || (key.need == Need::motor && motor_needs(p.motor, key.member));
+      if (needed || pick(2) == 0) p.*key.member = positive(1e3);
+    };
+    std::apply([&](const auto&... key) { (draw(key), ...); }, kPlantKeys);
     return p;
   }
 

@@ -39,6 +39,14 @@ TEST_CASE("a vocabulary spells a value and finds a word") {
   CHECK(kHues.up_to<Hue::green>().list() == "red, green");
 }
 
+TEST_CASE("a part of a vocabulary spells its own values only") {
+  constexpr auto kPart = words_where<kHues>([](Hue hue) { return hue != Hue::green; });
+  CHECK(kPart.list() == "red, blue");
+  CHECK(kPart.word(Hue::blue) == "blue");
+  CHECK(kPart.word(Hue::green).empty());
+  CHECK_FALSE(kPart.find("green"));
+}
+
 TEST_CASE("a stored number is a value of the enumeration, or nothing") {
   CHECK(kHues.at(0) == Hue::red);
   CHECK(kHues.at(2) == Hue::blue);

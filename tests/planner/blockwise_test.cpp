@@ -45,9 +45,9 @@ TEST_CASE("block by block, 100 mm at F6000 take 1100 control ticks exactly") {
 
 // 40 mm in equal collinear blocks: the cost of acceleration zero, and of whole ticks, at every boundary.
 // The figures are those of a prototype in another language that applies the same rules. Its own table has
-// 0.628, 0.846, 1.437, 2.654 and 4.440 s for whole ticks: it takes T(F_HK = 0) = 0 in place of infinity, so
+// 0.628, 0.846, 1.437, 2.654 and 4.440 s for whole ticks: it takes T(F_HK = 0) = 0 instead of infinity, so
 // that the first block, which begins at rest, is scaled by kl where rule c works (F_KK a little lower). With
-// that mended it gives the times below, to the tick; all later blocks depend on the first one's exit.
+// that fixed it gives the times below, to the tick; all later blocks depend on the first one's exit.
 TEST_CASE("40 mm in short blocks cost what acceleration zero and whole ticks at each boundary cost") {
   struct Row {
     int blocks;

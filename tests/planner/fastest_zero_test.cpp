@@ -7,7 +7,7 @@
 #include "planner/point_to_point/point_to_point.h"
 #include "tests/support/seed.h"
 
-// The fastest T law that leaves nothing swinging.
+// The fastest T law that leaves no vibration.
 namespace kadr::planner {
 namespace {
 

@@ -149,7 +149,7 @@ TEST_CASE(
 }
 
 TEST_CASE("facets of 0.2 mm on a circle of 10 mm at 50 mm/s do not crawl") {
-  // corners of 0.02 rad allow 2/0.02 = 100 mm/s: the whole way at 50 but for the two ramps of 2 sqrt(50/40000) s
+  // corners of 0.02 rad allow 2/0.02 = 100 mm/s: the whole way at 50 except for the two ramps of 2 sqrt(50/40000) s
   const auto machine = plain_machine();
   ProgramWriter w(machine, xyz(10, 0));
   const int n = 300;

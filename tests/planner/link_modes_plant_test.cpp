@@ -32,7 +32,7 @@ machine::AxisModel random_axis(machine::MotorModel motor, test::Random& draw) {
   return axis;
 }
 
-/// Eigenvalues of the plant's equations at rest, per second, that swing and are damped little.
+/// Eigenvalues of the plant's equations at rest, per second, that oscillate with little damping.
 std::vector<std::complex<double>> plant_modes(const plant::AxisEquations& equations) {
   const std::size_t states = equations.motor.follows_command() ? 2 : 4, first = 4 - states;
   const plant::Matrix4 system = equations.system();

@@ -78,7 +78,7 @@ planner::FeedPlan track(const planner::Path& path, const machine::MachineModel& 
   return plan;
 }
 
-/// The path with the feeds that the highest percent allows: what verify() measures against.
+/// The path with the feeds that the highest override allows: the reference for verify().
 planner::Path at_most_percent(planner::Path path, double most) {
   for (planner::PathSegment& s : path.segments) s.feed_u_s *= most;
   return path;
@@ -106,7 +106,9 @@ TEST_CASE(
     const double most = random.chance(0.3) ? 1.0 : random.between(1.0, 2.0);
     CAPTURE(seed + i);
     const planner::FeedPlan plan = track(path, machine, most, seed + i);
-    const auto found = planner::verify(at_most_percent(path, most), plan, machine);
+    planner::VerifyOptions look;
+    look.stands_at_pauses_alone = false;
+    const auto found = planner::verify(at_most_percent(path, most), plan, machine, look);
     CHECK_MESSAGE(found.empty(), first_of(found));
     CHECK(plan.law.pieces.back().speed_u_s >= 0.0);
   }

@@ -68,7 +68,7 @@ struct Ride {
 
 using Steps = std::vector<std::pair<std::int64_t, double>>;
 
-/// Runs a path under percents that change at control ticks; locked segments are threads.
+/// Runs a path under overrides that change at control ticks; locked segments are threads.
 Ride ride(machine::MachineModel machine, const std::function<void(ProgramWriter&)>& program,
           const Steps& steps, const std::vector<std::size_t>& locked = {}) {
   ProgramWriter writer(machine);
@@ -329,7 +329,7 @@ TEST_CASE("on a part of 50 blocks the corrected diagram gains over multiplying i
   for (const auto& [percent, most] : figures) {
     const double corrected = static_cast<double>(ride(plus, part, {{0, percent}}).count());
     const double multiplied = static_cast<double>(ride(times, part, {{0, percent}}).count());
-    // the paper's own: block by block, the diagram multiplied by a constant percent, which is the plan of a
+    // the paper's own: block by block, the diagram multiplied by a constant override, which is the plan of a
     // machine whose speeds, accelerations and jerks are multiplied by it
     machine::MachineModel paper = plus;
     paper.planner.scheduler = machine::SchedulerKind::blockwise;

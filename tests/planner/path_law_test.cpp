@@ -3,7 +3,7 @@
 
 #include "machine/machine.h"
 #include "planner/limits/limits.h"
-#include "planner/time_law/path_law.h"
+#include "planner/time_law/law_methods.h"
 #include "planner_support.h"
 
 namespace kadr::test {
@@ -62,12 +62,12 @@ TEST_CASE("a run that has no time law is K4008 with its place") {
   auto table = planner::limit_table(path, machine);
   REQUIRE(table);
   table->accel_u_s2[0] = 0.0;
-  std::vector<planner::Element> elements;
-  const auto planned = planner::plan_time_law(path, *table, {0, 0}, machine, elements);
+  planner::PlannedRun out;
+  const auto planned = planner::law_method(machine.planner.method).plan({path, *table, machine}, {0, 0}, out);
   REQUIRE(!planned);
   CHECK(planned.error().diagnostic.code == Code::law_not_found);
   CHECK(planned.error().diagnostic.label.find("acceleration limit of 0") != std::string::npos);
-  CHECK(elements.empty());
+  CHECK(out.elements.empty());
 }
 
 }  // namespace kadr::test

@@ -194,7 +194,7 @@ TEST_CASE("work of an S-curve agrees with a sum over 200 000 moments") {
     }
     CHECK(w.positive_J == near(sum.positive_J, 1e-8));
     CHECK(std::fabs(w.recuperated_J - sum.recuperated_J) <= 1e-7);
-    // the sum looks beside the corners, where power peaks
+    // the sum samples next to the corners, where power peaks
     CHECK(w.peak_W >= sum.peak_W);
     CHECK(w.least_W <= sum.least_W);
     CHECK(w.peak_W == near(sum.peak_W, 1e-5));

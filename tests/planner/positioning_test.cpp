@@ -40,7 +40,7 @@ machine::MachineModel flexible_machine(RapidShape shape, double zeta = 0.0) {
   return m;
 }
 
-/// What a law leaves of an undriven link after its end, by Runge and Kutta's method: a second way.
+/// Residual vibration of an undriven link after a law, by Runge and Kutta's method: a second way.
 double residual_by_steps(const MotionLaw& law, const Mode& mode, double share) {
   const double w = mode.omega_rad_s, z = mode.zeta;
   double x = 0, v = 0;

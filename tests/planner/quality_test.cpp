@@ -28,7 +28,7 @@ planner::Path smooth_path(Random& random, const machine::MachineModel& machine, 
 
 /// Time optimum under the same caps with acceleration limits alone, on a grid of `grid` cells per segment:
 /// forward and backward pass over v^2 in cells of constant acceleration. A lower bound for every jerk-limited
-/// plan. Caps are computed here anew: program, axis speed and junction rule of straight segments.
+/// plan. Caps are computed again here: program, axis speed and junction rule of straight segments.
 double accel_optimum_s(const planner::Path& path, const machine::MachineModel& machine, int grid) {
   const std::size_t n = path.size();
   const std::size_t cells = n * static_cast<std::size_t>(grid);

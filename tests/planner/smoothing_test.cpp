@@ -32,7 +32,8 @@ gcode::Feed feed_line(const AxisValues& to, double tolerance_mm, double feed_u_s
 Path smoothed(const machine::MachineModel& machine, const Points& points, double tolerance_mm,
               double feed_u_s = 100) {
   planner::PathBuilder builder(machine, points[0]);
-  for (std::size_t i = 1; i < points.size(); ++i) builder.add({{}, feed_line(points[i], tolerance_mm, feed_u_s)});
+  for (std::size_t i = 1; i < points.size(); ++i)
+    builder.add({{}, feed_line(points[i], tolerance_mm, feed_u_s)});
   return builder.take();
 }
 

@@ -74,7 +74,7 @@ TEST_CASE(
     CHECK(clamped.path.eval(axis, clamped.path.end_u()).slope ==
           doctest::Approx((path.node(120)[axis] - path.node(119)[axis]) / last).epsilon(1e-9));
   }
-  // what an end does wrong dies away by 2 - sqrt 3 = 0.27 a row: 1e-6 of it after 10 rows
+  // the error of an end decays by 2 - sqrt 3 = 0.27 per row: 1e-6 of it after 10 rows
   CHECK(curvature_error(natural, 15, 105) < 1e-3);
   CHECK(curvature_error(clamped, 15, 105) < 1e-3);
   CHECK(curvature_error(natural, 0, 0) == doctest::Approx(1.0));  // the check sees it

@@ -83,7 +83,7 @@ TEST_CASE("derivatives of a stretch are those of its segments, at a joint those 
   at(path.start_s_u[2] - path.start_s_u[1], slope, curvature);
   CHECK(slope[0] == doctest::Approx(10.0 / std::sqrt(1700.0)).epsilon(1e-12));
   CHECK(curvature[1] == 0.0);
-  at(1e6, slope, curvature);  // past the end its last segment goes on
+  at(1e6, slope, curvature);  // past the end its last segment continues
   CHECK(slope[1] == doctest::Approx(40.0 / std::sqrt(1700.0)).epsilon(1e-12));
 }
 

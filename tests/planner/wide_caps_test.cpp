@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSlow_mm_s = 0.001;
 
-/// The reference path with slow nodes: some alone; in every third one also a row of them and one beside each
+/// The reference path with slow nodes: some alone; in every third one also a row of them and one next to each
 /// end, on which nearly all of the time passes.
 LawProblem slow_nodes(std::uint32_t seed, double slow_mm_s, std::size_t nodes = 400) {
   LawProblem p = ReferenceLaw::random(seed, nodes).problem;

@@ -32,7 +32,7 @@ Link after_law(double w, double zeta, double xi, double gain) {
 }
 
 void check_link(const Link& found, double x, double v, double w) {
-  // relative to the swing: a state on its way through zero has no relative precision of its own
+  // relative to the amplitude: a state on its way through zero has no relative precision of its own
   const double size = std::hypot(x, v / w), allowed = size > 0 ? 1e-12 * size : 1e-15;
   CHECK(std::fabs(found.x - x) <= allowed);
   CHECK(std::fabs(found.v - v) <= allowed * w);
@@ -102,7 +102,7 @@ TEST_CASE("the closed form gives the 28 states of a link on a prescribed base to
 }
 
 TEST_CASE("the closed form gives the 12 states of a base driven by force alone to 1e-12") {
-  // m0 = 4.5, m1 = 1: the link swings at w sqrt(1 + m1/m0) and feels F/m0; the centre of mass follows the law
+  // m0 = 4.5, m1 = 1: the link vibrates at w sqrt(1 + m1/m0) and feels F/m0; the centre of mass follows the law
   const double r = std::sqrt(5.5 / 4.5);
   for (const ForceCase& c : kForce) {
     CAPTURE(c.w);

@@ -38,7 +38,7 @@ double largest_error_um(machine::MachineModel model, IntegratorKind kind,
       const double tau_s = model.clock.tau_s();
       const double of_base = lag_u * 1e3 - static_cast<double>(exact[a][k].lag_m) * milli_per_m;
       const double of_link = state.link_u * 1e3 - static_cast<double>(exact[a][k].link_m) * milli_per_m;
-      // a speed's error counts by what it moves in a tick
+      // a speed's error counts by its displacement in a tick
       const double of_speed =
           (state.base_u_s * 1e3 - static_cast<double>(exact[a][k].base_m_s) * milli_per_m) * tau_s;
       largest = std::max({largest, std::fabs(of_base), std::fabs(of_link), std::fabs(of_speed)});

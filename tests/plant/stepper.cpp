@@ -149,7 +149,7 @@ TEST_CASE("nothing is lost while the lag stays below half a tooth, and a lag jus
   for (int steps : {31, 33}) {
     auto model = make_machine({stepper()});
     model.axis[0].plant.motor_damping_Ns_per_m =
-        40 * model.axis[0].plant.motor_damping_Ns_per_m;  // no swing past the next tooth
+        40 * model.axis[0].plant.motor_damping_Ns_per_m;  // no overshoot past the next tooth
     Plant plant(model);
     StepBatch batch;
     batch.axis.resize(1);

@@ -135,7 +135,7 @@ TEST_CASE("a dome winding follows geodesics: r sin(alpha) stays the polar radius
     normal.x = p.contact_x_mm > 0 ? beyond : -beyond;
     CHECK(std::fabs(dot(fibre, normal)) / (free * radius) < 1e-9);
     if (i + 1 == w->points.size()) continue;
-    // and points along the way the fibre goes on: the chord to the next contact, within the bend of one block
+    // and points where the fibre continues: along the chord to the next contact, within the bend of one block
     const Vec3 chord = contact_of(w->points[i + 1]) - contact_of(p);
     CHECK(dot(chord, fibre) / (norm(chord) * free) > 0.998);
   }

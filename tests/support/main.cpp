@@ -13,7 +13,7 @@ constexpr int kSkipped = 77;
 struct RunRecord {
   bool ended = false;
   int assertions = 0;
-  bool skipped = false;  ///< a case told so: MESSAGE("skipped: why")
+  bool skipped = false;  ///< a case said so: MESSAGE("skipped: why")
 };
 RunRecord run_record;
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double kSameT = 1e-15;
 constexpr int kMostIterations = 60;
 
-/// The roots of 3 c3 t^2 + 2 c2 t + c1 inside (0, 1), ascending, behind them 1.
+/// The roots of 3 c3 t^2 + 2 c2 t + c1 inside (0, 1), ascending, followed by 1.
 int turning_points(const std::array<double, 4>& c, std::array<double, 3>& turn) {
   const double a = 3 * c[3], b = 2 * c[2];
   double root[2];

@@ -10,7 +10,7 @@ namespace kadr::emulator::lattice {
 /// halving. Doubles in a fixed order of + - * / sqrt: the same bits with every compiler.
 class AxisCrossings {
  public:
-  static constexpr double kNone = 2.0;  ///< a t behind every curve
+  static constexpr double kNone = 2.0;  ///< a t after every curve
 
   void start(const BezierCurve& curve, std::size_t axis);
   double t() const { return t_; }  ///< of the next crossing; kNone: there is none

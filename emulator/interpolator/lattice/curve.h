@@ -84,7 +84,7 @@ ImplicitCurve implicit_of(const ParabolaCurve& parabola);
 ImplicitCurve conic_of(const BezierCurve& quadratic);
 
 int axes_of(const Curve& curve);
-/// Nodes of both ends; a curve begins where it says, a line at the origin.
+/// Nodes of both ends; a curve begins at its stated start, a line at the origin.
 Point begin_of(const Curve& curve);
 Point end_of(const Curve& curve);
 

@@ -1,7 +1,7 @@
 #include "emulator/interpolator/lattice/lattice.h"
 
 #include <algorithm>
-#include <array>
+#include <variant>
 
 #include "emulator/interpolator/lattice/steppers.h"
 
@@ -12,107 +12,22 @@ constexpr std::int64_t kMostLine = std::int64_t{1} << 60;
 constexpr std::int64_t kMostPlane = std::int64_t{1} << 29;
 constexpr std::int64_t kMostEvents = std::int64_t{1} << 40;
 
-constexpr std::array<MethodEntry, machine::kStepMethods.size()> kTaught = {{
-    {Method::classic, "F"},
-    {Method::half_step, "F'"},
-    {Method::diagonal, "V"},
-    {Method::extra_points, "M1"},
-    {Method::octant_midpoint, "M1"},
-    {Method::dda, "Jx"},
-    {Method::dda_preloaded, "Jx"},
-    {Method::dda_sequential, "Jx"},
-    {Method::dda_simultaneous, "Jx"},
-    {Method::progression, "S"},
-    {Method::chords, "V"},
-    {Method::newton, "d0"},
-    {Method::crossing, "F'"},
-    {Method::ptp, "i"},
-    {Method::printed_difference, "D"},
-    {Method::printed_half_step, "D"},
-    {Method::magnitudes, "D"},
-}};
-
-/// Where each method is among those taught.
-constexpr auto kPlaceOf = [] {
-  std::array<std::size_t, kTaught.size()> place{};
-  place.fill(kTaught.size());
-  for (std::size_t i = 0; i < kTaught.size(); ++i) place[static_cast<std::size_t>(kTaught[i].method)] = i;
-  return place;
-}();
-static_assert(*std::max_element(kPlaceOf.begin(), kPlaceOf.end()) < kTaught.size(),
-              "every method is taught, once");
-
 std::int64_t largest(const Point& p) {
   std::int64_t most = 0;
   for (const std::int64_t v : p) most = std::max(most, v == INT64_MIN ? INT64_MAX : magnitude(v));
   return most;
 }
 
-MadeStepper make(const LineCurve& line, Method method, const MethodOptions& options) {
-  const bool plane = line.axes == 2;
-  switch (method) {
-    case Method::classic:
-      return classic_line(line);
-    case Method::half_step:
-    case Method::crossing:
-      return half_step_line(line, options.tie_to_y);
-    case Method::diagonal:
-      return diagonal_line(line);
-    case Method::dda:
-      return dda_line(line, false);
-    case Method::dda_preloaded:
-      return dda_line(line, true);
-    case Method::progression:
-      return progression_line(line, options.fraction_bits);
-    case Method::ptp:
-      return point_to_point(line);
-    case Method::extra_points:
-      return plane ? extra_point_line(line) : nullptr;
-    case Method::printed_difference:
-      return plane ? printed_difference_line(line) : nullptr;
-    case Method::magnitudes:
-      return plane ? magnitude_line(line) : nullptr;
-    case Method::octant_midpoint:
-    case Method::dda_sequential:
-    case Method::dda_simultaneous:
-    case Method::chords:
-    case Method::newton:
-    case Method::printed_half_step:
-      break;
-  }
-  return nullptr;
+bool knows(const MethodEntry& m, const LineCurve& line) {
+  return (line.axes == 2 ? m.plane_line : m.line) != nullptr;
+}
+MadeStepper make(const MethodEntry& m, const LineCurve& line, const MethodOptions& options) {
+  return (line.axes == 2 ? m.plane_line : m.line)(line, options);
 }
 
-MadeStepper make(const ArcCurve& arc, Method method, const MethodOptions& options) {
-  switch (method) {
-    case Method::classic:
-      return rule_arc(arc, ArcRule::classic);
-    case Method::half_step:
-    case Method::crossing:
-      return rule_arc(arc, ArcRule::half_step);
-    case Method::extra_points:
-      return rule_arc(arc, ArcRule::extra_points);
-    case Method::octant_midpoint:
-      return rule_arc(arc, ArcRule::octant_midpoint);
-    case Method::dda_sequential:
-      return dda_arc(arc, true);
-    case Method::dda_simultaneous:
-      return dda_arc(arc, false);
-    case Method::chords:
-      return chord_arc(arc, options.chord_tolerance);
-    case Method::printed_half_step:
-      return printed_half_step_arc(arc);
-    case Method::diagonal:
-    case Method::dda:
-    case Method::dda_preloaded:
-    case Method::progression:
-    case Method::ptp:
-    case Method::newton:
-    case Method::printed_difference:
-    case Method::magnitudes:
-      break;
-  }
-  return nullptr;
+bool knows(const MethodEntry& m, const ArcCurve&) { return m.arc != nullptr; }
+MadeStepper make(const MethodEntry& m, const ArcCurve& arc, const MethodOptions& options) {
+  return m.arc(arc, options);
 }
 
 /// How far a curve given by its ends may go beyond them.
@@ -120,35 +35,32 @@ std::int64_t reach_of(const ImplicitCurve& curve) {
   return 1000 + 4 * std::max(largest({curve.begin.x, curve.begin.y}), largest({curve.end.x, curve.end.y}));
 }
 
-MadeStepper make_rule(const ImplicitCurve& curve, Method method, std::int64_t reach) {
-  if (method == Method::classic) return rule_curve(curve, CurveRule::classic, reach);
-  if (method == Method::half_step || method == Method::crossing)
-    return rule_curve(curve, CurveRule::half_step, reach);
-  if (method == Method::extra_points) return rule_curve(curve, CurveRule::extra_points, reach);
-  return nullptr;
+bool by_graph(const MethodEntry& m, const ImplicitCurve& curve) {
+  return m.graph != nullptr && explicit_axis(curve.f) >= 0;
+}
+bool knows(const MethodEntry& m, const ImplicitCurve& curve) { return m.rule || by_graph(m, curve); }
+MadeStepper make(const MethodEntry& m, const ImplicitCurve& curve, const MethodOptions& options) {
+  if (by_graph(m, curve)) return m.graph(curve, options);
+  return rule_curve(curve, *m.rule, reach_of(curve));
 }
 
-MadeStepper make(const ImplicitCurve& curve, Method method, const MethodOptions& options) {
-  if (method == Method::newton) return newton_explicit(curve, options.fraction_bits);
-  return make_rule(curve, method, reach_of(curve));
-}
-
-MadeStepper make(const ParabolaCurve& parabola, Method method, const MethodOptions& options) {
-  if (method == Method::progression) return progression_parabola(parabola);
-  if (method == Method::newton) return newton_parabola(parabola, options.fraction_bits);
-  return make(implicit_of(parabola), method, options);
+bool knows(const MethodEntry& m, const ParabolaCurve&) { return m.rule || m.parabola != nullptr; }
+MadeStepper make(const MethodEntry& m, const ParabolaCurve& parabola, const MethodOptions& options) {
+  if (m.parabola != nullptr) return m.parabola(parabola, options);
+  return make(m, implicit_of(parabola), options);
 }
 
 bool is_conic(const BezierCurve& curve) {
   return curve.axes == 2 && curve.degree == 2 && curve.control[0] == Point{};
 }
-
-MadeStepper make(const BezierCurve& curve, Method method, const MethodOptions&) {
-  if (method == Method::crossing) return bezier_events(curve);
+bool knows(const MethodEntry& m, const BezierCurve& curve) {
+  return m.bezier != nullptr || (m.rule && is_conic(curve));
+}
+MadeStepper make(const MethodEntry& m, const BezierCurve& curve, const MethodOptions& options) {
+  if (m.bezier != nullptr) return m.bezier(curve, options);
   // a Bezier lies among its control points
-  return is_conic(curve) ? make_rule(conic_of(curve), method,
-                                     2 + std::max(largest(curve.control[1]), largest(curve.control[2])))
-                         : nullptr;
+  return rule_curve(conic_of(curve), *m.rule,
+                    2 + std::max(largest(curve.control[1]), largest(curve.control[2])));
 }
 
 /// Whether an arc's end is a node of the lattice's ring about the circle: |r_end - R| <= sqrt(2)/2.
@@ -163,17 +75,17 @@ bool on_circle(const ArcCurve& arc) {
   return rest <= 0 || rest * rest <= 4 * r2 * e2;
 }
 
-Refusal check(const LineCurve& line, Method) {
+Refusal check(const MethodEntry&, const LineCurve& line) {
   if (largest(line.delta) > kMostLine) return Refusal::range;
   return largest(line.delta) == 0 ? Refusal::no_length : Refusal::none;
 }
 
-Refusal check(const ArcCurve& arc, Method method) {
+Refusal check(const MethodEntry& m, const ArcCurve& arc) {
   if (std::max(largest({arc.begin.x, arc.begin.y}), largest({arc.end.x, arc.end.y})) > kMostPlane)
     return Refusal::range;
   if (arc.begin == PlaneNode{}) return Refusal::no_length;
   if (!on_circle(arc)) return Refusal::off_curve;
-  if (method != Method::printed_half_step) return Refusal::none;
+  if (m.method != Method::printed_half_step) return Refusal::none;
   const Signs s = signs_of(quadrant_of(arc.begin, arc.turn), arc.turn);
   const bool same_side = arc.begin.x * arc.end.x >= 0 && arc.begin.y * arc.end.y >= 0;
   const bool ahead =
@@ -181,7 +93,7 @@ Refusal check(const ArcCurve& arc, Method method) {
   return ahead && !(arc.end == arc.begin) ? Refusal::none : Refusal::one_quadrant;
 }
 
-Refusal check(const ParabolaCurve& parabola, Method) {
+Refusal check(const MethodEntry&, const ParabolaCurve& parabola) {
   if (std::max({magnitude(parabola.y_begin), magnitude(parabola.y_end), magnitude(parabola.p)}) > kMostPlane)
     return Refusal::range;
   if (parabola.p == 0 || parabola.y_begin == parabola.y_end) return Refusal::no_length;
@@ -210,15 +122,15 @@ bool newton_fits(const ImplicitCurve& curve) {
   return p * 64 < 1.15e18 * (c < 0 ? -c : c);
 }
 
-Refusal check(const ImplicitCurve& curve, Method method) {
+Refusal check(const MethodEntry& m, const ImplicitCurve& curve) {
   const std::int64_t reach =
       std::max(largest({curve.begin.x, curve.begin.y}), largest({curve.end.x, curve.end.y}));
   if (reach > kMostPlane || !curve.f.fits(reach_of(curve))) return Refusal::range;
-  if (method == Method::newton && !newton_fits(curve)) return Refusal::range;
+  if (by_graph(m, curve) && !newton_fits(curve)) return Refusal::range;
   return curve.f.degree() == 0 ? Refusal::no_length : Refusal::none;
 }
 
-Refusal check(const BezierCurve& curve, Method method) {
+Refusal check(const MethodEntry& m, const BezierCurve& curve) {
   std::int64_t most = 0;
   bool length = false;
   for (int i = 0; i <= curve.degree; ++i) {
@@ -226,7 +138,7 @@ Refusal check(const BezierCurve& curve, Method method) {
     most = std::max(most, largest(p));
     length = length || p != curve.control[0];
   }
-  const bool conic = method != Method::crossing;
+  const bool conic = m.bezier == nullptr;
   if (most > (conic ? kMostPlane : kMostEvents)) return Refusal::range;
   if (!length) return Refusal::no_length;
   if (!conic) return Refusal::none;
@@ -237,69 +149,23 @@ Refusal check(const BezierCurve& curve, Method method) {
 
 }  // namespace
 
-std::span<const MethodEntry> methods() { return kTaught; }
-
-std::optional<Method> method_of(std::string_view name) { return machine::kStepMethods.find(name); }
-
-const MethodEntry& entry_of(Method method) { return kTaught[kPlaceOf[static_cast<std::size_t>(method)]]; }
-
 std::int64_t most_steps(const Curve& curve) {
   if (std::holds_alternative<LineCurve>(curve)) return kMostLine;
   if (std::holds_alternative<BezierCurve>(curve)) return kMostEvents;
   return kMostPlane;
 }
 
-namespace {
-
-bool follows_line(Method method, bool plane) {
-  switch (method) {
-    case Method::crossing:
-    case Method::classic:
-    case Method::half_step:
-    case Method::diagonal:
-    case Method::dda:
-    case Method::dda_preloaded:
-    case Method::progression:
-    case Method::ptp:
-      return true;
-    case Method::extra_points:
-    case Method::printed_difference:
-    case Method::magnitudes:
-      return plane;
-    case Method::octant_midpoint:
-    case Method::dda_sequential:
-    case Method::dda_simultaneous:
-    case Method::chords:
-    case Method::newton:
-    case Method::printed_half_step:
-      return false;
-  }
-  return false;
-}
-
-}  // namespace
-
 bool knows(Method method, const Curve& curve) {
-  if (const auto* line = std::get_if<LineCurve>(&curve)) return follows_line(method, line->axes == 2);
-  const bool rule = method == Method::classic || method == Method::half_step ||
-                    method == Method::extra_points || method == Method::crossing;
-  if (std::holds_alternative<ArcCurve>(curve))
-    return rule || method == Method::octant_midpoint || method == Method::dda_sequential ||
-           method == Method::dda_simultaneous || method == Method::chords ||
-           method == Method::printed_half_step;
-  if (std::holds_alternative<ParabolaCurve>(curve))
-    return rule || method == Method::progression || method == Method::newton;
-  if (const auto* bezier = std::get_if<BezierCurve>(&curve))
-    return method == Method::crossing || (rule && is_conic(*bezier));
-  return rule || (method == Method::newton && explicit_axis(std::get<ImplicitCurve>(curve).f) >= 0);
+  return std::visit([&](const auto& c) { return knows(entry_of(method), c); }, curve);
 }
 
 Made make_stepper(const Curve& curve, Method method, const MethodOptions& options) {
-  if (!knows(method, curve)) return {nullptr, Refusal::other_curve};
+  const MethodEntry& m = entry_of(method);
   return std::visit(
       [&](const auto& c) -> Made {
-        if (const Refusal refusal = check(c, method); refusal != Refusal::none) return {nullptr, refusal};
-        return {make(c, method, options), Refusal::none};
+        if (!knows(m, c)) return {nullptr, Refusal::other_curve};
+        if (const Refusal refusal = check(m, c); refusal != Refusal::none) return {nullptr, refusal};
+        return {make(m, c, options), Refusal::none};
       },
       curve);
 }

@@ -1,54 +1,30 @@
 #pragma once
 #include <memory>
-#include <optional>
-#include <span>
-#include <string_view>
 #include <vector>
 
 #include "emulator/interpolator/lattice/bezier_events.h"
 #include "emulator/interpolator/lattice/curve.h"
 #include "emulator/interpolator/lattice/line_kernels.h"
+#include "emulator/interpolator/lattice/methods.h"
 #include "emulator/interpolator/lattice/newton.h"
 #include "emulator/interpolator/lattice/slot.h"
-#include "machine/step_method.h"
 
 /// One door to all interpolators of paper 002: a curve and a method make a Stepper.
 namespace kadr::emulator::lattice {
 
-/// One enumeration for machines and laboratory; words and meanings: machine::kStepMethods.
-using Method = machine::StepMethod;
-
-struct MethodEntry {
-  Method method;
-  std::string_view tested;  ///< what Slot::tested is: "G", "N", "V"
-
-  std::string_view name() const { return machine::kStepMethods.word(method); }
-  std::string_view meaning() const { return machine::kStepMethods.sentence(method); }
-};
-/// Every method once, in the order of teaching; sweeps draw from it in this order.
-std::span<const MethodEntry> methods();
-std::optional<Method> method_of(std::string_view name);
-const MethodEntry& entry_of(Method method);
-
-struct MethodOptions {
-  bool tie_to_y = false;         ///< half_step on a line: a line through a corner steps Y
-  int fraction_bits = 16;        ///< progression, newton: 1 to 60
-  double chord_tolerance = 0.1;  ///< chords: steps, > 0
-};
-
 enum class Refusal : std::uint8_t {
   none,
   no_length,     ///< both ends are the same node and the curve is no full turn
-  range,         ///< coordinates beyond what the method's integers hold: most_steps()
+  range,         ///< coordinates beyond the range of the method's integers: most_steps()
   other_curve,   ///< the method doesn't know this kind of curve
-  off_curve,     ///< an end lies more than half a step beside the curve
+  off_curve,     ///< an end is more than half a step off the curve
   one_quadrant,  ///< printed_half_step: begin and end lie in different quadrants
   in_line,       ///< a quadratic Bezier whose control points are in line is no conic
 };
 
 /// Largest coordinate for a method and kind of curve, in steps:
 ///   lines 2^60 (products of n axes in 128 bits), arcs and parabolas 2^29, Beziers by events 2^40, as conics
-///   2^29; F(x, y) = 0: what keeps 2^degree F below 2^125.
+///   2^29; F(x, y) = 0: coordinates that keep 2^degree F below 2^125.
 std::int64_t most_steps(const Curve& curve);
 
 struct Made {

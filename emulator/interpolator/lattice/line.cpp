@@ -47,7 +47,7 @@ class PlaneLine : public Stepper {
   std::int64_t left_;
 };
 
-/// One axis a slot in n axes: the one with the smallest (2 i + offset)/d, ties to the lowest number.
+/// One axis per slot in n axes: the one with the smallest (2 i + offset)/d, ties to the lowest number.
 class AxisByAxis : public Stepper {
  public:
   AxisByAxis(const LineCurve& line, int offset) : at_(line), offset_(offset), left_(at_.sum) {}
@@ -112,8 +112,7 @@ class Diagonal : public Stepper {
   PlaneNode done_;
 };
 
-/// The signs of F at (x + 1, y + 1/2) and (x + 1/2, y + 1), twice: the diagonal where the line passes
-/// between.
+/// The signs of F at (x + 1, y + 1/2) and (x + 1/2, y + 1), twice: the diagonal where the line passes between.
 class ExtraPoints : public Stepper {
  public:
   explicit ExtraPoints(const LineCurve& line) : at_(line) {}

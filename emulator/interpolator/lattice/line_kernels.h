@@ -26,7 +26,7 @@ struct ClassicLine {
 /// (a + b)/2, and the end is met without a count of axes.
 struct HalfStepLine {
   std::int64_t a2, b2, offset, tie, g;
-  /// @param tie_to_y  a line through a corner of a dual square steps Y there, as the way back of one that
+  /// @param tie_to_y  a line through a corner of a dual square steps Y there, like the way back of one that
   ///                  steps X
   HalfStepLine(std::int64_t a, std::int64_t b, bool tie_to_y = false)
       : a2(2 * a), b2(2 * b), offset(a - b), tie(tie_to_y ? 1 : 0), g(offset) {}

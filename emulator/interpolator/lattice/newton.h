@@ -37,8 +37,7 @@ class FixedMarch {
   double one_;
 };
 
-/// Least number of fraction bits for an error of `tolerance` after that many points: log2(N^n/n!/tolerance)
-/// - 1.
+/// Least number of fraction bits for an error of `tolerance` after that many points: log2(N^n/n!/tolerance) - 1.
 int march_bits(std::size_t degree, double points, double tolerance);
 
 }  // namespace kadr::emulator::lattice

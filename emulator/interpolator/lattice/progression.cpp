@@ -52,7 +52,7 @@ class ProgressionParabola : public Stepper {
   std::int64_t f_ = 0, odd_ = 0;
 };
 
-/// x = y^2 / 2p marched over y: two additions a point. The nodes are met, the way between them is not the
+/// x = y^2 / 2p marched over y: two additions per point. The nodes are met, the path between them is not the
 /// curve's (paper 002's PTP): Y steps once, then X as often as x has moved.
 class NewtonParabola : public Stepper {
  public:

@@ -27,12 +27,12 @@ constexpr std::int64_t shown(Wide value) {
   return value > INT64_MAX ? INT64_MAX : value < INT64_MIN ? INT64_MIN : static_cast<std::int64_t>(value);
 }
 
-/// One clock slot: the axes that step in it, and what decided.
+/// One clock slot: the axes that step in it, and the value that decided.
 struct Slot {
   std::array<std::int8_t, kMostAxes> step{};  ///< -1, 0 or 1 by axis; all 0: an idle slot of a DDA
-  bool forced = false;                        ///< the end decided, not the sign of what was tested
+  bool forced = false;                        ///< the end decided, not the sign of the tested value
   std::int64_t value = 0;                     ///< F at the node before the slot
-  std::int64_t tested = 0;    ///< whose sign decided; what it is hangs on the method (tested_name)
+  std::int64_t tested = 0;    ///< value whose sign decided; its meaning depends on the method (tested_name)
   std::int64_t tested_y = 0;  ///< extra points: the second point
   double parameter = -1.0;    ///< t of a parametric curve at the crossing, in [0, 1]; else -1
 };

@@ -22,8 +22,7 @@ MadeStepper progression_line(const LineCurve& line, int fraction_bits);
 // arcs
 enum class ArcRule : std::uint8_t { classic, half_step, extra_points, octant_midpoint };
 MadeStepper rule_arc(const ArcCurve& arc, ArcRule rule);
-/// Two cross-coupled integrators; sequential: the second one adds the coordinate that the first has just
-/// changed.
+/// Two cross-coupled integrators; sequential: the second one adds the coordinate that the first has just changed.
 MadeStepper dda_arc(const ArcCurve& arc, bool sequential);
 /// Chords of sagitta `tolerance` at most, ends rounded to nodes, each by V_i.
 MadeStepper chord_arc(const ArcCurve& arc, double tolerance);
@@ -32,8 +31,8 @@ MadeStepper chord_arc(const ArcCurve& arc, double tolerance);
 enum class CurveRule : std::uint8_t { classic, half_step, extra_points };
 /// @param reach  no coordinate beyond it is followed: there a polynomial would leave 128 bits
 MadeStepper rule_curve(const ImplicitCurve& curve, CurveRule rule, std::int64_t reach);
-/// Which way F(x, y) = 0 goes on from a node: along the tangent (-F_y, F_x) times side. Where a derivative is
-/// 0 the node lies on an extreme, and the one half a step ahead decides.
+/// Direction in which F(x, y) = 0 continues from a node: along the tangent (-F_y, F_x) times side.
+/// Where a derivative is 0 the node lies on an extreme, and the one half a step ahead decides.
 struct Ahead {
   int sx, sy;
   bool x_lowers;  ///< a step of X lowers F
@@ -47,7 +46,7 @@ MadeStepper newton_parabola(const ParabolaCurve& parabola, int fraction_bits);
 /// v = -P(u)/c of a curve F = c v + P(u) (explicit_axis) by Newton's forward differences in fixed point.
 MadeStepper newton_explicit(const ImplicitCurve& curve, int fraction_bits);
 
-/// Half-crossing events (bezier_events.h), a pulse a slot.
+/// Half-crossing events (bezier_events.h), one pulse per slot.
 MadeStepper bezier_events(const BezierCurve& curve);
 
 // formulas of paper 002 as they are printed, to be seen failing
@@ -55,7 +54,7 @@ MadeStepper bezier_events(const BezierCurve& curve);
 MadeStepper printed_difference_line(const LineCurve& line);
 /// Meant: the sign of |F(i, j+1)| - |F(i+1, j)|, the nearer of the two neighbours.
 MadeStepper magnitude_line(const LineCurve& line);
-/// Eq. 7, F(x + h/2, y + h/2) - F(x - h/2, y - h/2) in the place of F', within the quadrant of the beginning.
+/// Eq. 7, F(x + h/2, y + h/2) - F(x - h/2, y - h/2) instead of F', within the quadrant of the beginning.
 MadeStepper printed_half_step_arc(const ArcCurve& arc);
 
 /// Quadrants of a travel, half open in its direction: a node on an axis belongs to the one it enters.

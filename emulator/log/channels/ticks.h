@@ -16,8 +16,7 @@ struct AxisTicks {
   std::vector<double> base_u, base_u_s, link_u, link_u_s, motor_force_N;  ///< [ticks] x0, v0, x1, v1, force
 };
 
-/// KADR_TICKS; element i is the end of control tick first + i. Its signals have names of their own
-/// (signal_table.cpp).
+/// KADR_TICKS; element i is the end of control tick first + i. Its signals have names of their own (signal_table.cpp).
 struct TickBlock {
   Ticks begin;
   ControlTicks first;
@@ -82,8 +81,8 @@ constexpr Field<TickBlock> steps() {
 }  // namespace field
 
 void append_tick(TickBlock& block, const TickSource& tick);
-/// Base tick and number of the first control tick agree. Fills what the log leaves out where nobody asked for
-/// an override.
+/// Base tick and number of the first control tick agree. Fills what the log leaves out
+/// where nobody asked for an override.
 const char* check_message(TickBlock& block, std::string_view channel, const LogHeader& header);
 
 template <std::same_as<TickBlock> R>

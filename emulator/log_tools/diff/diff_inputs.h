@@ -10,7 +10,7 @@ namespace kadr::emulator {
 struct InputDifference {
   std::string name;  ///< "program", "machine", "settings", "scenario", "kadr", "clock", "axes", "channels"
   bool same = true;
-  std::string detail;  ///< what differs, one line; empty if it is the same
+  std::string detail;  ///< the difference, one line; empty if there is none
 };
 
 /// The inputs in the order above.
@@ -22,7 +22,7 @@ bool same_clock(const LogHeader& a, const LogHeader& b);
 /// A line of the program.
 struct ProgramPlace {
   std::string file;        ///< empty: a called file, whose name the log does not hold
-  std::uint32_t line = 0;  ///< from 1; 0: no place
+  std::uint32_t line = 0;  ///< from 1; 0: no position
   std::string text;
   /// "part.ngc:42", "line 3 of a called file", or ""
   std::string name() const;
@@ -30,7 +30,7 @@ struct ProgramPlace {
 };
 /// Place of a block.
 ProgramPlace place_of(const LogHeader& header, const BlockRecord& block);
-/// Place of a line of the main program.
+/// Position of a line of the main program.
 ProgramPlace place_of(const LogHeader& header, std::uint32_t line);
 
 }  // namespace kadr::emulator

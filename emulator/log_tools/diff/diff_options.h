@@ -14,7 +14,7 @@
 
 namespace kadr::emulator {
 
-/// What is put side by side: control ticks of the same number, or places of the same path length.
+/// The compared items: control ticks of the same number, or positions of the same path length.
 enum class DiffAlign : std::uint8_t { tick, path };
 inline constexpr Vocabulary<DiffAlign, 2> kDiffAligns{{
     {DiffAlign::tick, "tick", "same control tick"},
@@ -46,12 +46,12 @@ inline constexpr int kMostContext = 1000;
 
 /// Sets one tolerance from KEY=VALUE with a unit: "base=2um", "link_rate=0.1mm/s", "force=1N". `load` is base
 /// and link together. Lengths and N are for linear axes, angles and Nm for rotary ones.
-/// @return what is wrong with the text
+/// @return the error in the text
 tl::expected<void, std::string> add_tolerance(Tolerances& tolerances, std::string_view text);
 
 /// Leaves out a channel ("KADR_EVENT"), a field of one ("KADR_EVENT/text"), or a group: load (all plant
 /// states), base, link, base_rate, link_rate, force, feed.
-/// @return what is wrong with the text
+/// @return the error in the text
 tl::expected<void, std::string> add_ignored(DiffOptions& options, std::string_view text);
 
 }  // namespace kadr::emulator

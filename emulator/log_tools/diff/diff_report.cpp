@@ -19,7 +19,7 @@ constexpr std::size_t kNameWidth = 24;   // cells of a log's name in a table
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-/// Titles of the columns of both logs: their file names, if those tell them apart and are short.
+/// Titles of the columns of both logs: their file names, if they differ and are short.
 std::pair<std::string, std::string> log_titles(const LogDiff& diff) {
   const std::string a = file_name(diff.a.path), b = file_name(diff.b.path);
   if (a == b || display_width(a) > kNameWidth || display_width(b) > kNameWidth) return {"A", "B"};
@@ -129,7 +129,7 @@ std::string totals(const LogDiff& diff) {
   return table.empty() ? "" : "totals\n" + table.render("  ");
 }
 
-/// Largest differences of the plant's states: what a tolerance would have to be.
+/// Largest differences of the plant's states: the tolerance that would be needed.
 std::string peaks(const LogDiff& diff) {
   if (diff.load_peaks.empty()) return "";
   TextTable table(

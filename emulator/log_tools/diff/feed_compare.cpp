@@ -33,7 +33,7 @@ void FeedCompare::add(int side, const FeedPoint& point) {
   match();
 }
 
-/// Compares at every place that both logs have passed.
+/// Compares at every position that both logs have passed.
 void FeedCompare::match() {
   auto &of_a = waiting_[0], &of_b = waiting_[1];
   while (!of_a.empty() && !of_b.empty()) {
@@ -63,7 +63,7 @@ void FeedCompare::match() {
 
 void FeedCompare::compare(const FeedPoint& a, const FeedPoint& b, double slack) {
   const double size_u_s = std::fabs(b.feed_u_s - a.feed_u_s);
-  // a stretch goes on until the feeds are clearly together again: no row of short ones near the tolerance
+  // a stretch continues until the feeds are clearly together again: no series of short ones near the tolerance
   const double allowed_u_s = tolerance_u_s_ + slack;
   if (size_u_s <= (span_ ? allowed_u_s / 2 : allowed_u_s)) return end_span();
   if (!span_) span_ = FeedSpan{a.path_u, a.path_u, a, b, 0, 0};

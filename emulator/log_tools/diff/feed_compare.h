@@ -23,19 +23,18 @@ struct FeedPoint {
 
 /// A stretch of the path on which the feeds differ by more than the tolerance.
 struct FeedSpan {
-  double from_u = 0, to_u = 0;  ///< path length at the first and the last place that differ
+  double from_u = 0, to_u = 0;  ///< path length at the first and the last position that differ
   FeedPoint a, b;               ///< at `from_u`; the feed of one is interpolated
   double largest_u_s = 0;       ///< |b - a|
   double largest_at_u = 0;
 };
 
-/// Compares two feeds at places of the same path length: at the end of every control tick of either log.
+/// Compares two feeds at equal path length: at the end of every control tick of either log.
 ///
 /// The other log's feed there is that of constant acceleration between its control ticks:
 ///   v^2 = v0^2 + (v1^2 - v0^2) (s - s0) / (s1 - s0)
 /// If its acceleration changes by da within that tick of length tau, this is wrong by at most da tau / 4,
-/// which is added to the tolerance. A stretch that differs ends where the difference is below half of that
-/// sum.
+/// which is added to the tolerance. A stretch that differs ends where the difference is below half of that sum.
 class FeedCompare {
  public:
   /// @param tolerance_u_s  >= 0
@@ -56,7 +55,7 @@ class FeedCompare {
   void end_span();
 
   double tolerance_u_s_;
-  FeedPoint last_[2];  // behind every point that waits
+  FeedPoint last_[2];  // after every point that waits
   std::deque<FeedPoint> waiting_[2];
   std::optional<FeedSpan> span_, largest_;
   std::vector<FeedSpan> found_;

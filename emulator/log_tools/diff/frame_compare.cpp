@@ -57,7 +57,7 @@ std::vector<AxisPair> common_axes(const LogHeader& a, const LogHeader& b) {
   return pairs;
 }
 
-/// Where differences go: the mask always, the list if it is asked for.
+/// Destination of differences: the mask always, the list on request.
 struct FrameCompare::Sink {
   std::vector<FieldDifference>* list;
   const FrameCompare& compare;

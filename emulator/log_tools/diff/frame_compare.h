@@ -40,7 +40,7 @@ std::vector<AxisPair> common_axes(const LogHeader& a, const LogHeader& b);
 using ChannelMask = std::uint32_t;
 constexpr ChannelMask mask_of(DiffChannel channel) { return 1u << static_cast<unsigned>(channel); }
 
-/// Compares what two logs say of one control tick. Allocates nothing for ticks and pulses that are the same.
+/// Compares one control tick of two logs. Allocates nothing for ticks and pulses that are the same.
 class FrameCompare {
  public:
   FrameCompare(const LogHeader& a, const LogHeader& b, const DiffOptions& options);
@@ -55,7 +55,7 @@ class FrameCompare {
                                 std::vector<FieldDifference>& list) const;
   /// Plant states that differed by more than nothing, in the order of axes and fields.
   std::vector<LoadPeak> load_peaks() const;
-  /// Value of a field of KADR_TICKS as it stands in a frame; "-" if it is not there.
+  /// Value of a field of KADR_TICKS in a frame; "-" if it is not there.
   /// @param axis   name, or empty for a field of the path
   /// @param first  true: the frame is of log A
   std::string value(const LogFrame& frame, bool first, const std::string& field,

@@ -13,8 +13,7 @@
 #include "emulator/log_tools/diff/diff_options.h"
 #include "emulator/log_tools/diff/frame_compare.h"
 
-/// `kadr diff`: two logs side by side, control tick by control tick (docs/diff.md). Memory does not grow with
-/// the logs.
+/// `kadr diff`: two logs side by side, control tick by control tick (docs/diff.md). Memory does not grow with the logs.
 namespace kadr::emulator {
 
 /// A control tick that is not the same in both logs.
@@ -34,8 +33,8 @@ struct ContextRow {
 
 struct FirstDifference {
   TickDifference tick;
-  std::vector<FieldDifference>
-      same;  ///< feed, path, override ... of that control tick, as far as they are the same
+  /// feed, path, override ... of that control tick, as far as they are the same
+  std::vector<FieldDifference> same;
   std::string context_name, context_unit;  ///< of the field that the rows show
   std::vector<ContextRow> rows;            ///< before, at and after it
   std::string input;  ///< the operator's input before it, if there was one; with its tick
@@ -63,7 +62,7 @@ struct LogDiff {
   std::int64_t both = 0;  ///< control ticks in both logs
   std::optional<FirstDifference> first;
   std::array<ChannelTotals, kDiffChannels> channels;
-  std::vector<FieldDifference> summary;  ///< what differs in KADR_SUMMARY
+  std::vector<FieldDifference> summary;  ///< differences in KADR_SUMMARY
   std::vector<LoadPeak> load_peaks;
 
   bool inputs_differ() const;
@@ -76,8 +75,8 @@ struct LogDiff {
 /// Where the comparison hands things on while it runs; both may be empty.
 struct TickDiffSinks {
   std::function<void(const LogDiff&)> begin;  ///< headers and inputs are known, nothing else yet
-  std::function<void(const TickDifference&)>
-      each;  ///< every control tick that differs, in order, if options.all
+  /// every control tick that differs, in order, if options.all
+  std::function<void(const TickDifference&)> each;
 };
 
 /// Compares two logs by control tick.

@@ -32,12 +32,12 @@ bool LogFrames::next(LogFrame& frame) {
   return true;
 }
 
-/// One message of the log; false at its end, when what is left has been made frames of.
+/// Reads one message. Returns false at the end, after turning what is buffered into frames.
 bool LogFrames::read() {
   LogMessage message;
   if (!reader_.next(message)) {
     const bool whole = end().state == LogState::complete || end().state == LogState::interrupted;
-    // exact data without their other half, and events behind the last whole block, are not complete
+    // exact data without their other half, and events after the last whole block, are not complete
     if (whole) {
       flush_block();
       flush_items(std::numeric_limits<std::int64_t>::max());

@@ -10,7 +10,7 @@
 #include "emulator/log_tools/diff/log_diff.h"
 #include "emulator/log_tools/diff/step_sequence.h"
 
-/// `kadr diff --align path`: what two logs do at the same path length, whenever they do it (docs/diff.md).
+/// `kadr diff --align path`: compares two logs at the same path length, whenever they get there (docs/diff.md).
 namespace kadr::emulator {
 
 /// The first event of the program that is not the same in both logs; "-": one has no more events.
@@ -45,7 +45,7 @@ struct PathDiff {
   }
 };
 
-/// Default of `--tolerance feed=`: feeds of control ticks that do not fall on the same places, mm/s or deg/s.
+/// Default of `--tolerance feed=`: feeds of control ticks that fall on different positions, mm/s or deg/s.
 inline constexpr double kFeedTolerance_u_s = 0.1;
 
 /// Where the comparison hands things on while it runs; all may be empty.

@@ -10,7 +10,7 @@
 namespace kadr::emulator {
 namespace {
 
-/// A block's stamp and a pulse's are both rounded down: they may be one base tick apart at the same place.
+/// A block's stamp and a pulse's are both rounded down: they may be one base tick apart at the same position.
 constexpr std::int64_t kStampSlack_ticks = 1;
 
 bool all_at_most(const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& base_a,
@@ -84,7 +84,7 @@ void StepSequence::add_pulses(Side& side, int number, const LogFrame& frame) {
   std::stable_sort(pulses.begin(), pulses.end(),
                    [](const Pulse& p, const Pulse& q) { return p.stamp < q.stamp; });
   for (std::size_t i = 0; i < pulses.size(); ++i) {
-    // what the log says at the stamp of a block counts before this pulse
+    // a block with the same stamp counts before this pulse
     settle_marks(side, Ticks{pulses[i].stamp});
     ++side.total[pulses[i].axis];
     if (i + 1 < pulses.size() && pulses[i + 1].stamp == pulses[i].stamp) continue;
@@ -92,7 +92,7 @@ void StepSequence::add_pulses(Side& side, int number, const LogFrame& frame) {
   }
 }
 
-/// Every pulse before base tick `until` has been counted: what that says about the blocks' beginnings.
+/// Every pulse before base tick `until` has been counted: updates the bounds of the blocks' beginnings.
 void StepSequence::settle_marks(Side& side, Ticks until) {
   for (Mark& mark : side.marks) {
     if (mark.known) continue;
@@ -111,7 +111,7 @@ void StepSequence::match() {
 
 void StepSequence::match_order() {
   auto &a = side_[0], &b = side_[1];
-  // pulses at and behind the next block's beginning wait until both logs have it
+  // pulses at and after the next block's beginning wait until both logs have it
   const auto waits = [](const Side& side) {
     return side.groups.empty() ||
            (!side.marks.empty() &&
@@ -208,8 +208,7 @@ void StepSequence::close_block(const Counts* low_a, const Counts* high_a, const 
   under_way_ = {};
   for (Side* side : {&a, &b}) {
     const Counts& end = side == &a ? end_a : end_b;
-    // where the blocks part, what is left of each is dropped, so that the next ones are compared by
-    // themselves
+    // where the blocks part, what is left of each is dropped, so that the next ones are compared by themselves
     if ((!counts_agree || order_parted_) && !side->marks.empty()) {
       const std::int64_t stamp = side->marks.front().stamp.value - kStampSlack_ticks;
       while (!side->groups.empty() && side->groups.front().stamp.value < stamp) side->groups.pop_front();

@@ -13,7 +13,7 @@
 namespace kadr::emulator {
 namespace {
 
-constexpr std::size_t kPieces = 2048;  ///< of a line: at least one a pixel column
+constexpr std::size_t kPieces = 2048;  ///< of a line: at least one per pixel column
 constexpr std::size_t kStyles = 6;
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr double kGap = 12;  ///< pixels between charts
@@ -53,7 +53,7 @@ std::vector<ChartPoint> points_of(const std::vector<Envelope::Piece>& pieces) {
   return points;
 }
 
-/// What a chart holds: the unit, and for counts and codes the signal itself.
+/// Key of a chart: the unit, and for counts and codes the signal itself.
 std::string chart_key(const Signal& signal) { return signal.unit.empty() ? signal.name : signal.unit; }
 
 }  // namespace

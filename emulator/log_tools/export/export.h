@@ -22,7 +22,7 @@ void write_json_lines(LogSamples& log, const Sink& sink);
 
 /// A value change dump (IEEE 1364): `X_step` and `X_dir` of every axis, `moving`, `accelerating`, `braking`,
 /// `hold` and `alarm` as wires, the chosen signals as reals. A pulse is high for less than one base tick;
-/// pulses of an axis in one base tick stand apart within it.
+/// pulses of an axis in one base tick are separate within it.
 void write_vcd(LogSamples& log, const Sink& sink);
 
 /// One SVG document: a chart for each unit of the chosen signals, over time; each line keeps its lowest and

@@ -60,11 +60,11 @@ Json json_of(const EventRecord& e, const LogHeader& h) {
 }
 
 Json json_of(const LogDiagnostic& d, const LogHeader& h) {
-  static constexpr const char* kWords[] = {"note", "warning", "error"};
-  const auto word = static_cast<std::size_t>(d.severity);
+  // a log may hold a number that is no severity
+  const Severity severity = kSeverities.at(static_cast<std::int64_t>(d.severity)).value_or(Severity::error);
   Json j = {{"channel", "KADR_DIAG"}, {"tick", d.tick.value}};
   j["t_s"] = d.tick.value < 0 ? Json(nullptr) : Json(h.seconds(d.tick));
-  j["severity"] = word < std::size(kWords) ? kWords[word] : "error";
+  j["severity"] = kSeverities.word(severity);
   j["code"] = d.code;
   j["line"] = d.span.line;
   j["text"] = d.message;

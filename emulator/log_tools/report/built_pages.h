@@ -17,7 +17,7 @@ std::array<BuiltPage, 3> built_pages();
 /// Why this build is without a page of built_pages(), as there; empty: built in.
 std::string_view page_missing(std::string_view name);
 
-/// At the foot of a page without script, as HTML: why it is; empty where it was asked for, since this build
+/// At the foot of a page without script, as HTML: the reason; empty if it was requested, since this build
 /// has the other one, too.
 std::string plain_note(std::string_view name);
 

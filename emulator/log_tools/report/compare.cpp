@@ -22,7 +22,7 @@ constexpr std::size_t kMostReasons = 6;
 
 const RunSummary& summary(const ComparedRun& run) { return run.data.summary->run; }
 
-/// Runs are named A, B, C ... in tables and charts; their files stand once above.
+/// Runs are named A, B, C ... in tables and charts; their files are listed once above.
 std::string letter(std::size_t k) { return std::string(1, static_cast<char>('A' + k)); }
 
 template <class Get>

@@ -15,7 +15,7 @@ struct ComparedRun {
   PageData data;
 };
 
-/// One quantity of every run; what a run does not have is not a number.
+/// One quantity of every run; not-a-number where a run lacks it.
 struct ComparedQuantity {
   std::string name;  ///< "vibration X, peak"
   std::string key;   ///< "vibration_X_um"
@@ -27,7 +27,7 @@ struct ComparedQuantity {
 /// Time, what it went into, feed, path error, vibration, following error and work of every run.
 std::vector<ComparedQuantity> compared_quantities(const std::vector<ComparedRun>& runs);
 
-/// What about the inputs is not the same in all runs: program, machine; empty: they are of one program.
+/// Inputs that differ between runs: program, machine; empty: all the same.
 std::string compared_note(const std::vector<ComparedRun>& runs);
 
 std::string render_comparison(const std::vector<ComparedRun>& runs);

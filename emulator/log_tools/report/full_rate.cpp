@@ -9,7 +9,7 @@
 namespace kadr::emulator {
 namespace {
 
-/// Stretches that are at most so many control ticks together; what overlaps counts once.
+/// Stretches of at most that many control ticks together; overlaps count once.
 class Chooser {
  public:
   Chooser(std::int64_t end, std::int64_t most) : end_(end), most_(most) {}

@@ -31,7 +31,7 @@ std::string wanted(const LogSamples& log) {
   return out;
 }
 
-/// The settings of the log are a machine file, and behind it how the run was called.
+/// The settings of the log are a machine file, followed by the options of the run.
 std::optional<machine::MachineModel> machine_of(const LogHeader& header) {
   SourceSet sources;
   const std::string text = header.settings_toml.substr(0, header.settings_toml.find("[run]\n"));

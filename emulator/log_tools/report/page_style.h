@@ -3,8 +3,7 @@
 
 namespace kadr::emulator {
 
-/// Beginning of a page without script, up to its title: security policy and style sheet for tables and
-/// charts.
+/// Beginning of a page without script, up to its title: security policy and style sheet for tables and charts.
 inline constexpr std::string_view kPlainHead = R"html(<!DOCTYPE html>
 <html lang="en">
 <head>

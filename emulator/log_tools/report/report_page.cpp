@@ -11,10 +11,10 @@ namespace kadr::emulator {
 namespace {
 
 constexpr std::size_t kFewestPieces = 2048;
-constexpr std::size_t kBytesACorner =
-    25;  ///< of the page's size for each corner of the path, which takes about 6
+/// of the page's size for each corner of the path, which takes about 6
+constexpr std::size_t kBytesACorner = 25;
 
-/// Puts a text in the place of a mark of the template, which stands there once.
+/// Replaces a mark of the template, which occurs once, by a text.
 void fill(std::string& page, std::string_view mark, std::string_view text) {
   const auto at = page.find(mark);
   require(at != std::string::npos, "the page's template has every mark");

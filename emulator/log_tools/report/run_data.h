@@ -6,7 +6,7 @@
 /// A run as a page's script reads it (emulator/pages/report/src/data.ts).
 namespace kadr::emulator {
 
-/// Elements of a page that hold the run: JSON of what it is, and packed arrays.
+/// Elements of a page that hold the run: JSON of its data, and packed arrays.
 /// @param prefix     of the elements' ids, so that a page can hold several runs
 /// @param with_path  the length of path at each piece too
 std::string run_scripts(const PageData& data, const std::string& prefix, bool with_path);

@@ -200,7 +200,7 @@ class Summary {
         std::string(std::max<std::size_t>(1, display_width(text.substr(before, length))), '^'));
   }
 
-  std::string message(const char* severity, double t_s, const Span& span, const std::string& code,
+  std::string message(std::string_view severity, double t_s, const Span& span, const std::string& code,
                       const std::string& text) const {
     std::string place;
     if (t_s >= 0) place += fmt::format(" data-t=\"{}\"", t_s);
@@ -216,23 +216,24 @@ class Summary {
   std::string messages() const {
     std::string rows;
     std::size_t shown = 0, all = 0;
-    const auto add = [&](const char* severity, Ticks tick, const Span& span, const std::string& code,
+    const auto add = [&](std::string_view severity, Ticks tick, const Span& span, const std::string& code,
                          const std::string& text) {
       ++all;
       if (shown >= kRowsShown) return;
       ++shown;
       rows += message(severity, tick.value < 0 ? -1 : h_.seconds(tick), span, code, text);
     };
-    const auto diagnostics = [&](Severity severity, const char* name) {
+    const auto diagnostics = [&](Severity severity) {
       for (const LogDiagnostic& d : d_.diagnostics)
         if (d.severity == severity)
-          add(name, d.tick, d.span, d.code, d.message + (d.label.empty() ? "" : ": " + d.label));
+          add(kSeverities.word(severity), d.tick, d.span, d.code,
+              d.message + (d.label.empty() ? "" : ": " + d.label));
     };
-    diagnostics(Severity::error, "error");
+    diagnostics(Severity::error);
     for (const EventRecord& e : d_.events)
       if (e.kind == EventKind::alarm) add("alarm", e.tick, e.span, code_name(e.code), e.text);
-    diagnostics(Severity::warning, "warning");
-    diagnostics(Severity::note, "note");
+    diagnostics(Severity::warning);
+    diagnostics(Severity::note);
     if (all == 0) return "<p id=\"no-alarms\" class=\"w\">No alarms, no messages.</p>\n";
     if (all > shown)
       rows += fmt::format("<tr><td colspan=\"5\">... {} more in the log</td></tr>\n",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <utility>
 
 namespace kadr::emulator {
@@ -85,58 +86,114 @@ bool make_bezier(TeachCase& out, const Numbers& n, int axes) {
   return true;
 }
 
-/// How many numbers a kind of plane curve takes.
-std::size_t plane_count(const std::string& kind) {
-  if (kind == "circle") return 1;
-  if (kind == "ellipse") return 2;
-  return kind == "parabola" ? 3 : 4;
+/// A plane curve that takes so many numbers.
+CaseReading counted(CaseReading out, const Numbers& n, std::size_t count) {
+  return n.size() == count ? out : refused(std::move(out), CaseFault::count, {}, n.size());
 }
 
-CaseReading read_plane(CaseReading out, const Given& given) {
+CaseReading read_ellipse(CaseReading out, const Given& given) {
   const Numbers& n = given.numbers;
-  const std::string& kind = out.subject.kind;
-  if (kind == "parabola")
-    for (const std::int64_t v : n)
-      if (v < -kMostParabola_steps || v > kMostParabola_steps)
-        return refused(std::move(out), CaseFault::far_parabola, std::to_string(v));
-  if (n.size() != plane_count(kind)) return refused(std::move(out), CaseFault::count, {}, n.size());
-  if (kind == "arc") out.subject.legs = {lattice::ArcCurve{{n[0], n[1]}, {n[2], n[3]}, given.turn}};
-  if (kind == "circle") out.subject.legs = {lattice::ArcCurve{{n[0], 0}, {n[0], 0}, given.turn}};
-  if (kind == "ellipse") {
-    if (std::min(n[0], n[1]) < 1 || std::max(n[0], n[1]) > kMostHalfAxis_steps)
-      return refused(std::move(out), CaseFault::half_axes);
-    out.subject.legs = {lattice::ellipse(n[0], n[1], given.turn)};
+  out = counted(std::move(out), n, 2);
+  if (out.fault != CaseFault::none) return out;
+  if (std::min(n[0], n[1]) < 1 || std::max(n[0], n[1]) > kMostHalfAxis_steps)
+    return refused(std::move(out), CaseFault::half_axes);
+  out.subject.legs = {lattice::ellipse(n[0], n[1], given.turn)};
+  return out;
+}
+
+CaseReading read_parabola(CaseReading out, const Numbers& n) {
+  for (const std::int64_t v : n)
+    if (v < -kMostParabola_steps || v > kMostParabola_steps)
+      return refused(std::move(out), CaseFault::far_parabola, std::to_string(v));
+  out = counted(std::move(out), n, 3);
+  if (out.fault != CaseFault::none) return out;
+  if (n[0] == 0) return refused(std::move(out), CaseFault::flat_parabola);
+  out.subject.legs = {lattice::ParabolaCurve{n[0], n[1], n[2]}};
+  return out;
+}
+
+CaseReading read_curve(CaseReading out, const Given& given) {
+  const Numbers& n = given.numbers;
+  out = counted(std::move(out), n, 4);
+  if (out.fault != CaseFault::none) return out;
+  PolynomialReading f = read_terms(given.text);
+  if (f.fault != CaseFault::none) return refused(std::move(out), f.fault, given.text, f.place);
+  out.subject.legs = {lattice::ImplicitCurve{
+      lattice::Polynomial(std::move(f.terms)), {n[0], n[1]}, {n[2], n[3]}, given.turn == Turn::ccw ? 1 : -1}};
+  return out;
+}
+
+bool takes_turn(CaseKind kind) {
+  switch (kind) {
+    case CaseKind::line:
+    case CaseKind::polyline:
+    case CaseKind::bezier:
+    case CaseKind::parabola:
+      return false;
+    case CaseKind::arc:
+    case CaseKind::circle:
+    case CaseKind::ellipse:
+    case CaseKind::curve:
+      return true;
   }
-  if (kind == "parabola") {
-    if (n[0] == 0) return refused(std::move(out), CaseFault::flat_parabola);
-    out.subject.legs = {lattice::ParabolaCurve{n[0], n[1], n[2]}};
+  return false;
+}
+
+/// The legs of a case.
+CaseReading read_legs(CaseReading out, const Given& given, int axes) {
+  const Numbers& n = given.numbers;
+  TeachCase& subject = out.subject;
+  const auto made = [&](bool fits) {
+    return fits ? std::move(out) : refused(std::move(out), CaseFault::count, {}, n.size());
+  };
+  switch (subject.kind) {
+    case CaseKind::line:
+      return made(make_line(subject, n));
+    case CaseKind::polyline:
+      return made(make_polyline(subject, n, axes));
+    case CaseKind::bezier:
+      return made(make_bezier(subject, n, axes));
+    case CaseKind::arc:
+      out = counted(std::move(out), n, 4);
+      if (out.fault == CaseFault::none)
+        subject.legs = {lattice::ArcCurve{{n[0], n[1]}, {n[2], n[3]}, given.turn}};
+      return out;
+    case CaseKind::circle:
+      out = counted(std::move(out), n, 1);
+      if (out.fault == CaseFault::none) subject.legs = {lattice::ArcCurve{{n[0], 0}, {n[0], 0}, given.turn}};
+      return out;
+    case CaseKind::ellipse:
+      return read_ellipse(std::move(out), given);
+    case CaseKind::parabola:
+      return read_parabola(std::move(out), n);
+    case CaseKind::curve:
+      return read_curve(std::move(out), given);
   }
-  if (kind == "curve") {
-    PolynomialReading f = read_terms(given.text);
-    if (f.fault != CaseFault::none) return refused(std::move(out), f.fault, given.text, f.place);
-    out.subject.legs = {lattice::ImplicitCurve{lattice::Polynomial(std::move(f.terms)),
-                                               {n[0], n[1]},
-                                               {n[2], n[3]},
-                                               given.turn == Turn::ccw ? 1 : -1}};
-  }
-  out.subject.begin = lattice::begin_of(out.subject.legs.front());
   return out;
 }
 
 }  // namespace
 
-const std::vector<TeachKind>& teach_kinds() {
-  static const std::vector<TeachKind> kinds = {
-      {"line", "DX DY [DZ ...]", "straight from the origin, 2 to 9 axes"},
-      {"polyline", "X1 Y1 X2 Y2 ...", "lines from node to node; --axes, --mode ptp"},
-      {"arc", "X0 Y0 X1 Y1 [ccw|cw]", "about the origin; a full turn where both ends coincide"},
-      {"circle", "R [ccw|cw]", "a full turn from (R, 0)"},
-      {"ellipse", "A B [ccw|cw]", "once around from (A, 0)"},
-      {"parabola", "P Y0 Y1", "y^2 = 2 P x from Y0 to Y1"},
-      {"curve", "'F(x,y)' X0 Y0 X1 Y1 [ccw|cw]", "F = 0; ccw: F < 0 to the left of travel"},
-      {"bezier", "X1 Y1 [X2 Y2 [X3 Y3]]", "from the origin, degree 1 to 3; --axes"},
-  };
-  return kinds;
+std::string_view case_numbers(CaseKind kind) {
+  switch (kind) {
+    case CaseKind::line:
+      return "DX DY [DZ ...]";
+    case CaseKind::polyline:
+      return "X1 Y1 X2 Y2 ...";
+    case CaseKind::arc:
+      return "X0 Y0 X1 Y1 [ccw|cw]";
+    case CaseKind::circle:
+      return "R [ccw|cw]";
+    case CaseKind::ellipse:
+      return "A B [ccw|cw]";
+    case CaseKind::parabola:
+      return "P Y0 Y1";
+    case CaseKind::curve:
+      return "'F(x,y)' X0 Y0 X1 Y1 [ccw|cw]";
+    case CaseKind::bezier:
+      return "X1 Y1 [X2 Y2 [X3 Y3]]";
+  }
+  return {};
 }
 
 PolynomialReading read_terms(const std::string& text) {
@@ -191,26 +248,19 @@ PolynomialReading read_terms(const std::string& text) {
 
 CaseReading read_case(const Words& words, int axes) {
   CaseReading out;
-  for (const TeachKind& k : teach_kinds())
-    if (!words.empty() && words[0] == k.name) out.subject.kind = k.name;
+  const auto kind = words.empty() ? std::nullopt : kCaseKinds.find(words[0]);
+  if (!kind) return refused(std::move(out), CaseFault::kind, words.empty() ? std::string() : words[0]);
   TeachCase& subject = out.subject;
-  if (subject.kind.empty())
-    return refused(std::move(out), CaseFault::kind, words.empty() ? std::string() : words[0]);
+  subject.kind = *kind;
   for (const std::string& word : words) subject.title += (subject.title.empty() ? "" : " ") + word;
   Given given;
   CaseFault fault = CaseFault::none;
-  if (const std::string* word = read_numbers(words, subject.kind == "curve", given, fault))
+  if (const std::string* word = read_numbers(words, *kind == CaseKind::curve, given, fault))
     return refused(std::move(out), fault, *word);
-  const bool line = subject.kind == "line", polyline = subject.kind == "polyline",
-             bezier = subject.kind == "bezier";
-  if (given.turn_given && (line || polyline || bezier || subject.kind == "parabola"))
-    return refused(std::move(out), CaseFault::turn);
-  const Numbers& n = given.numbers;
-  if (!line && !polyline && !bezier) return read_plane(std::move(out), given);
-  const bool made = line       ? make_line(subject, n)
-                    : polyline ? make_polyline(subject, n, axes)
-                               : make_bezier(subject, n, axes);
-  return made ? out : refused(std::move(out), CaseFault::count, {}, n.size());
+  if (given.turn_given && !takes_turn(*kind)) return refused(std::move(out), CaseFault::turn);
+  out = read_legs(std::move(out), given, axes);
+  if (out.fault == CaseFault::none) subject.begin = lattice::begin_of(subject.legs.front());
+  return out;
 }
 
 }  // namespace kadr::emulator

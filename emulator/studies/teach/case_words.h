@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "emulator/interpolator/lattice/curve.h"
@@ -18,22 +19,30 @@ inline constexpr Vocabulary<TeachMode, 2> kTeachModes{{
 }};
 static_assert(kTeachModes.complete());
 
+enum class CaseKind : std::uint8_t { line, polyline, arc, circle, ellipse, parabola, curve, bezier };
+inline constexpr Vocabulary<CaseKind, 8> kCaseKinds{{
+    {CaseKind::line, "line", "straight from the origin, 2 to 9 axes"},
+    {CaseKind::polyline, "polyline", "lines from node to node; --axes, --mode ptp"},
+    {CaseKind::arc, "arc", "about the origin; a full turn where both ends coincide"},
+    {CaseKind::circle, "circle", "a full turn from (R, 0)"},
+    {CaseKind::ellipse, "ellipse", "once around from (A, 0)"},
+    {CaseKind::parabola, "parabola", "y^2 = 2 P x from Y0 to Y1"},
+    {CaseKind::curve, "curve", "F = 0; ccw: F < 0 to the left of travel"},
+    {CaseKind::bezier, "bezier", "from the origin, degree 1 to 3; --axes"},
+}};
+static_assert(kCaseKinds.complete());
+
+/// The numbers that a kind of case takes, for the help: "DX DY [DZ ...]".
+std::string_view case_numbers(CaseKind kind);
+
 /// The curve to interpolate: curves end to end, each given from its own beginning. Steps throughout.
 struct TeachCase {
   std::string title;  ///< "line 7 4"
-  std::string kind;   ///< "line"
+  CaseKind kind = CaseKind::line;
   std::vector<lattice::Curve> legs;
   lattice::Point begin{};  ///< of the first leg
   int axes = 2;
 };
-
-/// The kinds of case with their words, for the help: "line DX DY [DZ ...]", ...
-struct TeachKind {
-  const char* name;
-  const char* words;
-  const char* meaning;
-};
-const std::vector<TeachKind>& teach_kinds();
 
 /// Errors in the words of a case.
 enum class CaseFault : std::uint8_t {

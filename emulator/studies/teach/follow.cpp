@@ -11,77 +11,38 @@ namespace {
 using lattice::Curve;
 using lattice::Method;
 
-/// The column names of a method on a curve.
-void name_columns(StepTable& table, const Curve& curve) {
-  const bool line = std::holds_alternative<lattice::LineCurve>(curve);
-  const bool arc = std::holds_alternative<lattice::ArcCurve>(curve);
-  const bool bezier = std::holds_alternative<lattice::BezierCurve>(curve);
-  table.value_name = "F";
-  table.tested_name = std::string(lattice::entry_of(table.method).tested);
-  switch (table.method) {
-    case Method::half_step:
-    case Method::crossing:
-      table.tested_name = line ? "G=2F'" : arc ? "N=F'-1/2" : std::string("F'");
-      if (line && table.axes != 2) {
-        table.value_name = "";
-        table.tested_name = "2i+1";
-      }
-      if (bezier && table.method == Method::crossing) table.value_name = table.tested_name = "";
-      break;
-    case Method::classic:
-      table.tested_name = line && table.axes != 2 ? "2i" : "";
-      if (line && table.axes != 2) table.value_name = "";
-      break;
-    case Method::diagonal:
-      if (table.axes != 2) table.value_name = table.tested_name = "";
-      break;
-    case Method::extra_points:
-    case Method::octant_midpoint:
-      table.tested_name = line ? "2 M1" : "4 M1";
-      table.tested_y_name = line ? "2 M2" : "4 M2";
-      break;
-    case Method::dda:
-    case Method::dda_preloaded:
-    case Method::dda_sequential:
-    case Method::dda_simultaneous:
-      table.value_name = "";
-      table.tested_y_name = "Jy";
-      break;
-    case Method::newton:
-      table.value_name = "x";
-      if (const auto* f = std::get_if<lattice::ImplicitCurve>(&curve);
-          f != nullptr && explicit_axis(f->f) == 1)
-        table.value_name = "y";
-      table.tested_y_name = "d1";
-      break;
-    case Method::progression:
-      if (line) table.value_name = "";
-      table.tested_name = line ? "S" : "N=F'-1/4";
-      break;
-    case Method::chords:
-    case Method::ptp:
-      table.value_name = table.tested_name = "";
-      break;
-    case Method::printed_difference:
-    case Method::printed_half_step:
-    case Method::magnitudes:
-      break;
-  }
+/// 2^degree where a method tests F at halves of a step of a curve F = 0; else 1.
+int scale_of(const Curve& curve) {
+  if (const auto* implicit = std::get_if<lattice::ImplicitCurve>(&curve)) return 1 << implicit->f.degree();
+  const bool conic = std::holds_alternative<lattice::ParabolaCurve>(curve) ||
+                     std::holds_alternative<lattice::BezierCurve>(curve);
+  return conic ? 4 : 1;
 }
 
-void scale_names(StepTable& table, const Curve& curve) {
-  int degree = 0;
-  if (const auto* implicit = std::get_if<lattice::ImplicitCurve>(&curve)) degree = implicit->f.degree();
-  if (std::holds_alternative<lattice::ParabolaCurve>(curve) ||
-      std::holds_alternative<lattice::BezierCurve>(curve))
-    degree = 2;
-  if (degree == 0 || table.method == Method::progression || table.method == Method::newton) return;
-  const std::string scale = std::to_string(1 << degree);
-  if (table.tested_name == "F'") table.tested_name = scale + "F'";
-  if (table.method == Method::extra_points) {
-    table.tested_name = scale + " M1";
-    table.tested_y_name = scale + " M2";
-  }
+lattice::Columns columns_on(const lattice::MethodEntry& method, const Curve& curve, int axes) {
+  if (std::holds_alternative<lattice::LineCurve>(curve))
+    return axes == 2 ? method.plane_line_columns : method.line_columns;
+  if (std::holds_alternative<lattice::ArcCurve>(curve)) return method.arc_columns;
+  // half-crossings in t: there is no F
+  if (std::holds_alternative<lattice::BezierCurve>(curve) && method.bezier != nullptr) return {"", "", ""};
+  lattice::Columns columns = method.curve_columns;
+  if (const auto* f = std::get_if<lattice::ImplicitCurve>(&curve);
+      f != nullptr && method.graph != nullptr && explicit_axis(f->f) == 1)
+    columns.value = "y";
+  return columns;
+}
+
+/// What the columns of a method are called on a curve.
+void name_columns(StepTable& table, const Curve& curve) {
+  const lattice::MethodEntry& method = lattice::entry_of(table.method);
+  const lattice::Columns columns = columns_on(method, curve, table.axes);
+  const int scale = method.scaled ? scale_of(curve) : 1;
+  const auto scaled = [&](std::string_view name) {
+    return scale == 1 || name.empty() ? std::string(name) : std::to_string(scale) + std::string(name);
+  };
+  table.value_name = columns.value;
+  table.tested_name = scaled(columns.tested);
+  table.tested_y_name = scaled(columns.tested_y);
 }
 
 void add_leg(StepTable& table, const Curve& curve, const lattice::Trace& trace, const lattice::Point& origin,
@@ -135,10 +96,7 @@ Followed follow(const TeachCase& subject, Method method, const TeachOptions& opt
     const auto left = options.most_slots - static_cast<std::int64_t>(table.rows.size());
     const lattice::Trace trace = lattice::run(*made.stepper, curve, left);
     if (!trace.complete) return out;
-    if (out.leg == 0) {
-      name_columns(table, curve);
-      scale_names(table, curve);
-    }
+    if (out.leg == 0) name_columns(table, curve);
     add_leg(table, curve, trace, origin, squares);
     nodes += trace.slots.size() + 1;
     table.forced += trace.forced;

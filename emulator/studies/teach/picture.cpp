@@ -10,6 +10,7 @@ namespace {
 using lattice::Curve;
 using lattice::Method;
 using lattice::PlaneNode;
+using lattice::TestedAt;
 
 constexpr int kArcPlaces = 360, kBezierPlaces = 240;
 
@@ -61,37 +62,27 @@ std::vector<Place> feet(const lattice::Polynomial& f, const StepTable& table) {
 
 std::vector<TestedPlace> tested_places(const Curve& curve, Method method, PlaneNode node) {
   if (!lattice::knows(method, curve) || !sign_polynomial(curve)) return {};
+  const lattice::MethodEntry& entry = lattice::entry_of(method);
+  // a method that shows no F of a line tests none
+  if (std::holds_alternative<lattice::LineCurve>(curve) && entry.plane_line_columns.value.empty()) return {};
   const Travel s = travel_at(curve, node);
   const std::int64_t x2 = 2 * node.x, y2 = 2 * node.y;
   const TestedPlace beside_x{x2 + 2 * s.x, y2 + s.y}, beside_y{x2 + s.x, y2 + 2 * s.y};
-  switch (method) {
-    case Method::classic:
+  switch (entry.tested_at) {
+    case TestedAt::nowhere:
+      break;
+    case TestedAt::node:
       return {{x2, y2}};
-    case Method::half_step:
-    case Method::crossing:
+    case TestedAt::half_step:
       return {{x2 + s.x, y2 + s.y}};
-    case Method::progression:
-      if (std::holds_alternative<lattice::LineCurve>(curve)) return {};
-      return {{x2 + s.x, y2 + s.y}};
-    case Method::diagonal: {
+    case TestedAt::beside_longer: {
       const auto& delta = std::get<lattice::LineCurve>(curve).delta;
       return {lattice::magnitude(delta[0]) >= lattice::magnitude(delta[1]) ? beside_x : beside_y};
     }
-    case Method::extra_points:
-    case Method::octant_midpoint:
+    case TestedAt::beside_both:
       return {beside_x, beside_y};
-    case Method::magnitudes:
-    case Method::printed_difference:
+    case TestedAt::neighbours:
       return {{x2 + 2 * s.x, y2}, {x2, y2 + 2 * s.y}};
-    case Method::dda:
-    case Method::dda_preloaded:
-    case Method::dda_sequential:
-    case Method::dda_simultaneous:
-    case Method::chords:
-    case Method::ptp:
-    case Method::newton:
-    case Method::printed_half_step:
-      break;
   }
   return {};
 }

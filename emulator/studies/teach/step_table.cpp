@@ -9,7 +9,7 @@ using lattice::Curve;
 using lattice::Method;
 using lattice::Refusal;
 
-std::string refusal_text(Refusal refusal, const Curve& curve, Method method, const std::string& kind) {
+std::string refusal_text(Refusal refusal, const Curve& curve, Method method, std::string_view kind) {
   const auto name = lattice::entry_of(method).name();
   switch (refusal) {
     case Refusal::no_length:
@@ -41,13 +41,13 @@ tl::expected<StepTable, std::string> step_table(const TeachCase& subject, Method
                                                 const TeachOptions& options) {
   Followed followed = follow(subject, method, options);
   if (followed.refusal != Refusal::none)
-    return tl::unexpected(
-        refusal_text(followed.refusal, subject.legs[followed.leg], followed.table.method, subject.kind));
+    return tl::unexpected(refusal_text(followed.refusal, subject.legs[followed.leg], followed.table.method,
+                                       kCaseKinds.word(subject.kind)));
   if (!followed.complete)
     return tl::unexpected(fmt::format(
         "{}: no end after {} slots, allowed {} (--most); it is longer, or folds inside a cell, where a "
         "sign can't follow it",
-        subject.kind, options.most_slots, options.most_slots));
+        kCaseKinds.word(subject.kind), options.most_slots, options.most_slots));
   return std::move(followed.table);
 }
 

@@ -6,7 +6,8 @@ namespace kadr::emulator {
 namespace {
 
 std::string fault_text(const CaseReading& reading) {
-  const std::string &kind = reading.subject.kind, &word = reading.word;
+  const std::string_view kind = kCaseKinds.word(reading.subject.kind);
+  const std::string& word = reading.word;
   switch (reading.fault) {
     case CaseFault::number:
       return fmt::format("'{}' is not a whole number of steps", word);
@@ -25,19 +26,15 @@ std::string fault_text(const CaseReading& reading) {
       return fmt::format("parabola: {} is beyond 2^29 steps", word);
     case CaseFault::flat_parabola:
       return "parabola: P must not be 0";
-    case CaseFault::none:
-    case CaseFault::kind:
     case CaseFault::count:
+      return fmt::format("{} takes {}; got {} {}", kind, case_numbers(reading.subject.kind), reading.place,
+                         reading.place == 1 ? "number" : "numbers");
+    case CaseFault::kind:
+      return fmt::format("a case begins with one of {}; got '{}'", kCaseKinds.list(), word);
+    case CaseFault::none:
       break;
   }
-  std::string known;
-  for (const TeachKind& k : teach_kinds()) {
-    if (reading.fault == CaseFault::count && kind == k.name)
-      return fmt::format("{} takes {}; got {} {}", kind, k.words, reading.place,
-                         reading.place == 1 ? "number" : "numbers");
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", k.name);
-  }
-  return fmt::format("a case begins with one of {}; got '{}'", known, word);
+  return {};
 }
 
 }  // namespace

@@ -15,77 +15,23 @@ namespace {
 using planner::LawResult;
 
 constexpr double kMostMemory_bytes = 4e9;
-constexpr double kMostTransitions = 1e12;  ///< of one pass, if every transition were admissible
-constexpr double kMostJerkRows = 1e7;      ///< their tangents are some hundred steps over all rows
-/// nodes times axes, from which on fewer inner points are looked at
-constexpr double kManyDerivatives = 1e6;
+constexpr double kMostTransitions = 1e12;  ///< planner::LawWork
+constexpr double kMostJerkRows = 1e7;
+constexpr double kManyDerivatives =
+    1e6;  ///< nodes times axes, from which on fewer inner points are looked at
 
-double tube_bytes(const TimeLawProblem& p, bool keep_profiles) {
-  const auto nodes = static_cast<double>(p.law.nodes());
-  return nodes * (12.0 * (p.tube.levels + 16) + (keep_profiles ? 8.0 * p.tube.most_passes : 0.0));
+planner::LawSettings settings_of(const TimeLawProblem& problem, bool keeps_profiles) {
+  return {problem.classical_levels, problem.tube, keeps_profiles, problem.jerk_mm_s3};
 }
 
-/// Rows of the interior point method: both sides of every limit, the caps, the jerk.
-double rows(const TimeLawProblem& p, bool jerk) {
-  const auto nodes = static_cast<double>(p.law.nodes()), axes = static_cast<double>(p.law.axes);
-  const double ends = p.law.accel_test == planner::AccelTest::both_nodes ? 2 : 1;
-  return nodes * (2 * (1 + axes * ends) + 1 + (jerk ? 2 : 0));
-}
-
-/// Per row: multiplier, slack, their Newton steps, one certificate entry.
-constexpr double kRow_bytes = 128;
-
-double bytes(const TimeLawProblem& p, LawMethod method, bool keep_profiles) {
-  switch (method) {
-    case LawMethod::classical:
-      return static_cast<double>(p.law.nodes()) * 12.0 * (p.classical_levels + 16);
-    case LawMethod::tube:
-      return tube_bytes(p, keep_profiles);
-    case LawMethod::greedy:
-      return 0;
-    case LawMethod::optimum:
-    case LawMethod::certified:
-      return rows(p, false) * kRow_bytes;
-    case LawMethod::jerk_limited:
-      return rows(p, true) * kRow_bytes;
-  }
-  return 0;
-}
-
-double transitions(const TimeLawProblem& p, LawMethod method) {
-  const double levels = method == LawMethod::classical ? p.classical_levels
-                        : method == LawMethod::tube    ? p.tube.levels
-                                                       : 0;
-  return static_cast<double>(p.law.nodes()) * levels * levels;
-}
-
-std::unique_ptr<planner::LawSolver> solver_of(const TimeLawProblem& problem, LawMethod method) {
-  switch (method) {
-    case LawMethod::classical:
-      return std::make_unique<planner::ClassicalDp>(problem.classical_levels);
-    case LawMethod::tube:
-      return std::make_unique<planner::TubeDp>(problem.tube);
-    case LawMethod::greedy:
-      return std::make_unique<planner::GreedyOptimum>();
-    case LawMethod::optimum:
-      return std::make_unique<planner::InteriorPointOptimum>();
-    case LawMethod::certified:
-      return std::make_unique<planner::CertifiedLaw>();
-    case LawMethod::jerk_limited:
-      break;
-  }
-  return std::make_unique<planner::JerkLimitedLaw>(*problem.jerk_mm_s3);
-}
-
-LawResult solve(const TimeLawProblem& problem, LawMethod method, bool keep_profiles, TubeStory& story,
+LawResult solve(const TimeLawProblem& problem, PlanMethod method, bool keep_profiles, TubeStory& story,
                 const StudyProgress& progress) {
-  const auto solver = solver_of(problem, method);
+  const auto solver = planner::law_method(method).solver(settings_of(problem, keep_profiles));
   if (progress)
     solver->on_progress([&](std::string_view stage, double done) { progress(method, stage, done); });
-  auto* tube = dynamic_cast<planner::TubeDp*>(solver.get());
-  if (tube) tube->keep_profiles(keep_profiles);
   LawResult law = solver->solve(problem.law);
-  if (tube) story = {tube->passes(), tube->profiles(), tube->lost(), tube->capped()};
+  if (const auto* tube = dynamic_cast<const planner::TubeDp*>(solver.get()))
+    story = {tube->passes(), tube->profiles(), tube->lost(), tube->capped()};
   return law;
 }
 
@@ -95,7 +41,7 @@ void measure(const TimeLawProblem& problem, std::uint32_t inner_points, MethodOu
   planner::LawCheckOptions options;
   options.inner_points = inner_points;
   out.check = planner::verify_law(problem.law, *out.law, problem.path(), options);
-  if (out.method != LawMethod::jerk_limited) return;
+  if (out.method != PlanMethod::jerk_limited) return;
   const double jerk = planner::node_jerk_u_s3(problem.law, out.law->speed_u_s);
   if (!(jerk <= *problem.jerk_mm_s3 * (1 + options.tolerance)))
     out.check.broken.push_back({"path jerk", problem.law.s_u.front(), jerk, *problem.jerk_mm_s3});
@@ -103,10 +49,10 @@ void measure(const TimeLawProblem& problem, std::uint32_t inner_points, MethodOu
 
 }  // namespace
 
-std::vector<LawMethod> methods_of(const TimeLawProblem& problem) {
-  std::vector<LawMethod> all;
+std::vector<PlanMethod> methods_of(const TimeLawProblem& problem) {
+  std::vector<PlanMethod> all;
   for (const auto& method : kLawMethods)
-    if (method.value != LawMethod::jerk_limited || problem.jerk_mm_s3) all.push_back(method.value);
+    if (method.value != PlanMethod::jerk_limited || problem.jerk_mm_s3) all.push_back(method.value);
   return all;
 }
 
@@ -119,21 +65,22 @@ bool LawStudy::good() const {
   return std::all_of(outcomes.begin(), outcomes.end(), [](const MethodOutcome& o) { return o.good(); });
 }
 
-std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::vector<LawMethod>& methods,
+std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::vector<PlanMethod>& methods,
                                      bool keep_profiles) {
-  for (const LawMethod method : methods) {
-    const double memory = bytes(problem, method, keep_profiles), work = transitions(problem, method);
-    const double jerk_rows = method == LawMethod::jerk_limited ? rows(problem, true) : 0;
+  for (const PlanMethod method : methods) {
+    const planner::LawWork work =
+        planner::law_method(method).work(problem.law, settings_of(problem, keep_profiles));
     std::string measured, allowed;
-    if (memory > kMostMemory_bytes) {
-      measured = fmt::format("needs about {} for {} nodes", bytes_text(static_cast<std::int64_t>(memory)),
-                             problem.law.nodes());
+    if (work.memory_bytes > kMostMemory_bytes) {
+      measured = fmt::format("needs about {} for {} nodes",
+                             bytes_text(static_cast<std::int64_t>(work.memory_bytes)), problem.law.nodes());
       allowed = bytes_text(static_cast<std::int64_t>(kMostMemory_bytes));
-    } else if (work > kMostTransitions) {
-      measured = fmt::format("looks at up to {:.1e} transitions per pass, nodes times levels squared", work);
+    } else if (work.transitions > kMostTransitions) {
+      measured = fmt::format("looks at up to {:.1e} transitions per pass, nodes times levels squared",
+                             work.transitions);
       allowed = fmt::format("{:.0e} transitions", kMostTransitions);
-    } else if (jerk_rows > kMostJerkRows) {
-      measured = fmt::format("has {:.1e} limits to keep, two per node, axis and end", jerk_rows);
+    } else if (work.jerk_rows > kMostJerkRows) {
+      measured = fmt::format("has {:.1e} limits to keep, two per node, axis and end", work.jerk_rows);
       allowed = fmt::format("{:.0e} limits", kMostJerkRows);
     } else {
       continue;
@@ -147,12 +94,12 @@ std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::v
   return {};
 }
 
-LawStudy study_laws(const TimeLawProblem& problem, const std::vector<LawMethod>& methods, bool keep_profiles,
+LawStudy study_laws(const TimeLawProblem& problem, const std::vector<PlanMethod>& methods, bool keep_profiles,
                     const StudyProgress& progress) {
   LawStudy out;
   const double derivatives = static_cast<double>(problem.law.nodes() * problem.law.axes);
   out.inner_points = derivatives > kManyDerivatives ? 2 : 10;
-  for (const LawMethod method : methods) {
+  for (const PlanMethod method : methods) {
     const auto begin = std::chrono::steady_clock::now();
     MethodOutcome outcome{method, solve(problem, method, keep_profiles, out.tube, progress), {}, {}, 0};
     outcome.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

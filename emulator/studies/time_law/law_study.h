@@ -4,26 +4,19 @@
 #include <vector>
 
 #include "emulator/studies/time_law/problem.h"
-#include "machine/base/vocabulary.h"
+#include "machine/plan_method.h"
 
 namespace kadr::emulator {
 
-enum class LawMethod : std::uint8_t { classical, tube, greedy, optimum, certified, jerk_limited };
-inline constexpr Vocabulary<LawMethod, 6> kLawMethods{{
-    {LawMethod::classical, "classical", "one dynamic programme over all speeds of each node"},
-    {LawMethod::tube, "tube", "the paper's algorithm: dynamic programmes in a narrowing tube"},
-    {LawMethod::greedy, "greedy", "the shortest time, by reachability: one pass backward, one forward"},
-    {LawMethod::optimum, "optimum", "the least J, by an interior point method, with the proof"},
-    {LawMethod::certified, "certified", "the greedy law, polished for J in a narrow tube, with the proof"},
-    {LawMethod::jerk_limited, "jerk-limited", "the least J with the jerk along the path limited"},
-}};
-static_assert(kLawMethods.complete());
+using machine::kLawMethods;
+using machine::PlanMethod;
+
 /// All methods that the problem states: jerk-limited needs a limit.
-std::vector<LawMethod> methods_of(const TimeLawProblem& problem);
+std::vector<PlanMethod> methods_of(const TimeLawProblem& problem);
 
 /// The law that one method found, and its measurements.
 struct MethodOutcome {
-  LawMethod method;
+  PlanMethod method;
   planner::LawResult law;  ///< or why there is none, and at which node
   planner::LawMetrics metrics;
   planner::LawCheck check;  ///< verify_law(), and of the jerk-limited law its jerk at nodes
@@ -54,14 +47,14 @@ struct LawStudy {
 /// Estimate of memory and work, before either is taken.
 /// @return an error at problem.size_span if a method needs more than 4 GB, a pass more than 1e12 transitions,
 /// or the jerk-limited law more than 1e7 limits
-std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::vector<LawMethod>& methods,
+std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::vector<PlanMethod>& methods,
                                      bool keep_profiles);
 
 /// Solves a problem by each method, and measures every law by law_metrics() and verify_law().
 /// Reports the progress of a study: method, its stage, the share done (planner::LawProgress).
-using StudyProgress = std::function<void(LawMethod method, std::string_view stage, double done)>;
+using StudyProgress = std::function<void(PlanMethod method, std::string_view stage, double done)>;
 /// @param keep_profiles  of every pass of the tube
-LawStudy study_laws(const TimeLawProblem& problem, const std::vector<LawMethod>& methods, bool keep_profiles,
+LawStudy study_laws(const TimeLawProblem& problem, const std::vector<PlanMethod>& methods, bool keep_profiles,
                     const StudyProgress& progress = nullptr);
 
 }  // namespace kadr::emulator

@@ -99,25 +99,24 @@ bool ProgramProblem::lay_out(machine::MachineFile machine, TimeLawProblem& out) 
   auto program = open(program_);
   auto tools = tools_ ? open(*tools_) : std::nullopt;
   if (!program || (tools_ && !tools)) return false;
-  Job job;
-  job.machine = std::move(machine);
+  JobInputs given;
+  given.machine = std::move(machine);
   Diagnostics found;
-  if (tools) job.reading.tools = gcode::read_tool_table(sources_, sources_.add(std::move(*tools)), found);
-  job.program = program_file_ = sources_.add(std::move(*program));
-  std::swap(job.sources, sources_);  // files that the program calls are added
-  const bool laid_out = !found.has_errors() && emulator::lay_out(job, found);
-  std::swap(job.sources, sources_);
-  for (const Diagnostic& fault : job.path.faults) found.add(fault);
-  if (!laid_out || found.has_errors()) {
+  if (tools) given.reading.tools = gcode::read_tool_table(sources_, sources_.add(std::move(*tools)), found);
+  given.program = program_file_ = sources_.add(std::move(*program));
+  auto read = found.has_errors() ? std::nullopt : emulator::lay_out(given, sources_, found);
+  if (read)
+    for (const Diagnostic& fault : read->path.faults) found.add(fault);
+  if (!read || found.has_errors()) {
     for (const Diagnostic& d : found.list()) context_.diagnostics.add(d);
     return false;
   }
   out.warnings = std::move(found);
   out.program.emplace();
   out.program->program = program_.value;
-  out.program->machine = job.machine.model.name;
-  out.program->path = std::move(job.path);
-  model_ = std::move(job.machine.model);
+  out.program->machine = given.machine.model.name;
+  out.program->path = std::move(read->path);
+  model_ = std::move(given.machine.model);
   return true;
 }
 

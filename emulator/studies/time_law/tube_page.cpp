@@ -294,12 +294,12 @@ class Page {
     for (const MethodOutcome& o : study_.outcomes)
       if (o.law) list.push_back(&o);
     std::stable_partition(list.begin(), list.end(),
-                          [](const MethodOutcome* o) { return o->method == LawMethod::optimum; });
+                          [](const MethodOutcome* o) { return o->method == PlanMethod::optimum; });
     return list;
   }
 
-  static std::string style(LawMethod method) {
-    return method == LawMethod::tube ? "tube-law" : std::string(kLawMethods.word(method));
+  static std::string style(PlanMethod method) {
+    return method == PlanMethod::tube ? "tube-law" : std::string(kLawMethods.word(method));
   }
 
   const LawStudy& study_;

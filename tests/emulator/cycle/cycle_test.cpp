@@ -130,9 +130,9 @@ TEST_CASE("leaving a soft limit is a warning before the run and one alarm at the
   REQUIRE(ends.size() == 1);
   CHECK(ends[0].value == doctest::Approx(60.0));
   // the same program is refused by a check
-  emulator::Job job = make_job("G1 X60 F6000\nX0\nM2\n", m);
+  TestInputs in = make_inputs("G1 X60 F6000\nX0\nM2\n", m);
   Diagnostics diagnostics;
-  emulator::prepare(job, diagnostics, emulator::SoftLimitRule::error);
+  in.prepare(diagnostics, emulator::SoftLimitRule::error);
   REQUIRE(diagnostics.errors() == 1);
   CHECK(diagnostics.list()[0].label == "X reaches 60.000 mm, 10.000 mm beyond the limit");
 }
@@ -271,7 +271,7 @@ TEST_CASE("random programs under enforced limits raise no alarm and end on the e
     run_program(r, program, test_machine(), options);
     for (const auto& e : r.log.of_kind("alarm")) CAPTURE(e.text);
     CHECK(r.summary.alarms == 0);
-    const auto last = r.job.path.node(r.job.path.size());
+    const auto last = r.job->read.path.node(r.job->read.path.size());
     for (std::size_t a = 0; a < 3; ++a)
       CHECK(r.summary.axis[a].end_steps.value ==
             static_cast<std::int64_t>(std::floor(last[a] / 0.002 + 0.5)));

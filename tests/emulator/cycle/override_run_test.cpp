@@ -15,12 +15,7 @@ machine::MachineModel mill() {
   return file->model;
 }
 
-struct Ride {
-  Job job;
-  Diagnostics diagnostics;
-  test::RecordingLog log;
-  RunSummary summary;
-};
+using Ride = test::RunResult;
 
 OperatorStep at_tick(std::int64_t tick, OperatorAction action, double value = 1) {
   OperatorStep step;
@@ -37,17 +32,12 @@ OperatorStep at_place(PathPlace place, OperatorAction action, double value = 1) 
 }
 
 void run_with(Ride& r, const std::string& program, std::vector<OperatorStep> steps) {
-  r.job = test::make_job(program, mill());
-  r.job.operator_steps = std::move(steps);
-  REQUIRE(prepare(r.job, r.diagnostics, SoftLimitRule::warning));
-  RunHeader header;
-  header.machine = &r.job.machine.model;
-  REQUIRE(r.log.begin(header).has_value());
+  r.in = test::make_inputs(program, mill());
+  r.in.given.operator_steps = std::move(steps);
+  test::prepare_run(r);
   RunOptions options;
   options.plant = false;
-  auto summary = run(r.job, &r.log, options);
-  REQUIRE(summary.has_value());
-  r.summary = *summary;
+  test::run_prepared(r, options);
 }
 
 std::vector<Code> alarms(const Ride& r) {
@@ -115,7 +105,7 @@ TEST_CASE("steps on the path come into force with the first control tick that be
         PathPlace{Kind::line, 2, 1, 50}, PathPlace{Kind::block, 0, 1, 50}}) {
     Ride r;
     run_with(r, kCorner, {at_place(place, half, 0.5)});
-    CHECK(r.job.operator_steps[0].path_u == 50.0);
+    CHECK(r.job->planned.step_places_u.at(0) == 50.0);
     const auto it = std::find_if(r.log.events.begin(), r.log.events.end(), [](const EventRecord& e) {
       return e.kind == emulator::EventKind::feed_override;
     });
@@ -124,10 +114,11 @@ TEST_CASE("steps on the path come into force with the first control tick that be
     CHECK(r.log.ticks[tick].motion.s_begin_u >= 50.0);
     CHECK(r.log.ticks[tick - 1].motion.s_begin_u < 50.0);
   }
-  Job job = test::make_job(kCorner, mill());
-  job.operator_steps = {at_place({Kind::line, 7}, half, 0.5), at_place({Kind::block, 1, 1, 51}, half, 0.5)};
+  test::TestInputs in = test::make_inputs(kCorner, mill());
+  in.given.operator_steps = {at_place({Kind::line, 7}, half, 0.5),
+                             at_place({Kind::block, 1, 1, 51}, half, 0.5)};
   Diagnostics diagnostics;
-  CHECK_FALSE(prepare(job, diagnostics, SoftLimitRule::warning));
+  CHECK_FALSE(in.prepare(diagnostics, SoftLimitRule::warning));
   CHECK(diagnostics.errors() == 2);
 }
 

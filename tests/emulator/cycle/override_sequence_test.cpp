@@ -32,9 +32,10 @@ planner::Path random_program(Dice& dice, const machine::MachineModel& machine) {
     }
     if (dice.chance(0.15)) block.path_mode = gcode::PathMode::exact_stop;
     block.feed_override_enabled = !dice.chance(0.1);
-    builder.add({{}, arc     ? gcode::Action(block)
-                     : rapid ? gcode::Action(gcode::Traverse{block})
-                             : gcode::Action(gcode::Feed{block})});
+    builder.add({{},
+                 arc     ? gcode::Action(block)
+                 : rapid ? gcode::Action(gcode::Traverse{block})
+                         : gcode::Action(gcode::Feed{block})});
     at = block.end;
   }
   return builder.take();
@@ -94,7 +95,9 @@ TEST_CASE(
     CAPTURE(static_cast<int>(machine.feed_override.mode));
     CAPTURE(static_cast<int>(machine.feed_override.limiter));
     const planner::Path path = random_program(dice, machine);
-    machine.planner.method = static_cast<machine::PlanMethod>(std::max(dice.whole(-6, 2), 0));
+    using machine::PlanMethod;
+    constexpr PlanMethod kMethods[] = {PlanMethod::scheduler, PlanMethod::tube, PlanMethod::certified};
+    machine.planner.method = kMethods[std::max(dice.whole(-6, 2), 0)];
     CAPTURE(static_cast<int>(machine.planner.method));
     const auto plan = planner::plan(path, machine);
     REQUIRE(plan.has_value());

@@ -30,9 +30,7 @@ Block feed_to(double x_mm, double from_mm) {
   feed.feed_u_s = 100;
   return {{}, feed};
 }
-Block output(int number, bool on, bool with_motion) {
-  return {{}, DigitalOutput{number, on, with_motion}};
-}
+Block output(int number, bool on, bool with_motion) { return {{}, DigitalOutput{number, on, with_motion}}; }
 
 }  // namespace
 
@@ -76,10 +74,10 @@ TEST_CASE("a wait begins when the machine stands at its block, and holds the mac
   // 1.6 s to the step at 2.25 s, then 1.1 s of motion: 3.35 s
   for (const bool asked_first : {true, false}) {
     CAPTURE(asked_first);
-    Job job = make_job("", test_machine(1));
-    job.inputs = {digital(2250, 3, 1)};
+    TestInputs in = make_inputs("", test_machine(1));
+    in.given.inputs = {digital(2250, 3, 1)};
     Diagnostics diagnostics;
-    ProgramReader reader(job, diagnostics, {});
+    ProgramReader reader(in.given, diagnostics, {});
     reader.take(feed_to(100, 0));
     reader.take({{}, gcode::Dwell{0.5}});
     const InputWait wait{3, false, WaitMode::high, 5};
@@ -90,32 +88,33 @@ TEST_CASE("a wait begins when the machine stands at its block, and holds the mac
     CHECK(reading.reached);
     CHECK(reading.value == 1);
     reader.take(feed_to(200, 100));
-    reader.finish();
+    const ReadProgram read = reader.finish();
     CHECK(diagnostics.list().empty());
-    REQUIRE(job.events.size() == 2);
-    CHECK(job.events[1].wait.reached);
-    CHECK(job.events[1].wait.waited_s == doctest::Approx(0.65));
-    CHECK(hold_time_s(job.events[1], job.machine.model) == doctest::Approx(0.65));
+    REQUIRE(read.events.size() == 2);
+    CHECK(read.events[1].wait.reached);
+    CHECK(read.events[1].wait.waited_s == doctest::Approx(0.65));
+    CHECK(hold_time_s(read.events[1], in.given.machine.model) == doctest::Approx(0.65));
   }
 }
 
 TEST_CASE("a wait that ends with its time is told, and the program goes on") {
-  Job job = make_job("", test_machine(1));
+  TestInputs in = make_inputs("", test_machine(1));
   Diagnostics diagnostics;
-  ProgramReader reader(job, diagnostics, {});
+  ProgramReader reader(in.given, diagnostics, {});
   const InputWait wait{3, false, WaitMode::rise, 2};
   reader.take({{}, wait});
   CHECK_FALSE(reader.read_input(wait).reached);
   REQUIRE(diagnostics.list().size() == 1);
   CHECK(diagnostics.list()[0].code == Code::wait_timed_out);
-  CHECK_FALSE(job.events[0].wait.reached);
-  CHECK(job.events[0].wait.waited_s == 2);
+  const ReadProgram read = reader.finish();
+  CHECK_FALSE(read.events[0].wait.reached);
+  CHECK(read.events[0].wait.waited_s == 2);
 }
 
 TEST_CASE("an output of M62 changes as the next motion begins, one of M64 at once and at rest") {
-  Job job = make_job("", test_machine(1));
+  TestInputs in = make_inputs("", test_machine(1));
   Diagnostics diagnostics;
-  ProgramReader reader(job, diagnostics, {});
+  ProgramReader reader(in.given, diagnostics, {});
   reader.take(feed_to(10, 0));
   reader.take(output(1, true, true));
   reader.take(output(2, true, true));
@@ -124,24 +123,26 @@ TEST_CASE("an output of M62 changes as the next motion begins, one of M64 at onc
   reader.take(feed_to(20, 10));
   reader.take(output(5, true, false));
   reader.take(output(6, true, true));  // no motion follows
-  reader.finish();
-  REQUIRE(job.events.size() == 4);
-  const auto digital_output = [&](std::size_t i) { return std::get<DigitalOutput>(job.events[i].block.action); };
-  CHECK(gcode::is<gcode::Dwell>(job.events[0].block));
+  const ReadProgram read = reader.finish();
+  REQUIRE(read.events.size() == 4);
+  const auto digital_output = [&](std::size_t i) {
+    return std::get<DigitalOutput>(read.events[i].block.action);
+  };
+  CHECK(gcode::is<gcode::Dwell>(read.events[0].block));
   CHECK(digital_output(1).number == 2);
-  CHECK(job.events[1].after_segment == 1);
+  CHECK(read.events[1].after_segment == 1);
   CHECK(digital_output(2).number == 1);
   CHECK_FALSE(digital_output(2).on);
   CHECK(digital_output(3).number == 5);
-  CHECK(job.path.segments[1].stop_at_end);
+  CHECK(read.path.segments[1].stop_at_end);
   REQUIRE(diagnostics.list().size() == 1);
   CHECK(diagnostics.list()[0].code == Code::output_without_motion);
 }
 
 TEST_CASE("a thread begins at rest, and the next cut of the same thread does not stop") {
-  Job job = make_job("", test_machine(1));
+  TestInputs in = make_inputs("", test_machine(1));
   Diagnostics diagnostics;
-  ProgramReader reader(job, diagnostics, {});
+  ProgramReader reader(in.given, diagnostics, {});
   const Block start{{}, gcode::SyncStart{1.5}}, stop{{}, gcode::SyncStop{}};
   reader.take(feed_to(10, 0));
   reader.take(start);
@@ -150,9 +151,9 @@ TEST_CASE("a thread begins at rest, and the next cut of the same thread does not
   reader.take(start);
   reader.take(feed_to(30, 20));
   reader.take(stop);
-  reader.finish();
-  CHECK(job.path.segments[0].stop_at_end);
-  CHECK_FALSE(job.path.segments[1].stop_at_end);
+  const ReadProgram read = reader.finish();
+  CHECK(read.path.segments[0].stop_at_end);
+  CHECK_FALSE(read.path.segments[1].stop_at_end);
 }
 
 TEST_CASE("a spline is one block of the log, of the plan and of the soft limits") {
@@ -161,17 +162,17 @@ TEST_CASE("a spline is one block of the log, of the plan and of the soft limits"
   REQUIRE(r.log.blocks.size() == 4);
   CHECK(r.log.blocks[2].motion == "spline");
   CHECK(r.log.blocks[2].text == "G5 X42 Y0 I0 J30 P0 Q-30");
-  CHECK(r.log.blocks[2].length_u == doctest::Approx(r.job.path.length_u() - 1 - 1 - 8).epsilon(1e-6));
+  CHECK(r.log.blocks[2].length_u == doctest::Approx(r.job->read.path.length_u() - 1 - 1 - 8).epsilon(1e-6));
   CHECK(r.log.blocks[2].programmed_u_s == 20);
   CHECK(r.log.blocks[3].block == 3);
-  CHECK(r.job.blocks == 4);
+  CHECK(r.job->read.blocks == 4);
   CHECK(r.summary.axis[0].end_u == 50);
 
   machine::MachineModel small = test_machine(2);
   small.axis[1].soft_max_u = 5;
-  Job job = make_job("G5 X42 Y0 I0 J30 P0 Q-30 F1200\nM2\n", small);
+  TestInputs in = make_inputs("G5 X42 Y0 I0 J30 P0 Q-30 F1200\nM2\n", small);
   Diagnostics diagnostics;
-  prepare(job, diagnostics, SoftLimitRule::warning);
+  in.prepare(diagnostics, SoftLimitRule::warning);
   CHECK(diagnostics.warnings() == 1);
 }
 
@@ -198,24 +199,24 @@ TEST_CASE("steps of a scenario stand on control ticks, and one between two ticks
   SourceSet sources;
   const auto scenario = read_scenario(folder.string(), sources);
   REQUIRE(scenario);
-  Job job;
+  TestInputs in;
   Diagnostics diagnostics;
-  REQUIRE(open_job(*scenario, job, diagnostics));
-  REQUIRE(job.inputs.size() == 2);
-  CHECK(job.inputs[0].tick.value == 3);
-  CHECK(job.inputs[0].number == 3);
-  CHECK(job.inputs[1].analog);
-  CHECK(job.inputs[1].value == -2.5);
-  REQUIRE(job.machine.model.stock);
-  CHECK(job.machine.model.stock->axis == 'Y');
-  CHECK(job.machine.model.stock->position_mm == 12);
+  REQUIRE(open_job(*scenario, in.given, in.sources, diagnostics));
+  REQUIRE(in.given.inputs.size() == 2);
+  CHECK(in.given.inputs[0].tick.value == 3);
+  CHECK(in.given.inputs[0].number == 3);
+  CHECK(in.given.inputs[1].analog);
+  CHECK(in.given.inputs[1].value == -2.5);
+  REQUIRE(in.given.machine.model.stock);
+  CHECK(in.given.machine.model.stock->axis == 'Y');
+  CHECK(in.given.machine.model.stock->position_mm == 12);
 
   std::ofstream(folder / "scenario.toml") << head << "[[step]]\nat_s = 0.0125\ninput = 3\nvalue = 1\n";
   SourceSet again;
   const auto between = read_scenario(folder.string(), again);
   REQUIRE(between);
-  Job refused;
-  CHECK_FALSE(open_job(*between, refused, diagnostics));
+  TestInputs refused;
+  CHECK_FALSE(open_job(*between, refused.given, refused.sources, diagnostics));
   CHECK(diagnostics.list()[0].code == Code::scenario_step);
   CHECK(diagnostics.list()[0].label == "is 12.5 control ticks of 0.001 s");
   CHECK(diagnostics.list()[0].help == "write at_s = 0.012 or 0.013");

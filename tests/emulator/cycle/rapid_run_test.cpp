@@ -32,16 +32,14 @@ struct Stop {
 /// @param off  by which the link's frequency differs from the one that the law was tuned to
 Stop stop_after(const machine::MachineModel& model, double off = 0.0) {
   RunResult r;
-  r.job = make_job("G21 G90\nG0 X1000\nG4 P0.8\nM2\n", model);
-  REQUIRE(emulator::prepare(r.job, r.diagnostics, emulator::SoftLimitRule::warning));
+  r.in = make_inputs("G21 G90\nG0 X1000\nG4 P0.8\nM2\n", model);
+  prepare_run(r);
   Stop stop;
-  if (!r.job.plan.positioned.empty()) stop.stated_um = 1e3 * r.job.plan.positioned[0].residual_u[0];
-  stop.time_s = r.job.plan.segments[0].end_time_s;
-  r.job.machine.model.axis[0].plant.link_stiffness_N_per_m *= (1 + off) * (1 + off);
-  emulator::RunHeader header;
-  header.machine = &r.job.machine.model;
-  REQUIRE(r.log.begin(header).has_value());
-  REQUIRE(emulator::run(r.job, &r.log, {}).has_value());
+  if (!r.job->planned.plan.positioned.empty())
+    stop.stated_um = 1e3 * r.job->planned.plan.positioned[0].residual_u[0];
+  stop.time_s = r.job->planned.plan.segments[0].end_time_s;
+  r.in.given.machine.model.axis[0].plant.link_stiffness_N_per_m *= (1 + off) * (1 + off);
+  run_prepared(r);
   const auto from = static_cast<std::size_t>((stop.time_s + 0.2) * 1000);
   for (std::size_t k = from; k < r.log.ticks.size(); ++k)
     stop.swing_um = std::max(stop.swing_um, 1e3 * std::fabs(r.log.ticks[k].axis[0].link_u));
@@ -69,15 +67,12 @@ TEST_CASE("a law tuned to the link's own frequency rings on a base that gives wa
   machine::MachineModel rigid = rig(RapidShape::t_zero);
   rigid.axis[0].plant.motor = machine::MotorModel::rigid;
   RunResult r;
-  r.job = make_job("G21 G90\nG0 X1000\nG4 P0.8\nM2\n", rigid);
-  REQUIRE(emulator::prepare(r.job, r.diagnostics, emulator::SoftLimitRule::warning));
-  r.job.machine.model.axis[0].plant.motor = machine::MotorModel::spring;
-  emulator::RunHeader header;
-  header.machine = &r.job.machine.model;
-  REQUIRE(r.log.begin(header).has_value());
-  REQUIRE(emulator::run(r.job, &r.log, {}).has_value());
+  r.in = make_inputs("G21 G90\nG0 X1000\nG4 P0.8\nM2\n", rigid);
+  prepare_run(r);
+  r.in.given.machine.model.axis[0].plant.motor = machine::MotorModel::spring;
+  run_prepared(r);
   double swing_um = 0;
-  for (auto k = static_cast<std::size_t>((r.job.plan.segments[0].end_time_s + 0.2) * 1000);
+  for (auto k = static_cast<std::size_t>((r.job->planned.plan.segments[0].end_time_s + 0.2) * 1000);
        k < r.log.ticks.size(); ++k)
     swing_um = std::max(swing_um, 1e3 * std::fabs(r.log.ticks[k].axis[0].link_u));
   CHECK(swing_um > 5 * stop_after(rig(RapidShape::t_zero)).swing_um);
@@ -103,7 +98,7 @@ TEST_CASE("the swing on the emulated rig is that of the closed form") {
     p.link_damping_Ns_per_m = 2 * zeta * std::sqrt(p.link_stiffness_N_per_m * p.link_mass_kg);
     RunResult r;
     run_program(r, "G21 G90\nG0 X3000\nG4 P0.2\nM2\n", m);
-    const double stated_u = r.job.plan.positioned.at(0).residual_u[0];
+    const double stated_u = r.job->planned.plan.positioned.at(0).residual_u[0];
     const auto residual = r.log.of_kind("residual");
     REQUIRE(!residual.empty());
     CHECK(stated_u > 0.005);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "machine/base/require.h"
+#include "planner/planner.h"
 #include "tests/support/run_program.h"
 #include "tests/support/test_machine.h"
 
@@ -22,11 +23,11 @@ using Damage = std::function<void(planner::FeedPlan&)>;
 
 /// What prepare() says when the planner's plan is damaged; empty if it takes the plan.
 std::string said_of(const std::string& program, const emulator::PlanFunction& plan) {
-  emulator::Job job = make_job(program, test_machine());
+  TestInputs in = make_inputs(program, test_machine());
   Diagnostics diagnostics;
   bool prepared = false;
   try {
-    prepared = emulator::prepare(job, diagnostics, emulator::SoftLimitRule::warning, plan);
+    prepared = in.prepare(diagnostics, emulator::SoftLimitRule::warning, plan).has_value();
   } catch (const BrokenPromise& e) {
     return e.what();
   }
@@ -204,10 +205,11 @@ TEST_CASE("curves are verified but for acceleration and jerk of those that turn 
   CHECK(said_of(tip, planner::plan).empty());
   // not exempt there: feed and the law itself
   CHECK(has(said_of_damage([](auto& p) { p.law.pieces[2].speed_u_s += 1e-3; }, tip), "continuity of speed"));
-  emulator::Job job = make_job(tip, test_machine());
+  TestInputs in = make_inputs(tip, test_machine());
   Diagnostics diagnostics;
-  REQUIRE(emulator::prepare(job, diagnostics));
-  CHECK(!planner::verify(job.path, job.plan, job.machine.model).empty());
+  auto job = in.prepare(diagnostics);
+  REQUIRE(job);
+  CHECK(!planner::verify(job->read.path, job->planned.plan, in.given.machine.model).empty());
 }
 
 TEST_CASE("rapids by laws of their own are sound beside quintic ramps, whose jerk alone may not jump") {
@@ -215,29 +217,33 @@ TEST_CASE("rapids by laws of their own are sound beside quintic ramps, whose jer
   machine::MachineModel machine = test_machine();
   machine.planner.law = machine::RampLaw::quintic;
   machine.planner.rapid_law = machine::RapidShape::zv;
-  emulator::Job job = make_job("G0 X20\nG1 X40 F3000\nG0 X0 Y10\nM2\n", machine);
+  TestInputs in = make_inputs("G0 X20\nG1 X40 F3000\nG0 X0 Y10\nM2\n", machine);
   Diagnostics diagnostics;
-  CHECK(emulator::prepare(job, diagnostics));
-  CHECK(job.plan.positioned.size() == 2);
+  auto job = in.prepare(diagnostics);
+  REQUIRE(job);
+  CHECK(job->planned.plan.positioned.size() == 2);
   // the same pieces under a feed move are none of quintic ramps
-  for (auto& segment : job.path.segments) segment.rapid = false, segment.feed_u_s = 110;
-  CHECK_THROWS_AS(emulator::require_sound_plan(job), BrokenPromise);
+  for (auto& segment : job->read.path.segments) segment.rapid = false, segment.feed_u_s = 110;
+  CHECK_THROWS_AS(emulator::require_sound_plan(in.given, in.sources, job->read, job->planned.plan),
+                  BrokenPromise);
 }
 
 TEST_CASE("a run ends with a broken promise where a node is more than half a step from the path") {
   // the path is moved by 0.7 steps of Y under the run's feet after 1000 control ticks; the next sample, every
   // 127th control tick, is the one that begins at 1.016 s
-  emulator::Job job = make_job("G21 G90 G94\nG1 X100 F3000\nM2\n", test_machine());
+  TestInputs in = make_inputs("G21 G90 G94\nG1 X100 F3000\nM2\n", test_machine());
   Diagnostics diagnostics;
-  REQUIRE(emulator::prepare(job, diagnostics));
+  auto job = in.prepare(diagnostics);
+  REQUIRE(job);
   emulator::RunOptions options;
   options.plant = false;
-  CHECK(emulator::run(job, nullptr, options).has_value());
+  CHECK(emulator::run(*job, nullptr, options).has_value());
   options.progress = [&](double, std::uint32_t, double) {
-    for (std::size_t i = 1; i < job.path.nodes_u.size(); i += 3) job.path.nodes_u[i] = 0.7 * 0.002;
+    for (std::size_t i = 1; i < job->read.path.nodes_u.size(); i += 3)
+      job->read.path.nodes_u[i] = 0.7 * 0.002;
   };
   CHECK_THROWS_WITH_AS(
-      emulator::run(job, nullptr, options),
+      emulator::run(*job, nullptr, options),
       "at every pulse the node is within half a step of the path: test.ngc:2: axis Y is 0.7 steps "
       "from it, allowed 0.500001, in the control tick that begins at 1.016000 s",
       BrokenPromise);
@@ -256,9 +262,9 @@ TEST_CASE("plans that take days are sound: their rounding is no fault") {
         for (auto& axis : machine.axis) axis.max_jerk_u_s3 = machine::kInfinity;
         for (const char* body : {"G1 X10 F{}\nG2 X30 I10 J0\n", "G1 X30 F{}\nG1 Y30\nG1 X0 Y0\n"}) {
           CAPTURE(feed);
-          emulator::Job job = make_job("G21 G90 G94\n" + fmt::format(fmt::runtime(body), feed), machine);
+          TestInputs in = make_inputs("G21 G90 G94\n" + fmt::format(fmt::runtime(body), feed), machine);
           Diagnostics diagnostics;
-          CHECK(emulator::prepare(job, diagnostics, emulator::SoftLimitRule::warning));
+          CHECK(in.prepare(diagnostics, emulator::SoftLimitRule::warning));
         }
       }
 }

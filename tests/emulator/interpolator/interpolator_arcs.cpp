@@ -85,7 +85,7 @@ TEST_CASE("a helix of 1000 turns has 1000 times the pulses of one turn and keeps
   maker.arc(0, 1, -1.0, 0.0, 1000 * 2 * kPi, 0.0, {0.0, 0.0, -50.0});
   const Run run =
       run_path(maker.path, machine, drive(maker.path.length_u(), 200.0, machine, Feed::linear, 1));
-  // radius 100 steps: 400 pulses a turn and axis
+  // radius 100 steps: 400 pulses per turn and axis
   CHECK(run.pulses == std::vector<std::int64_t>{400'000, 400'000, 5'000});
   check_ends(maker.path, machine, run);
 }

@@ -12,7 +12,7 @@ using emulator::lattice_node;
 
 namespace {
 
-/// Coordinates that hurt: anywhere, on nodes, on half-steps, unchanged, a hair beside.
+/// Difficult coordinates: anywhere, on nodes, on half-steps, unchanged, slightly off.
 double coordinate(Dice& dice, double from, double step_u, double reach_u) {
   switch (dice.whole(0, 5)) {
     case 0:

@@ -85,12 +85,12 @@ bool carries_multicast(const std::string& url) {
 pid_t start_player(const std::string& path, const std::string& url) {
   const pid_t id = ::fork();
   if (id != 0) return id;
-  // twice the simulated speed: a few hundred kilobytes a second
+  // twice the simulated speed: a few hundred kilobytes per second
   ::execlp("lcm-logplayer", "lcm-logplayer", "-s", "2", "-l", url.c_str(), path.c_str(), nullptr);
   ::_exit(127);
 }
 
-/// Receives until as many messages came as expected, or nothing has come for a second after `done` said yes.
+/// Receives until the expected number of messages came, or none for a second after `done` returned true.
 template <class Done>
 void receive_all(Receiver& receiver, std::size_t expected, Done&& done) {
   const auto give_up = Clock::now() + kPatience;

@@ -132,16 +132,16 @@ TEST_CASE("a scenario names its tool table and its dialect") {
   const auto s = read_scenario(folder.path(), sources);
   REQUIRE(s.has_value());
   CHECK(s->dialect == gcode::Dialect::grbl);
-  Job job;
+  JobInputs given;
   Diagnostics diagnostics;
-  REQUIRE(open_job(*s, job, diagnostics));
-  CHECK(job.reading.dialect == gcode::Dialect::grbl);
-  REQUIRE(job.reading.tools);
-  CHECK(job.reading.tools->find(1)->offset[2] == 10);
+  REQUIRE(open_job(*s, given, sources, diagnostics));
+  CHECK(given.reading.dialect == gcode::Dialect::grbl);
+  REQUIRE(given.reading.tools);
+  CHECK(given.reading.tools->find(1)->offset[2] == 10);
 
   folder.write("shop.tbl", "T1 P1 Z1,0\n");
-  Job refused;
-  CHECK_FALSE(open_job(*s, refused, diagnostics));
+  JobInputs refused;
+  CHECK_FALSE(open_job(*s, refused, sources, diagnostics));
   CHECK(diagnostics.list().back().code == Code::tool_table_number);
   folder.write("scenario.toml", head);
   const auto plain = read_scenario(folder.path(), sources);

@@ -38,7 +38,7 @@ bool agrees(const Curve& curve, Method method, const lattice::Polynomial& f,
     case Method::half_step:
     case Method::crossing:  // a circle's N is F' - 1/2, so 4 F' = 4 N + 2
       return at(f, places[0]) == (arc ? 4 * lattice::Wide{slot.tested} + 2 : lattice::Wide{slot.tested});
-    case Method::diagonal: {  // beside the neighbour along the longer axis: V = -2 F where that is X, 2 F
+    case Method::diagonal: {  // next to the neighbour along the longer axis: V = -2 F where that is X, 2 F
                               // where Y
       const auto& d = std::get<lattice::LineCurve>(curve).delta;
       const bool x_leads = lattice::magnitude(d[0]) >= lattice::magnitude(d[1]);
