@@ -31,13 +31,14 @@ int count(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("report, compare, export, plot, diff and info say once that they pass over a channel of a newer kadr") {
+TEST_CASE(
+    "report, compare, export, plot, diff and info say once that they pass over a channel of a newer kadr") {
   const Scratch scratch;
   scratch.write("a.lcmlog", newer_log());
   const std::string note = "channel KADR_SOMETHING is not known: it is passed over";
-  for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"report", "a.lcmlog", "--plain"}, {"export", "a.lcmlog", "--csv", "-o", "a.csv"},
-        {"plot", "a.lcmlog"}}) {
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"report", "a.lcmlog", "--plain"},
+                                                  {"export", "a.lcmlog", "--csv", "-o", "a.csv"},
+                                                  {"plot", "a.lcmlog"}}) {
     const Finished done = call(command, scratch.path());
     CAPTURE(command.front());
     CHECK(done.code == 0);
