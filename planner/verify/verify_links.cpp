@@ -38,8 +38,9 @@ void verify_link(VerifyContext& c, StatedJumps& jumps, const JerkPiece& p, const
   if (!(std::fabs(end.v + jump - q.speed_u_s) <= c.speed_tolerance(end.v, steep, time)))
     report("continuity of speed", end.v, q.speed_u_s);
   // acceleration may jump only where a segment at this place has no jerk limit
-  const double scale =
-      std::max(std::fabs(p.accel_u_s2), std::fabs(q.accel_u_s2)) + std::fabs(end.j) * p.duration_s;
+  // a piece may be far shorter than the control tick whose ramp it ends, and has the rounding of that ramp
+  const double ramp_s = std::max(p.duration_s, c.machine.clock.tau_s());
+  const double scale = std::max(std::fabs(p.accel_u_s2), std::fabs(q.accel_u_s2)) + std::fabs(end.j) * ramp_s;
   const double tolerance = c.options.relative_tolerance * scale + kAccelUlps * kUlp * time * std::fabs(end.j);
   if (!(std::fabs(end.a - q.accel_u_s2) <= tolerance) && c.jerk_limited_around(q.s_u))
     report("continuity of acceleration", end.a, q.accel_u_s2);
