@@ -53,7 +53,7 @@ std::vector<double> ride(const std::string& keys) {
   return places_u;
 }
 
-std::string refusal(const std::string& keys) {
+std::string most_override_refusal(const std::string& keys) {
   SourceSet sources;
   const auto scenario = scenario_with(keys, sources);
   if (scenario) return "";
@@ -76,11 +76,11 @@ TEST_CASE("most_override_pct prepares a run for more than its timeline asks for"
 }
 
 TEST_CASE("most_override_pct is 100 to 200, and no step is above it") {
-  CHECK(refusal("most_override_pct = 100\n").empty());
-  CHECK(refusal("most_override_pct = 200\n").empty());
-  CHECK(!refusal("most_override_pct = 99\n").empty());
-  CHECK(!refusal("most_override_pct = 201\n").empty());
-  CHECK(refusal("most_override_pct = 120\n[[step]]\nat_s = 1\noverride_pct = 150\n") ==
+  CHECK(most_override_refusal("most_override_pct = 100\n").empty());
+  CHECK(most_override_refusal("most_override_pct = 200\n").empty());
+  CHECK(!most_override_refusal("most_override_pct = 99\n").empty());
+  CHECK(!most_override_refusal("most_override_pct = 201\n").empty());
+  CHECK(most_override_refusal("most_override_pct = 120\n[[step]]\nat_s = 1\noverride_pct = 150\n") ==
         "an override of 150 % is above most_override_pct = 120; ");
-  CHECK(refusal("most_override_pct = 150\n[[step]]\nat_s = 1\noverride_pct = 150\n").empty());
+  CHECK(most_override_refusal("most_override_pct = 150\n[[step]]\nat_s = 1\noverride_pct = 150\n").empty());
 }
