@@ -8,6 +8,7 @@
 
 #include "gcode/block.h"
 #include "gcode/dialect/dialect.h"
+#include "gcode/read/text_resolver.h"
 #include "gcode/read/tool_table.h"
 #include "gcode/reading_bounds.h"
 #include "machine/base/diagnostic.h"
@@ -35,7 +36,9 @@ struct Reading {
   bool block_delete = false;  ///< skip lines that begin with '/'
   ReadingBounds bounds;
   std::vector<std::string> sub_folders;  ///< where called files are looked for after the program's own folder
-  std::optional<ToolTable> tools;        ///< none: tools have no length and no radius
+  /// Where called files come from instead, while the program is read; null: from the folders.
+  const TextResolver* called_files = nullptr;
+  std::optional<ToolTable> tools;  ///< none: tools have no length and no radius
 };
 
 struct InterpretOptions : Reading {

@@ -22,9 +22,9 @@ class RunMaker {
   const Run& run() const { return run_; }
   /// Writes it, to end at a prescribed time or, negative, as it is.
   void write(PieceWriter& writer, double end_time_s) const;
-  /// What the plan tells of a run that is a rapid of planner.rapid_law.
+  /// Plan entry of a run that is a rapid of planner.rapid_law.
   const std::optional<PositionedSegment>& positioned() const { return positioned_; }
-  /// What the elements last before they fill whole control ticks.
+  /// Duration of the elements before they fill whole control ticks.
   double time_s() const { return time_s_; }
   const WholeTicks& whole() const { return whole_; }
   std::optional<PlanError>& error() { return error_; }

@@ -44,7 +44,7 @@ double hold_time_s(const ProgramEvent& event, const machine::MachineModel& machi
                                                                     : 0.0;
   if (!(wish_s > 0) || !machine.planner.whole_ticks) return std::max(wish_s, 0.0);
   const double tau_s = machine.clock.tau_s();
-  // 1e-9: a dwell of whole ticks stays what it is although it was read from decimals
+  // 1e-9: a dwell of whole ticks stays whole although it was read from decimals
   return std::ceil(wish_s / tau_s - 1e-9) * tau_s;
 }
 

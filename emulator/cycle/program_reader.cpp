@@ -64,7 +64,7 @@ void ProgramReader::take_event(const Block& block) {
   if (const auto* wait = std::get_if<gcode::InputWait>(&block.action)) return take_wait(block, *wait);
   if (gcode::is<gcode::SyncStart>(block)) {
     sync_by_angle_ = true;
-    // a thread begins at rest, where the spindle's index is waited for; one that goes on does not stop
+    // a thread begins at rest, waiting for the spindle's index; one that continues does not stop
     if (!moved_by_angle_) builder_.stop();
   }
   if (gcode::is<gcode::SyncStop>(block)) sync_by_angle_ = false;
@@ -105,7 +105,7 @@ gcode::InputReading ProgramReader::read_input(const gcode::InputWait& wait) {
 }
 
 WaitOutcome ProgramReader::begin_wait(const gcode::InputWait& wait) {
-  // nothing moves after an error: what is waited for does not matter any more
+  // nothing moves after an error: waits don't matter any more
   if (diagnostics_.has_errors()) return {true, 0, 0};
   builder_.stop();
   return wait_for(wait, time_so_far_s(), given_.inputs, given_.machine.model.clock.tau_s());
@@ -113,7 +113,7 @@ WaitOutcome ProgramReader::begin_wait(const gcode::InputWait& wait) {
 
 double ProgramReader::time_so_far_s() {
   const machine::MachineModel& machine = given_.machine.model;
-  // a path that can't be planned is told when all of it is planned
+  // a path that can't be planned is reported when all of it is planned
   time_s_ += planner::motion_time_s(builder_.path(), machine, timed_segments_).value_or(0.0);
   timed_segments_ = builder_.path().size();
   for (; timed_events_ < events_.size(); ++timed_events_)
@@ -135,7 +135,7 @@ void ProgramReader::keep_output(const Block& block) {
   outputs_.push_back(block);
 }
 
-/// The place of an event is the number of the motion block that follows, until place_events().
+/// The position of an event is the number of the motion block that follows, until place_events().
 void ProgramReader::add_event(const Block& block) { events_.push_back({block, builder_.blocks()}); }
 
 /// From motion blocks to segments: a block may have none, or several.

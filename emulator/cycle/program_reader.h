@@ -9,7 +9,7 @@
 namespace kadr::emulator {
 
 /// Takes the blocks of a program as they are interpreted and lays them out along the path: moves make path,
-/// all else happens at its joints. Answers what an input reads while the program is still being read, from
+/// everything else happens at its joints. Answers the reading of an input while the program is still being read, from
 /// the planned time of all that came before.
 class ProgramReader {
  public:
@@ -41,10 +41,10 @@ class ProgramReader {
   std::vector<gcode::Block> outputs_;  ///< that change as the next motion begins
   bool sync_by_angle_ = false;         ///< moves follow the spindle's angle
   bool moved_by_angle_ = false;        ///< the last move did
-  double time_s_ = 0;                  ///< planned time of what is counted below
+  double time_s_ = 0;                  ///< planned time of the items counted below
   std::size_t timed_segments_ = 0;
   std::size_t timed_events_ = 0;
-  // the wait's block and the question what it reads come in either order: the first one keeps the answer
+  // the wait's block and the query for its reading come in either order: the first one keeps the answer
   std::optional<WaitOutcome> for_block_, for_program_;
 };
 

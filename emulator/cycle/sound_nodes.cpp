@@ -10,7 +10,7 @@ namespace kadr::emulator {
 
 void require_sound_nodes(ControlTicks control_tick, const CrossingInterpolator& interpolator,
                          const Job& job) {
-  // half a step, and what the moment of a slow crossing may be rounded by
+  // half a step, plus the rounding of the moment of a slow crossing
   constexpr double kMost_steps = 0.5 + 1e-6;
   const std::vector<double>& worst = interpolator.worst_node_error_steps();
   const auto axis = std::max_element(worst.begin(), worst.end());

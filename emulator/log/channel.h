@@ -89,8 +89,7 @@ constexpr bool well_formed() {
       }
       if (!counted) return false;
     }
-    // an appended field has bytes in every message: a reader that does not know it sees that something
-    // follows
+    // an appended field has bytes in every message: a reader that does not know it sees that something follows
     if (i >= C::first_fields && !has_bytes) return false;
     for (std::size_t j = 0; j < i; ++j)
       if (C::fields[j].name == field.name) return false;
@@ -123,8 +122,7 @@ struct Decoded {
   bool newer = false;  ///< fields follow that this version does not know; they were passed over
 };
 
-/// Number of fields of a message with that fingerprint; 0: none of ours. A message of an older kadr has the
-/// first ones.
+/// Number of fields of a message with that fingerprint; 0: none of ours. A message of an older kadr has the first ones.
 template <class R>
 std::size_t fields_of(std::int64_t print) {
   for (std::size_t i = 0; i < kFingerprints<R>.size(); ++i)

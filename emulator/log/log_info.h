@@ -23,7 +23,7 @@ struct LogInfo {
   LogHeader header;
   std::vector<ChannelInfo> channels;           ///< in the order of their first message
   std::uint64_t file_hash = 0;                 ///< XXH3 of the file's bytes
-  std::int64_t first_tick = 0, last_tick = 0;  ///< span of what is valid
+  std::int64_t first_tick = 0, last_tick = 0;  ///< span of the valid part
   double span_s = 0;
   std::int64_t control_ticks = 0;    ///< in KADR_TICKS, or KADR_STEPS if those are off
   std::vector<std::int64_t> pulses;  ///< [axes] counted in KADR_STEPS

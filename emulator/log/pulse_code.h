@@ -52,8 +52,7 @@ struct PulseCounts {
 };
 
 /// Decodes one axis of a block into batches[0 .. ticks), which are cleared at that axis first.
-/// @return the reason why the bytes are no valid code (cut varint, time running back or beyond the block,
-/// ...)
+/// @return the reason why the bytes are no valid code (cut varint, time running back or beyond the block, ...)
 tl::expected<void, std::string> decode_pulses(std::span<const std::uint8_t> code, const PulseCounts& counts,
                                               std::span<StepBatch> batches, std::size_t axis);
 

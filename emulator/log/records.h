@@ -13,8 +13,8 @@ namespace kadr::machine {
 struct MachineModel;
 }
 
-/// What the cycle reports to the log, in tick order; a pure function of the inputs: no clock, address, locale or
-/// thread.
+/// What the cycle reports to the log, in tick order; a pure function of the inputs: no
+/// clock, address, locale or thread.
 namespace kadr::emulator {
 
 /// First message: everything needed to run again and to compare.
@@ -46,7 +46,7 @@ struct BlockRecord {
   ControlTicks deferred_ticks{};  ///< that an override has waited for the motion before it
 };
 
-/// What a motion block did, at the first control tick at which another block has begun; only for blocks that
+/// Result of a motion block, at the first control tick at which another block has begun; only for blocks that
 /// were under way at the end of at least one control tick.
 struct BlockEndRecord {
   Ticks tick;
@@ -65,7 +65,7 @@ struct TickRecord {
   const TickMotion* motion = nullptr;
   const std::vector<std::int64_t>* position_steps = nullptr;  ///< [axes]
   const std::vector<AxisState>* axis = nullptr;               ///< [axes]; null without plant
-  bool has_override = false;  ///< the run has steps of operator or spindle: what they ask for is kept
+  bool has_override = false;  ///< the run has steps of operator or spindle: their requests are kept
 };
 
 /// Something that happened at a tick.

@@ -45,8 +45,7 @@ struct LcmLogOptions {
 
 /// LCM event log with simulated time stamps (docs/log_format.md). Encodes and writes on the calling thread;
 /// each whole block of log.block_ticks control ticks is handed to the kernel at once, so that a kill loses no
-/// more than the block under way. After an error every call gives that error again and nothing more is
-/// written.
+/// more than the block under way. After an error every call gives that error again and nothing more is written.
 tl::expected<std::unique_ptr<RunLog>, LogError> open_lcm_log(const LcmLogOptions& options);
 
 }  // namespace kadr::emulator

@@ -35,7 +35,9 @@ inline constexpr machine::PlainKey kDialect{"dialect", "one of --dialect", "\"li
 inline constexpr NumberKey kScenarioFormat{
     "format", {1, 1e6, false, true}, "edition of the file's format: 1"};
 inline constexpr NumberKey kMostOverride{
-    "most_override_pct", {100, 200}, "highest override that the run is prepared for; without it that of the steps"};
+    "most_override_pct",
+    {100, 200},
+    "highest override that the run is prepared for; without it that of the steps"};
 inline constexpr std::array kScenarioTexts{kScenarioName, kSummary, kProgram, kMachine, kTools, kDialect};
 
 // where a technology point lies, beside `on` and `max_mm_s` of the machine file

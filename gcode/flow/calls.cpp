@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
+#include <utility>
 
 #include "gcode/flow/flow.h"
-#include "gcode/read/sub_file.h"
 
 namespace kadr::gcode {
 namespace {
@@ -92,28 +91,19 @@ bool Flow::load(std::int32_t name, Span place) {
   const auto loaded =
       std::find_if(units_.begin(), units_.end(), [&](const auto& u) { return u->name == text; });
   if (loaded != units_.end()) return false;  // already reported
-  const SubFile file = find_sub_file(text, folders_);
-  if (!file.refusal.empty()) {
-    error(problem(Code::sub_file, place, file.refusal,
-                  "put the file below the program's folder, or name its folder with --subs"));
+  FoundText found = called_.find(text);
+  if (!found.refusal.empty()) {
+    error(problem(Code::sub_file, place, std::move(found.refusal), std::move(found.help)));
     return false;
   }
-  if (file.path.empty()) {
+  if (!found.text) {
     Diagnostic d = problem(Code::sub_not_found, place, fmt::format("there is no {}", label_text(name)));
-    std::string looked;
-    for (const std::string& folder : file.looked) looked += (looked.empty() ? "" : ", ") + folder;
-    d.notes.push_back(looked.empty() ? "a program from standard input has no folder; --subs names one"
-                                     : fmt::format("kadr looked for {}.ngc in {}", text, looked));
+    d.notes.push_back(std::move(found.looked));
     error(std::move(d));
     return false;
   }
-  try {
-    const std::uint32_t index = sources_.add(SourceText::open(file.path));
-    return size_allowed(index) && add_unit(index, text);
-  } catch (const std::system_error& e) {
-    error(problem(Code::sub_file, place, fmt::format("{}: {}", file.path, e.code().message())));
-    return false;
-  }
+  const std::uint32_t index = sources_.add(std::move(*found.text));
+  return size_allowed(index) && add_unit(index, text);
 }
 
 bool Flow::enter(Target target, bool by_code, Span place, const std::vector<double>& arguments) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "machine/base/require.h"
 
@@ -18,11 +17,10 @@ Flow::Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& optio
       report_(report),
       interpreter_(interpreter),
       state_(interpreter.state()),
+      beside_(FolderTexts::beside(sources[file].name(), options.sub_folders)),
+      called_(options.called_files ? *options.called_files : beside_),
       end_{file, 1, 1, 1} {
   report_.set_call_chain(&places_);
-  const std::filesystem::path program = sources[file].name();
-  if (program != "-") folders_.push_back(program.has_parent_path() ? program.parent_path().string() : ".");
-  folders_.insert(folders_.end(), options.sub_folders.begin(), options.sub_folders.end());
 }
 
 void Flow::run() {

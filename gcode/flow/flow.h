@@ -5,6 +5,7 @@
 #include "gcode/flow/structure.h"
 #include "gcode/interpret/interpreter.h"
 #include "gcode/read/program.h"
+#include "gcode/read/text_resolver.h"
 
 namespace kadr::gcode {
 
@@ -86,7 +87,8 @@ class Flow {
   State& state_;
   Evaluator evaluator_;
   std::vector<std::unique_ptr<Unit>> units_;
-  std::vector<std::string> folders_;
+  FolderTexts beside_;          ///< the program's folder, and those of the options
+  const TextResolver& called_;  ///< where called files come from
   Unit* unit_ = nullptr;
   std::vector<Call> calls_;
   std::vector<Span> places_;  ///< [calls], where each was made

@@ -36,10 +36,10 @@ struct SegmentPlan {
   double peak_u_s = 0;      ///< F_HK of paper 003: highest speed of s on the segment
   double end_u_s = 0;       ///< F_KK: speed at its end
   double kl = 1;            ///< factor in both of them, <= 1; below 1 with TickRule::scale only
-  double end_jump_u_s = 0;  ///< speed just behind its end less end_u_s; not 0 only beside a kl
+  double end_jump_u_s = 0;  ///< speed just after its end minus end_u_s; not 0 only next to a kl
   double begin_time_s = 0;  ///< since the law's beginning
   double end_time_s = 0;
-  LimitedBy limited_by = LimitedBy::program;  ///< what held the peak
+  LimitedBy limited_by = LimitedBy::program;  ///< limit of the peak
   std::int8_t limiting_axis = -1;             ///< machine axis, or -1
   TickRule rule = TickRule::none;
 };
@@ -71,7 +71,7 @@ struct JerkPiece {
 };
 
 /// s(t), ds/dt >= 0, from rest to rest; s and ds/dt continuous, d2s/dt2 too where every jerk limit is finite;
-/// but for the jumps of ds/dt that the table states (SegmentPlan::end_jump_u_s).
+/// except for the jumps of ds/dt that the table states (SegmentPlan::end_jump_u_s).
 /// Consecutive runs (rest to rest) follow each other without a gap; `pause` pieces (speed 0) are allowed.
 struct MotionLaw {
   std::vector<JerkPiece> pieces;  ///< ascending in time, without gaps
@@ -86,8 +86,8 @@ struct PositionedSegment {
   std::uint32_t segment = 0;
   machine::RapidShape shape = machine::RapidShape::scurve;  ///< never automatic; scurve: nothing there rings
   std::string_view reason;                                  ///< of an automatic choice, else empty
-  double loss_s = 0;                                        ///< over the fastest way within the limits
-  std::array<double, kProgramAxes> residual_u{};  ///< [machine axes] amplitude that is left to swing
+  double loss_s = 0;                                        ///< over the fastest motion within the limits
+  std::array<double, kProgramAxes> residual_u{};  ///< [machine axes] amplitude of the remaining vibration
 };
 
 /// A standstill that the program asks for where the path rests: a dwell, a tool change, a wait.

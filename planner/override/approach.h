@@ -15,7 +15,7 @@ struct Approach {
   double flare_jerk = 0;  ///< during it
   RampLimits limits{0, 0};
   double virtual_u_s = 0;  ///< speed at which the ramp would have begun with a = 0
-  double done_s = 0;       ///< time of it that lies behind
+  double done_s = 0;       ///< elapsed time of it
   double end_u = 0;        ///< s at its end
 
   /// Takes limits for the ramp to w. @return whether the present acceleration fits into it

@@ -41,7 +41,7 @@ const Valley* FeedTracker::broken(double w, const std::vector<Valley>& valleys) 
   const double end_u = approach_to(w).end_u;
   for (const Valley& q : valleys) {
     if (!below(q.cap_u_s, w)) continue;
-    // from a valley that is not tight the way leads from valley to valley
+    // from a valley that is not tight the motion leads from valley to valley
     if (!q.tight) return braking_fits(end_u, w, q) ? nullptr : &q;
     if (terrain_.passes_above(w, end_u, q, following(q), scale_)) return &q;
   }
@@ -84,7 +84,7 @@ double FeedTracker::highest(double low, double high) {
   if (guarded) collect_hard();
   const auto breaks = [&](double w) { return broken(w, valleys_) || (guarded && broken(w, hard_)); };
   if (!breaks(high)) return high;
-  allowed_u_ = 0.0;  // what rounding takes is left to later decisions on the same way
+  allowed_u_ = 0.0;  // rounding errors are left to later decisions on the same ramp
   for (int i = 0; i < kWayHalvings; ++i) {
     const double w = 0.5 * (low + high);
     if (w <= low || w >= high) break;
@@ -94,10 +94,10 @@ double FeedTracker::highest(double low, double high) {
   return low;
 }
 
-/// Takes the state, and the percent where nothing makes it wait.
+/// Takes the state, and the override unless something makes it wait.
 void FeedTracker::begin_decision() {
   if (!way_.over()) limits_ = way_.now().limits;
-  // a locked move that stands begins with the percent that it finds
+  // a locked move that starts from rest begins with the override in force
   const bool moves_freely = !terrain_.locked(segment_) || state_.speed_u_s == 0.0;
   if (moves_freely) {
     percent_ = wanted_;
@@ -127,7 +127,7 @@ void FeedTracker::look_ahead(double fastest) {
   terrain_.thin_out(valleys_, scale_);
 }
 
-/// @return false: another way would overrun a hard valley, nothing was decided
+/// @return false: another ramp would overrun a hard valley, nothing was decided
 bool FeedTracker::decide(bool may_refuse) {
   begin_decision();
   const double cap = stopping_ ? 0.0 : std::min(terrain_.cap_u_s(2 * segment_ + 1, percent_), ceiling_u_s_);
@@ -207,7 +207,7 @@ void FeedTracker::hold_and_brake(double w, double now_u, const RampLimits& limit
   if (until_u > end_u && w > 0.0) way_.add((until_u - end_u) / w, 0.0, limits, why, false);
   way_.end_at(std::max(until_u, end_u), 0);
   if (rise_u < brake_u || !brakes) {
-    // a joint: which one is found by its place
+    // a joint: identified by its position
     const double s = way_.end().s_u;
     const std::size_t after = terrain_.segment_at(s, here);
     return way_.end_at(s, terrain_.path().start_s_u[after] == s && after > here ? 2 * after : 0);

@@ -54,7 +54,7 @@ void FeedTracker::set_percent(const Percent& percent) {
   wanted_ = percent;
   const bool same = wanted_.feed == percent_.feed && wanted_.rapid == percent_.rapid;
   if (ended_ || same || braking() || locked() || stopping_) return;
-  // the way that was decided keeps every hard cap; it is left only for another one that does
+  // the current decision keeps every hard cap; it is replaced only by another one that does
   kept_ = way_;
   const Percent percent_before = percent_;
   const double scale_before = scale_;
@@ -81,8 +81,7 @@ void FeedTracker::advance(double time_s) {
       segment_ = terrain_.segment_at(state_.s_u, segment_);
       const double end_u = terrain_.path().start_s_u[run_end_joint_];
       if (state_.s_u <= end_u * (1.0 + kEndRounding) + kEndSlack_u) return;
-      // multiplying the diagram by an override that changes guarantees nothing: the path ends, and with it
-      // the motion
+      // multiplying the diagram by an override that changes guarantees nothing: the path ends, and with it the motion
       require(terrain_.proportional(), "the feed tracker stops at the end of its run");
       state_ = {end_u, 0.0, 0.0, 0.0};
       enter(2 * run_end_joint_);
@@ -94,7 +93,7 @@ void FeedTracker::advance(double time_s) {
       segment_ = terrain_.segment_at(state_.s_u, segment_);
       continue;
     }
-    // a feed that was limited when it began to brake is not limited behind that
+    // a feed that was limited when it began to brake is not limited after that
     if (!way_.empty() && way_.last().braking) ceiling_u_s_ = kInfinity;
     state_ = way_.end();
     enter(way_.end_place());

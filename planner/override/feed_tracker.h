@@ -28,18 +28,18 @@ class FeedTracker {
 
   /// Takes over at a state on a segment's run.
   /// @param jerk_u_s3     with which the present acceleration can be brought to 0 in time; > 0, may be inf
-  /// @param ceiling_u_s   no faster than this, besides all caps, until it has braked for a valley
+  /// @param ceiling_u_s   no faster than this, in addition to all caps, until it has braked for a valley
   /// @return false: while it moves, this override can't be followed from there without overrunning a hard cap
   bool start(std::size_t segment, const MotionState& state, const Percent& percent, double jerk_u_s3,
              double ceiling_u_s = machine::kInfinity);
   /// The override from now on. It waits while the tracker brakes for a valley or the move is locked, and
   /// while a way that follows it would overrun a hard cap that the decided one keeps.
   void set_percent(const Percent& percent);
-  /// Stops as fast as the ramp goes, whatever is under way.
+  /// Stops as fast as the ramp allows, whatever is under way.
   void stop_now();
   /// Moves on by a time, s.
   void advance(double time_s);
-  /// Appends what is run from now on to a law, so that verify() can look at it; nullptr: no more.
+  /// Appends the motion from now on to a law, so that verify() can check it; nullptr: no more.
   void record(MotionLaw* law) { record_ = law; }
 
   const MotionState& state() const { return state_; }
@@ -77,7 +77,7 @@ class FeedTracker {
   void enter(std::size_t place);
 
   const FeedTerrain& terrain_;
-  double slack_u_;    ///< places that s can't tell apart
+  double slack_u_;    ///< positions that s can't tell apart
   double allowed_u_;  ///< by how much a braking may miss its valley
   Percent percent_, wanted_;
   MotionState state_{};
@@ -89,14 +89,14 @@ class FeedTracker {
   bool ended_ = true, stopping_ = false;
 
   FeedWay way_;                   ///< under way and decided
-  FeedWay kept_;                  ///< while another way is looked for
+  FeedWay kept_;                  ///< while another ramp is looked for
   FeedWay trial_;                 ///< of a ramp that is only looked at
   std::vector<Valley> valleys_;   ///< under the override
   std::vector<Valley> hard_;      ///< whatever the override, and
   std::vector<Valley> all_hard_;  ///< with those that any braking passes below
   double fastest_u_s_ = 0;        ///< that the present decision can come to
   std::size_t run_end_joint_ = 0;
-  double seen_u_ = 0;  ///< up to here a hold is safe from valleys that were not looked at
+  double seen_u_ = 0;  ///< up to here a hold is safe from valleys that were not checked
 };
 
 }  // namespace kadr::planner

@@ -46,7 +46,7 @@ void FeedWay::add(const Approach& way, double w, const RampLimits& held, const S
   const double sign = w >= way.virtual_u_s ? 1.0 : -1.0;
   const double A = way.limits.accel_u_s2, J = way.limits.jerk_u_s3;
   if (way.done_s == 0.0 && same_speed(way.virtual_u_s, w)) {
-    // nothing to do but what rounding leaves
+    // only a rounding residue is left
   } else if (!(J < machine::kInfinity)) {
     end_.accel_u_s2 = sign * A;
     add(dv / A, 0.0, way.limits, why, braking);

@@ -10,7 +10,7 @@
 namespace kadr::planner {
 namespace {
 
-constexpr double kSameTime_s = 1e-9;  ///< the law stands at a place of its own but for rounding
+constexpr double kSameTime_s = 1e-9;  ///< the law is at a position of its own up to rounding
 
 PathLimitTable caps_of(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
                        double most_percent) {
@@ -19,13 +19,13 @@ PathLimitTable caps_of(const Path& path, const FeedPlan& plan, const machine::Ma
   auto table = limit_table(path, machine, mode == OverrideMode::corrected_plus ? most_percent : 1.0);
   require(table.has_value(), "a path that was planned has limits");
   // a time law's own speeds are never exceeded. Eq. 7 and 8 by the letter: with F_HK and F_KK of blocks that
-  // end without acceleration; ramps that run over many blocks have no such numbers, there F itself is what is
-  // never exceeded
+  // end without acceleration; ramps that run over many blocks have no such numbers, there F
+  // itself is what is never exceeded
   const bool time_law = machine::facts(machine.planner.method).is_law;
   const bool by_block =
       mode == OverrideMode::corrected && machine.planner.scheduler == machine::SchedulerKind::blockwise;
   if (!time_law && !by_block) return std::move(*table);
-  // nor does what follows them keep a jerk that they do not
+  // nor do the ramps that follow them keep a jerk that they do not
   if (!machine.planner.keeps_jerk())
     std::fill(table->jerk_u_s3.begin(), table->jerk_u_s3.end(), machine::kInfinity);
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -78,7 +78,7 @@ OverrideSource::OverrideSource(const Path& path, const FeedPlan& plan, const mac
 
 bool OverrideSource::finished() const { return !tracking_ && !slow_source_ && law_.finished(); }
 
-/// A pause, or the end: nothing that a percent would change.
+/// A pause, or the end: nothing that an override would change.
 bool OverrideSource::law_rests() const {
   const JerkPiece& piece = plan_.law.pieces[law_.piece()];
   return piece.speed_u_s == 0.0 && piece.accel_u_s2 == 0.0 && piece.jerk_u_s3 == 0.0;
@@ -189,7 +189,7 @@ TickMotion OverrideSource::advance(const OperatorInput& input) {
     if (!law_rests()) {
       const bool moving = law_.state().speed_u_s > 0.0;
       if (input.emergency_stop) {
-        leave_law(law_, plan_.law, Percent{});  // whatever way it would go: it stops at once
+        leave_law(law_, plan_.law, Percent{});  // whatever it was doing: it stops at once
         tracking_ = true;
       } else if (moving && terrain_.locked(segment_)) {
         note = OverrideNote::locked;
@@ -247,7 +247,7 @@ void OverrideSource::advance_tracker(TickMotion& m, const Percent& percent, bool
   if (tracker_.run_ended()) return_to_law(tracker_.segment());
 }
 
-/// The tracker goes on from the motion as it is.
+/// The tracker continues from the current motion.
 void OverrideSource::take_back(const Percent& percent) {
   limited_ = false;
   limit_ = {};
@@ -313,7 +313,7 @@ LimitedFeed OverrideSource::limiter_at(double s_u, double feed_u_s) {
   return limited_feed(machine_, tangent_, feed_u_s);
 }
 
-/// Shape of the tick, and what the next one begins with.
+/// Shape of the tick, and the state for the next one.
 void OverrideSource::finish_tick(TickMotion& m) {
   const double tau = machine_.clock.tau_s();
   s_u_ = m.s_end_u;

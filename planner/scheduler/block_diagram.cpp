@@ -10,7 +10,7 @@ namespace {
 
 // a time that is whole but for this share is taken as whole
 constexpr double kWhole = 1e-12;
-// holds shorter than this share of their block are rounding noise noise
+// holds shorter than this share of their block are rounding noise noise noise
 constexpr double kNoHold = 1e-14;
 // ramps by less than this share of their speed are the last bits of a bisection
 constexpr double kNoRamp = 1e-13;

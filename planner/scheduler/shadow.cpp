@@ -59,7 +59,7 @@ void ramp_at(const Anchor& p, const Anchor& q, RampLimits l, double fraction, do
   s = rising ? p.s + from_low : q.s - from_low;
 }
 
-/// The same question for a few places, between two fractions of the ramp's time: each by the speed with
+/// The same for a few places, between two fractions of the ramp's time: each by the speed with
 /// which the ramp comes to its higher end.
 bool below_each_cap(const ValleyRamps& r, const Anchor& p, const Anchor& q, RampLimits limits, double t0,
                     double t1, std::size_t from, std::size_t to) {

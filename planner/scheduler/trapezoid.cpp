@@ -49,7 +49,7 @@ void plan_trapezoids(const Path& path, const PathLimitTable& table, const Run& r
     const RampLimits limits{a, machine::kInfinity};
     double up = (peak * peak - v2[i]) / (2.0 * a);
     double down = (peak * peak - v2[i + 1]) / (2.0 * a);
-    // one ramp fills the segment but for rounding: no peak of its own
+    // one ramp fills the segment up to rounding: no separate peak
     const double length = end - s;
     if (up >= length * (1.0 - 1e-14))
       up = length, down = 0.0;

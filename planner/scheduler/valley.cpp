@@ -23,8 +23,7 @@ struct Task {
 /// Speeds closer than this ratio are one level: no ramps between caps that differ by rounding.
 constexpr double kSame = 1.0 + 1e-9;
 constexpr int kPeakHalvings = 50;  ///< of a speed range: to its last bits
-/// Limits that differ by less than this inside a region are taken as their minimum when two ramps meet below
-/// the level.
+/// Limits that differ by less than this inside a region are taken as their minimum when two ramps meet below the level.
 constexpr double kUniformEnough = 1.25;
 /// Every region is cut at a place of its own or raised by 1 %, so these bounds are far away.
 constexpr std::size_t kLeastRounds = 1000, kRoundsPerSegment = 64;
@@ -72,7 +71,7 @@ class ValleyPlanner::Impl {
   }
 
   void push_region(const Anchor& a, const Anchor& b, const Ramp& direct) {
-    // two anchors that s can't tell apart: a ramp shorter than the last bit of s, or nothing
+    // two anchors at the same s: a ramp shorter than the last bit of s, or nothing
     if (b.s > a.s)
       stack_.push_back({Task::Kind::region, a, b, direct});
     else if (a.v != b.v)
@@ -96,8 +95,7 @@ class ValleyPlanner::Impl {
     require(place <= last, "the lowest cap of a region is found in it");
     const Anchor up_end = r_.anchor_after(a, up.length, m, b);
     const Anchor down_begin = r_.anchor_before(b, down.length, m, a);
-    // ramps to a higher level are everywhere faster, so a place that these ramps leave at m can't be in a
-    // shadow
+    // ramps to a higher level are everywhere faster, so a place that these ramps leave at m can't be in a shadow
     const bool shadowed = r_.begin_of(place) < up_end.s || r_.begin_of(place) > down_begin.s;
     if (m > b.v && last > first && shadowed && use_shadows(a, b, m)) return;
 
@@ -116,7 +114,7 @@ class ValleyPlanner::Impl {
     }
   }
 
-  /// The region's lowest cap m is the speed at a: keep it along the places that have it, go on behind them.
+  /// The region's lowest cap m is the speed at a: keep it along the places that have it, continue after them.
   void hold_level(const Anchor& a, const Anchor& b, const Ramp& direct) {
     const double m = a.v;
     const Anchor down_begin = b.v < m ? r_.anchor_before(b, direct.length, m, a) : b;

@@ -11,7 +11,7 @@ namespace kadr::planner {
 ///
 /// The valley rule, on a region between two anchors (s_A, v_A), (s_B, v_B) where no cap inside is below
 /// either speed: let m be the lowest cap inside. If two ramps meet below m, that peak is the answer.
-/// Otherwise the level m is reached, and the region falls apart at the places whose cap is m: outer parts
+/// Otherwise the level m is reached, and the region splits at the places whose cap is m: outer parts
 /// keep one anchor, inner parts have (m, m).
 ///
 /// A ramp that is still below m when it passes such a place x leaves it in its shadow. Then the level is w,

@@ -7,8 +7,7 @@
 
 namespace kadr::planner {
 
-/// A point of the plan where acceleration is zero. `place` is the joint (even) or segment (odd) in which s
-/// lies.
+/// A point of the plan where acceleration is zero. `place` is the joint (even) or segment (odd) in which s lies.
 struct Anchor {
   double s = 0;
   double v = 0;

@@ -41,8 +41,7 @@ struct PlateauShape {
   }
   /// Limits of a ramp between v and a plateau lowered from w0 to w. A quintic ramp keeps its time: a shorter
   /// one would begin steeper and could pass a cap that the higher ramp keeps below. With the same time it is
-  /// slower at every place: r w(t') <= w(t) where r W(t') <= W(t) and t' >= t, as W, the path above v, is
-  /// log-concave.
+  /// slower at every place: r w(t') <= w(t) where r W(t') <= W(t) and t' >= t, as W, the path above v, is log-concave.
   RampLimits lowered(RampLimits l, double v, double w) const {
     if (l.law != machine::RampLaw::quintic || !(w0 > v)) return l;
     l.accel_u_s2 *= (w - v) / (w0 - v);
@@ -59,8 +58,7 @@ PlateauShape shape_of(const std::vector<Element>& run, const Plateau& p) {
   return {up.v0_u_s, down.v1_u_s, up.v1_u_s, length, up.limits, down.limits};
 }
 
-/// The longest plateau (in path) that can be lowered, keeping its anchors, so far that it lasts `more_s`
-/// longer.
+/// The longest plateau (in path) that can be lowered, keeping its anchors, so far that it lasts `more_s` longer.
 Plateau longest_plateau(const std::vector<Element>& run, double more_s) {
   Plateau best;
   double best_length = 0.0;
@@ -90,11 +88,10 @@ void lower_plateau(std::vector<Element>& run, const Plateau& p, double more_s) {
     const double w = 0.5 * (low + high);
     (shape.time_s(w) >= wanted ? low : high) = w;
   }
-  const double w = high;  // not longer than wanted: what is left is at most the last bits
+  const double w = high;  // not longer than wanted: at most the last bits remain
   Element& up = run[p.up];
   Element& down = run[p.down];
-  // lengths are kept relative, so that a slow run far along the path does not lose its time to the last bits
-  // of s
+  // lengths are kept relative, so that a slow run far along the path does not lose its time to the last bits of s
   const double before = up.length_u;
   const double behind = down.length_u;
   up.limits = shape.lowered(up.limits, shape.v0, w);
@@ -110,7 +107,7 @@ void lower_plateau(std::vector<Element>& run, const Plateau& p, double more_s) {
 }
 
 double whole_number(double time, double tau_s) {
-  // times that are whole but for rounding are taken as whole
+  // times that are whole up to rounding count as whole
   const double ticks = std::max(std::ceil(time / tau_s * (1.0 - 1e-12)), 1.0);
   require(ticks < 9e15, "a run's number of control ticks fits an integer");
   return ticks;

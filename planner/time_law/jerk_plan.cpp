@@ -114,8 +114,8 @@ class JerkPlanner {
     return k;
   }
 
-  /// On both sides, so that the steepness of both keeps its relation; where a node has little left, those
-  /// beside it have to help.
+  /// Lowers both sides by the same ratio; neighbours take over what a nearly exhausted
+  /// node cannot.
   void lower_jerk(std::size_t node, double factor) {
     if (!(factor > 1.0)) return;
     std::size_t first = node, last = node;

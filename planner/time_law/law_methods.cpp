@@ -88,8 +88,7 @@ LawResult solve_tube(const LawProblem& problem, const machine::MachineModel& mac
   TubeDp tube(options);
   LawResult law = tube.solve(problem);
   if (law) return law;
-  // levels over the whole range can be too coarse for short intervals: then the tube begins round the time
-  // optimum
+  // levels over the whole range can be too coarse for short intervals: then the tube begins round the time optimum
   LawResult known = GreedyOptimum().solve(problem);
   if (!known) return known;
   const double fastest = *std::max_element(known->speed_u_s.begin(), known->speed_u_s.end());

@@ -25,8 +25,7 @@ struct LawWork {
   double jerk_rows = 0;    ///< limits that each of some hundred tangents looks at
 };
 
-/// A law of machine::kLawMethods: for study as a solver of any LawProblem, and for plan() as a planner of
-/// runs.
+/// A law of machine::kLawMethods: for study as a solver of any LawProblem, and for plan() as a planner of runs.
 struct LawMethod {
   machine::PlanMethod method;
   /// @pre `jerk_u_s3` is given, where the method needs it

@@ -25,8 +25,7 @@ enum class RunLimits : std::uint8_t { axes, path };
 RunProblem run_problem(const Path& path, const PathLimitTable& table, const Run& run,
                        const machine::MachineModel& machine, RunLimits limits = RunLimits::axes);
 
-/// Penalty of a run of that length: as much a millimetre as in paper 000, whose path was one stretch of
-/// 2846.9 mm.
+/// Penalty of a run of that length: as much a millimetre as in paper 000, whose path was one stretch of 2846.9 mm.
 Penalty run_penalty(double length_u);
 
 /// K4008: a run without a time law, with its place.

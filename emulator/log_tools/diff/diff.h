@@ -3,5 +3,5 @@
 #include "emulator/log_tools/diff/log_diff.h"
 #include "emulator/log_tools/diff/path_diff.h"
 
-/// Two logs side by side: by control tick (log_diff.h) or by path length (path_diff.h), rendered by diff_report.h
-/// (docs/diff.md).
+/// Two logs side by side: by control tick (log_diff.h) or by path length
+/// (path_diff.h), rendered by diff_report.h (docs/diff.md).

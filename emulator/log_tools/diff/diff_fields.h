@@ -63,8 +63,7 @@ std::span<const LogField<BlockRecord>> block_fields();
 std::span<const LogField<LogDiagnostic>> diagnostic_fields();
 std::span<const LogField<LogSummary>> summary_fields();
 std::span<const LogField<AxisSummaryAt>> axis_summary_fields();
-/// KADR_STEPS, per axis: "pulses", "offset_ticks", "sign". They have no accessor: pulses are compared one by
-/// one.
+/// KADR_STEPS, per axis: "pulses", "offset_ticks", "sign". They have no accessor: pulses are compared one by one.
 std::span<const std::string_view> step_fields();
 
 /// Equal to the last bit: 0 and -0 differ, a NaN equals itself.

@@ -5,7 +5,7 @@
 #include "emulator/log_tools/diff/path_diff.h"
 #include "emulator/text/json.h"
 
-/// What `kadr diff` prints; lines end in '\n'.
+/// The output of `kadr diff`; lines end in '\n'.
 namespace kadr::emulator {
 
 /// "inputs differ:" with a line for each that does; empty if all are the same.
@@ -13,7 +13,7 @@ std::string render_input_differences(const std::vector<InputDifference>& inputs)
 
 /// One line per field, for --all.
 std::string render_tick_difference(const TickDifference& difference, const LogDiff& logs);
-/// First difference with what is around it, inputs, totals.
+/// First difference with its surroundings, inputs, totals.
 std::string render_log_diff(const LogDiff& diff);
 
 std::string render_block_difference(const BlockDifference& difference, const LogHeader& header);

@@ -112,7 +112,7 @@ class TickDiff {
     std::shared_ptr<const BlockRecord> block;
     ProgramPlace place;
   };
-  /// Place of the block under way; looked up once a block.
+  /// Position of the current block; looked up once per block.
   static ProgramPlace place(const LogFrame& frame, const LogHeader& header, KnownPlace& known) {
     if (!frame.block) return {};
     if (known.block != frame.block) known = {frame.block, place_of(header, *frame.block)};
@@ -186,7 +186,7 @@ class TickDiff {
           fmt::format("base tick {} ({:.6f} s): {}{}", grouped(e->tick.value),
                       result_.a.header.seconds(e->tick), e->text.empty() ? e->kind.text() : e->text,
                       e->span.line > 0 ? ", " + place_of(result_.a.header, e->span.line).name() : "");
-      // what the operator or the scenario does has no place in the program
+      // actions of the operator or the scenario have no position in the program
       const bool found_by_kadr = e->kind == EventKind::alarm || e->kind == EventKind::residual;
       if (e->kind == EventKind::input || (e->span.line == 0 && !found_by_kadr))
         input_ = text;

@@ -30,7 +30,7 @@ struct LogFrame {
   const StepBatch* batch() const { return steps ? &steps->batches[step_index] : nullptr; }
 };
 
-/// A log as a row of control ticks, ascending; memory is that of one log block, whatever the log's length.
+/// A log as a sequence of control ticks, ascending; memory is that of one log block, whatever the log's length.
 /// An event belongs to the control tick that its stamp falls in. Of a log that was cut off only ticks whose
 /// exact data are complete are given.
 class LogFrames {
@@ -38,7 +38,7 @@ class LogFrames {
   static tl::expected<LogFrames, LogReadError> open(const std::string& path);
 
   const LogHeader& header() const { return reader_.header(); }
-  /// The next control tick; nothing at the end of what is valid.
+  /// The next control tick; nothing at the end of the valid part.
   bool next(LogFrame& frame);
   /// How the log ends, and its summary; only after next() said no.
   const LogEnd& end() const { return reader_.end(); }

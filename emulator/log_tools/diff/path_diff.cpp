@@ -12,7 +12,7 @@
 namespace kadr::emulator {
 namespace {
 
-/// What the program does at a place of its path, under any override: the kinds of its events.
+/// Actions of the program at a position of its path, under any override: the kinds of its events.
 bool is_program_event(const EventRecord& e) {
   return e.span.line > 0 && e.kind.value() && is_of_program(*e.kind.value());
 }
@@ -31,7 +31,7 @@ class PathCompare {
         steps_(axes_, result.a.header.control_tick_ticks, result.b.header.control_tick_ticks) {}
 
   void run() {
-    // the log that is behind on the path is read on; at the same place, A
+    // the log that is behind on the path is read on; at the same position, A
     while (more_[0] || more_[1]) {
       const int side = !more_[1] || (more_[0] && path_u_[0] <= path_u_[1]) ? 0 : 1;
       if (!log_[side]->next(frame_)) {

@@ -3,16 +3,16 @@
 #include <limits>
 #include <string>
 
-/// What a user may ask of exports and plots; apart from them, so that the command line needs no more.
+/// Options of exports and plots; in a header of their own, so that the command line needs no more.
 namespace kadr::emulator {
 
-/// What of a log is wanted.
+/// Selection from a log.
 struct SampleChoice {
   std::string signals;  ///< comma-separated, `*` matches any text: "feed.*,axis.X.load_mm"; empty: all
   double from_s = 0;
   double to_s = std::numeric_limits<double>::infinity();
-  double rate_hz =
-      0;  ///< every n-th control tick, n = round(control rate / rate_hz), at least 1; 0: every one
+  /// every n-th control tick, n = round(control rate / rate_hz), at least 1; 0: every one
+  double rate_hz = 0;
 };
 
 enum class CsvForm : std::uint8_t {
@@ -20,7 +20,7 @@ enum class CsvForm : std::uint8_t {
   excel,  ///< semicolon, decimal comma and a byte order mark: spreadsheets of a locale with decimal comma
 };
 
-/// What a plot in the terminal looks like.
+/// Options of a plot in the terminal.
 struct PlotForm {
   int width = 80;      ///< cells, with the axis
   int height = 0;      ///< cells of each picture, of a path at most; 0: 10, of a path 20

@@ -23,7 +23,7 @@ struct LogSamples::Impl {
   explicit Impl(LogFrames f) : frames(std::move(f)) {}
 
   LogFrames frames;
-  LogFrame now, before;             // what a sample is made of, and the control tick before it
+  LogFrame now, before;             // data of a sample, and the control tick before it
   std::optional<LogFrame> waiting;  // read while opening
   TickContext context;
   double tau_s = 0;

@@ -11,7 +11,7 @@
 #include "emulator/log_tools/diff/log_frames.h"
 #include "emulator/log_tools/export/export_options.h"
 
-/// A log as named signals over time: what exports, plots and the report page read (docs/report.md).
+/// A log as named signals over time, for exports, plots and the report page (docs/report.md).
 namespace kadr::emulator {
 
 /// One column. Names are those of the viewer channels in lower case, the unit at the end:
@@ -20,7 +20,7 @@ struct Signal {
   std::string name;
   std::string unit;                  ///< "mm/s"; empty: a count or a code
   bool whole = false;                ///< a whole number
-  std::vector<std::string> words{};  ///< of a code: what its values 0, 1 ... mean; else empty
+  std::vector<std::string> words{};  ///< of a code: the meanings of its values 0, 1 ...; else empty
   bool further = false;              ///< a column straight from the log, without a chart designed for it
 };
 
@@ -44,7 +44,7 @@ class LogSamples {
   /// All that the log can tell: without plant nothing of the load, without an operator's steps nothing of
   /// what was asked for.
   const std::vector<Signal>& signals() const;
-  /// @return the sentence that says what of the choice the log does not have
+  /// @return a sentence that names the chosen signals that the log lacks
   tl::expected<void, std::string> choose(const SampleChoice& choice);
   const std::vector<Signal>& chosen() const;
   double control_tick_s() const;

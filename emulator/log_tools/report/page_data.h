@@ -11,7 +11,7 @@
 #include "emulator/log_tools/report/path_corners.h"
 #include "machine/machine.h"
 
-/// What a report page shows of a run, gathered in one pass over its log; memory does not grow with the log
+/// Data of a report page about a run, gathered in one pass over its log; memory does not grow with the log
 /// beyond kMostPieces values per signal.
 namespace kadr::emulator {
 

@@ -15,7 +15,7 @@ struct PathCorners {
 /// Takes a path control tick by control tick and keeps the corners: every node lies within the tolerance of
 /// the line between its neighbouring corners.
 ///
-/// From the last corner on the line is stretched as long as no node on its way is farther off, and no longer
+/// From the last corner on the line is extended as long as no node along it is farther off, and no longer
 /// than kLongest nodes, so that a corner also shows what happened before it. Too many corners double the
 /// tolerance; what is kept is then thinned in the same way, within twice the tolerance in the end.
 class CornerFinder {
