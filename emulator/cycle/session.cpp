@@ -237,13 +237,13 @@ std::optional<RunFailure> Session::Cycle::log_happenings() {
 
 std::optional<RunFailure> Session::Cycle::log_tick() {
   if (auto failure = log_happenings()) return failure;
-  TickRecord record;
-  record.tick = motion_.tick;
-  record.block = events_.block();
-  record.motion = &motion_;
-  record.position_steps = &interpolator_.position_steps();
-  record.axis = plant();
-  record.has_override = has_operator_;
+  // by name: a member without a default that is missing here does not compile
+  const TickRecord record{.tick = motion_.tick,
+                          .block = events_.block(),
+                          .motion = &motion_,
+                          .position_steps = &interpolator_.position_steps(),
+                          .axis = plant(),
+                          .has_override = has_operator_};
   return log_.tick(record, batch_);
 }
 
