@@ -98,7 +98,7 @@ struct Scenario {
   bool machine_is_file = false;
   std::string tools_path;  ///< of the tool table, empty: none
   gcode::Dialect dialect = gcode::Dialect::linuxcnc;
-  std::vector<std::string> settings;   ///< "key=value"
+  std::vector<std::string> settings;    ///< "key=value"
   std::optional<double> most_override;  ///< JobInputs::most_override
   std::vector<ScenarioStep> steps;
   std::vector<ScenarioTechnology> technology;

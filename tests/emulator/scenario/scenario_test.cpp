@@ -43,10 +43,10 @@ std::string read_text(const std::string& path) {
 }
 
 constexpr const char* kHead = "format = 1\nname = \"case\"\nprogram = \"p.ngc\"\nmachine = \"mill3\"\n";
-constexpr const char* kLine = "G21 G90 G94\nG1 X4 F600\nM2\n";
+constexpr const char* kOneLine = "G21 G90 G94\nG1 X4 F600\nM2\n";
 
 /// Runs the line program with an [expect] and gives the result.
-ScenarioResult run_expecting(const std::string& expect, const std::string& program = kLine) {
+ScenarioResult run_expecting(const std::string& expect, const std::string& program = kOneLine) {
   Folder folder;
   folder.write("p.ngc", program);
   return run_scenario(folder.write("scenario.toml", kHead + expect));
@@ -63,7 +63,7 @@ std::string failed_checks(const ScenarioResult& result) {
 /// Rendered diagnostics of a scenario file that must not be read; the folder's name is left out.
 std::string refusal(const std::string& text) {
   Folder folder;
-  folder.write("p.ngc", kLine);
+  folder.write("p.ngc", kOneLine);
   SourceSet sources;
   const auto scenario = read_scenario(folder.write("scenario.toml", text), sources);
   REQUIRE_FALSE(scenario.has_value());
@@ -79,7 +79,7 @@ std::string refusal(const std::string& text) {
 
 TEST_CASE("a scenario file is read with all its expectations") {
   Folder folder;
-  folder.write("p.ngc", kLine);
+  folder.write("p.ngc", kOneLine);
   const std::string file = folder.write("scenario.toml", std::string(kHead) + R"(summary = "a line"
 [settings]
 planner.whole_ticks = false
@@ -272,7 +272,7 @@ TEST_CASE("a refused program passes only if its diagnostics are the expected one
 
 TEST_CASE("--update writes the measured values over the stated ones and leaves the rest alone") {
   Folder folder;
-  folder.write("p.ngc", kLine);
+  folder.write("p.ngc", kOneLine);
   const std::string file = folder.write("scenario.toml", std::string(kHead) + R"([expect]   # what comes out
 time_s = 99.5      # seconds
 within_s = 0.000001
@@ -301,7 +301,7 @@ vibration_um = [0, 1e6]
 
 TEST_CASE("--update gives a scenario without expectations all the exact ones") {
   Folder folder;
-  folder.write("p.ngc", kLine);
+  folder.write("p.ngc", kOneLine);
   const std::string file = folder.write("scenario.toml", kHead);
   SourceSet sources;
   folder.write("scenario.toml", updated_text(*read_scenario(file, sources), run_scenario(file)));
@@ -334,7 +334,7 @@ TEST_CASE("JUnit results are escaped XML with machine time") {
 
 TEST_CASE("scenarios are found by file, folder and folder of folders, in order") {
   Folder folder;
-  folder.write("p.ngc", kLine);
+  folder.write("p.ngc", kOneLine);
   const std::string b = folder.write("b/scenario.toml", kHead), a = folder.write("a/scenario.toml", kHead);
   CHECK(find_scenarios({folder.path()}) == std::vector<std::string>{a, b});
   CHECK(find_scenarios({b, folder.path() + "/a"}) == std::vector<std::string>{b, a});
