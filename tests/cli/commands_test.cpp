@@ -503,7 +503,7 @@ TEST_CASE("usage mistakes: exit 2, a complaint and nothing on standard output") 
       {{"run", "square.ngc", "--until", "nan"}, "--until takes seconds"},
       {{"run", "square.ngc", "--until", "1,5"}, "--until takes seconds"},
       {{"run", "square.ngc", "--threads", "3"}, "takes 1 or 2"},
-      {{"run", "square.ngc", "--progress", "loud"}, "--progress knows"},
+      {{"run", "square.ngc", "--progress", "loud"}, "--progress takes one of"},
       {{"run", "square.ngc", "-o", "-"}, "standard output"},
       {{"run", "square.ngc", "-o", "."}, "is a folder"},
       {{"run", "square.ngc", "-o", "square.ngc"}, "would overwrite"},
@@ -511,7 +511,7 @@ TEST_CASE("usage mistakes: exit 2, a complaint and nothing on standard output") 
       {{"run", "square.ngc", "--no-log", "--publish", "bogus://x"}, "bogus://x"},
       {{"canon", "square.ngc", "--lines", "5-2"}, "--lines takes"},
       {{"machine"}, "kadr machine: which command? show, list, keys, check, new\n"},
-      {{"check", "square.ngc", "--format", "xml"}, "--format knows"},
+      {{"check", "square.ngc", "--format", "xml"}, "--format takes one of"},
   };
   for (const auto& [arguments, complaint] : cases) {
     std::string line;

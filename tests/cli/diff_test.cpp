@@ -147,7 +147,7 @@ TEST_CASE("mistakes in the options of kadr diff are told, exit 2") {
   CHECK(contains(complaint({"--tolerance", "load=0.5"}),
                  "load takes a number >= 0 with a unit (nm, um, mm, mdeg, deg)"));
   CHECK(contains(complaint({"--tolerance", "weight=1um"}), "KEY one of load, base, link"));
-  CHECK(contains(complaint({"--tolerance", "feed=1mm/s"}), "--tolerance feed goes with --align path"));
+  CHECK(contains(complaint({"--tolerance", "feed=1mm/s"}), "--tolerance feed needs --align path"));
   CHECK(contains(complaint({"--ignore", "KADR_TICKS/speed"}),
                  "there is no field 'speed' in KADR_TICKS; it has feed_u_s,"));
   CHECK(contains(complaint({"--ignore", "plant"}), "--ignore takes CHANNEL or CHANNEL/field"));
