@@ -95,8 +95,6 @@ void add_scenario(Options& o) {
   run->add_flag("--update", o.arguments.update,
                 "Write the measured values into the expectations of the scenario files");
   o.output(run);
-  o.output(o.command(*group, "keys", machine_keys,
-                     "List every key of a machine file: what it takes, its default and what it means"));
   CLI::App* check = o.command(*group, "check", scenario_check,
                               "Check scenario files and the machine files they name; nothing runs");
   check->add_option("DIR", o.arguments.files, "Scenario files or folders (default: scenarios)")
