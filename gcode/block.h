@@ -37,19 +37,21 @@ enum class FeedLength : std::uint8_t { xyz, uvw, rotary };
 
 // --- moves ---
 
-/// Common to all moves.
+/// Common to all moves. The small members come first and a double last, so that nothing of a derived struct lies in
+/// padding at the end: g++ 12 at -O3 overwrites it where a function's result initializes the base.
 struct Move {
   AxisValues end{};  ///< mm, deg; machine coordinates; every axis, moved or not
   FeedLength feed_length = FeedLength::xyz;
+  PathMode path_mode = PathMode::exact_path;
+  bool feed_override_enabled = true;
   double length_u = 0;    ///< length that F measures, mm or deg (arc: along the helix)
   double feed_u_s = 0;    ///< programmed feed in mm/s or deg/s along length_u; 0 for a traverse
   double duration_s = 0;  ///< inverse time (G93): seconds for the whole move; 0 otherwise
   /// feed that follows the spindle: mm or deg per turn along length_u; 0: it does not
   double pitch_u_rev = 0;
-  PathMode path_mode = PathMode::exact_path;
   double path_tolerance_mm = 0;  ///< G64 P
-  bool feed_override_enabled = true;
 };
+static_assert(offsetof(Move, path_tolerance_mm) + sizeof(double) == sizeof(Move));
 
 /// Straight at the rapid rate.
 struct Traverse : Move {

@@ -15,15 +15,16 @@ using namespace kadr::emulator;
 namespace {
 
 // the faster an arc may be, the less of the axes' acceleration is left for its ramps
-constexpr const char* kArc = "G21 G90 G94 G17\nG1 X10 F1800\nG3 X10 Y20 I0 J10\nG1 X0\nM2\n";
+constexpr const char* kArcs =
+    "G21 G90 G94 G17 G61\nG1 X6 F800\nG3 X6 Y0 I-6 J0 F1200\nG3 X0 Y0 I-3 J0\nG0 Z5\nM2\n";
 
-/// A scenario of kArc with further keys, read.
+/// A scenario of kArcs with further keys, read.
 tl::expected<Scenario, Diagnostics> scenario_with(const std::string& keys, SourceSet& sources) {
   // cases run side by side, each in a process of its own
   const auto folder =
       std::filesystem::temp_directory_path() / ("kadr_most_override_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / "program.ngc") << kArc;
+  std::ofstream(folder / "program.ngc") << kArcs;
   std::ofstream(folder / "scenario.toml")
       << "format = 1\nname = \"arc\"\nprogram = \"program.ngc\"\nmachine = \"mill3\"\n"
       << keys;
@@ -69,7 +70,7 @@ TEST_CASE("without most_override_pct a run is prepared for the highest override 
 }
 
 TEST_CASE("most_override_pct prepares a run for more than its timeline asks for") {
-  // arcs are prepared for 60 mm/s in place of 39, so their ramps are flatter
+  // arcs are prepared for 40 mm/s in place of 26, so their ramps are flatter
   const auto timeline = ride(""), live = ride("most_override_pct = 200\n");
   CHECK(live != timeline);
   CHECK(live.size() >= timeline.size());
