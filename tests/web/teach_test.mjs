@@ -247,7 +247,7 @@ test('what is wrong with a case is said, in either language, and nothing breaks'
   };
   assert.match(await type('spiral 3'), /begins with line/);
   assert.match(await type('line 7 x'), /\u2018x\u2019 is not a whole number/);
-  assert.match(await type('arc 7 0 3 3'), /0\.707 steps beside/);
+  assert.match(await type('arc 7 0 3 3'), /0\.707 steps off/);
   assert.match(await type('line 9000 1'), /no end after 4000 slots/);
   assert.match(await type('line 1 2 3'), /two axes/);
   assert.match(await type("curve 'y - z' 0 0 1 1"), /character 5 on/);
