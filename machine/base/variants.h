@@ -9,6 +9,9 @@ template <class... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;
 };
+// clang 14 does not deduce the arguments of an aggregate
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
 
 /// True for the types of the list: `[](const OneOf<Dwell, InputWait> auto& pause) {...}`.
 template <class T, class... Types>
