@@ -91,8 +91,8 @@ struct JobInputs {
   gcode::Reading reading;                    ///< of the program
   std::vector<InputStep> inputs;             ///< what M66 meets; ascending by tick
   std::vector<OperatorStep> operator_steps;  ///< by tick those that have one, in the file's order the others
-  /// Highest override that the run is prepared for, a ratio from 1 to 2; empty: the highest of operator_steps. The
-  /// record of a live run (SessionOptions::most_override) gives the same run only with the same number.
+  /// Highest feed override that the run is prepared for, a ratio from 1 to 2; empty: the highest of operator_steps.
+  /// The override keeps every limit up to it, so the record of a live run gives the same run only with the same number.
   std::optional<double> most_override;
   std::vector<LineLimit> line_limits;  ///< technology points of a scenario
   std::vector<PlaceLimit> place_limits;
@@ -182,10 +182,8 @@ std::string limited_by_text(planner::LimitedBy reason, int axis, const machine::
 /// How a session is run (emulator/cycle/session.h).
 struct SessionOptions {
   bool plant = true;
-  /// Highest feed override that a live operator may ask for, ratio >= 1; none: the run has no live operator.
-  /// The override keeps every limit up to it, so it is part of what the run gives.
-  std::optional<double> most_override;
-  std::size_t warnings = 0;  ///< of the program: RunSummary::warnings
+  bool live_operator = false;  ///< Session::operate() may come: a hold does not end the run
+  std::size_t warnings = 0;    ///< of the program: RunSummary::warnings
   /// What the run's command will answer to the shell: RunSummary::exit_code. None: 0.
   std::function<int(const RunSummary&)> exit_code;
 };

@@ -30,15 +30,18 @@ namespace {
 constexpr std::int64_t kNodeCheckTicks = 127;
 
 bool has_operator(const Job& job, const SessionOptions& options) {
-  return options.most_override || !job.given.operator_steps.empty();
+  return options.live_operator || job.given.most_override || !job.given.operator_steps.empty();
+}
+
+/// The highest feed override that the run is prepared for.
+double prepared_override(const JobInputs& given) {
+  return given.most_override.value_or(most_override(given.operator_steps));
 }
 
 std::unique_ptr<planner::MotionSource> make_source(const Job& job, const SessionOptions& options) {
   const machine::MachineModel& machine = job.given.machine.model;
   if (!has_operator(job, options)) return std::make_unique<planner::LawSource>(job.planned.plan.law, machine);
-  const double prepared = job.given.most_override.value_or(most_override(job.given.operator_steps));
-  const double most = std::max(prepared, options.most_override.value_or(1.0));
-  return planner::override_source(job.read.path, job.planned.plan, machine, most);
+  return planner::override_source(job.read.path, job.planned.plan, machine, prepared_override(job.given));
 }
 
 std::vector<double> start_u(const Job& job) {
@@ -103,8 +106,9 @@ class Session::Cycle {
   }
 
   bool operate(const OperatorStep& step) {
-    if (!options_.most_override) return false;
-    if (step.action == OperatorAction::feed_override && step.value > *options_.most_override) return false;
+    if (!options_.live_operator) return false;
+    if (step.action == OperatorAction::feed_override && step.value > prepared_override(job_.given))
+      return false;
     panel_.operate(step);
     return true;
   }
@@ -168,7 +172,7 @@ class Session::Cycle {
     const bool held = motion_.limited_by == LimitedBy::hold && motion_.speed_end_u_s == 0 &&
                       motion_.s_end_u == motion_.s_begin_u;
     // a live operator may still end it
-    if (!held || options_.most_override || !panel_.at_its_end()) return std::nullopt;
+    if (!held || options_.live_operator || !panel_.at_its_end()) return std::nullopt;
     operator_alarm(Code::held_to_the_end,
                    fmt::format("held at {:.6g} of {:.6g}, and no step releases it", at_u, length_u));
     return Outcome::held;

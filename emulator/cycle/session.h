@@ -21,9 +21,10 @@ class Session {
   /// @return control ticks made: fewer than n if the run has ended; or an I/O error of the log: call nothing any more
   tl::expected<ControlTicks, RunFailure> advance(ControlTicks n);
   /// Does a step of a live operator: it comes into force with the coming control tick. The same step of a
-  /// timeline at that tick gives the same run, if both have the same most_override.
+  /// timeline at that tick gives the same run, if both have the same JobInputs::most_override.
   /// @param step  its tick and position do not count
-  /// @return false without SessionOptions::most_override and for a feed override above it: nothing changes
+  /// @return false without SessionOptions::live_operator, and for a feed override above the highest that the run is
+  ///         prepared for: nothing changes
   bool operate(const OperatorStep& step);
   /// Ends the run and writes its summary.
   /// @param unfinished  outcome of a run that has not ended yet

@@ -16,7 +16,7 @@ class Evaluator {
   /// machine/base/numbers.h, so a program gives the same pulses on every machine.
   /// @return false if there is no value: a division by zero, an argument outside a function's domain, a
   /// parameter that
-  ///         does not exist, an overflow. It is told to `report` unless that is null or the value depends on
+  ///         does not exist, an overflow. It is reported to `report` unless that is null or the value depends on
   ///         a parameter whose setting failed earlier.
   bool evaluate(const Line& line, std::int32_t first, std::int32_t root, const State& state, Report* report,
                 double& value);

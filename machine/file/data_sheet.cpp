@@ -124,7 +124,7 @@ std::string suffix_of(Text unit) {
   return out;
 }
 
-/// 31.5 in are 800.1 mm, not 800.0999999999999: a product that 12 digits tell but for rounding is those digits.
+/// 31.5 in are 800.1 mm, not 800.0999999999999: a product within rounding of 12 digits is those digits.
 double without_noise(double product) {
   const double told = *parse_number(fmt::format("{:.12g}", product));
   return std::fabs(told - product) <= 4 * std::numeric_limits<double>::epsilon() * std::fabs(product)

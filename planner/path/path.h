@@ -35,7 +35,7 @@ enum class FeedLock : std::uint8_t {
 };
 
 /// Circle in a plane of two machine axes; the other axes move linearly with the angle (helix).
-/// The radius runs linearly with the angle from radius_begin to radius_end (equal but for rounding of the
+/// The radius runs linearly with the angle from radius_begin to radius_end (equal except for rounding of the
 /// program):
 ///   p_first(phi)  = center_first  + r(phi) cos(phi),   p_second(phi) = center_second + r(phi) sin(phi)
 ///   phi = angle_begin + sweep * u,  r = radius_begin + (radius_end - radius_begin) * u,  u = s/length in [0, 1]

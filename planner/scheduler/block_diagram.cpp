@@ -8,7 +8,7 @@
 namespace kadr::planner {
 namespace {
 
-// a time that is whole but for this share is taken as whole
+// a time within this share of a whole number counts as whole
 constexpr double kWhole = 1e-12;
 // holds shorter than this share of their block are rounding noise noise noise
 constexpr double kNoHold = 1e-14;

@@ -105,7 +105,7 @@ void PieceWriter::add(const std::vector<JerkPiece>& run, double stretch, double 
 
 void PieceWriter::end_at(double end_time_s) {
   if (end_time_s < 0.0) return;
-  // the run lasts as long as prescribed but for the last bits of the sum
+  // the run lasts as long as prescribed, except for the last bits of the sum
   if (!law_.pieces.empty()) {
     JerkPiece& last = law_.pieces.back();
     if (end_time_s > last.begin_s) last.duration_s = end_time_s - last.begin_s;

@@ -32,7 +32,7 @@ struct VerifyOptions {
   int quadrants = 1'000'000'000;  ///< of an arc in a piece, at whose ends the limits are looked at
   int chords = 256;               ///< of every curve, whose sum is compared with its length
 
-  /// Whether the law stands at its pauses alone. A run under an override also stands wherever that is 0.
+  /// Whether the law may be at rest at its pauses alone. A run under an override also stands wherever that is 0.
   bool stands_at_pauses_alone = true;
   /// Whether acceleration, jerk and centripetal acceleration are looked at on curves that turn back.
   bool curves_that_turn_back = true;
@@ -48,7 +48,7 @@ struct VerifyOptions {
 VerifyOptions production_check();
 
 /// Independent check of any planner's output against path and machine alone; it shares no code with the
-/// planners (caps, junction rule and ramps are computed anew from the definitions). Checks, at every piece
+/// planners (caps, junction rule and ramps are computed again from the definitions). Checks, at every piece
 /// end, joint, inner extreme and sample: s and speed continuous (acceleration too where jerk is limited, jerk
 /// too with quintic ramps), speed >= 0, path and axis speed, axis acceleration and jerk (normal and
 /// tangential parts together on arcs), centripetal acceleration, programmed feed, junction step per axis,

@@ -22,7 +22,7 @@ VerifiedState verified_state(const JerkPiece& piece, double t);
 class StatedJumps {
  public:
   StatedJumps(const FeedPlan& plan, const machine::MachineModel& machine);
-  /// The jump stated at exactly that time, or 0. Times have to ascend but for small steps back.
+  /// The jump stated at exactly that time, or 0. Times have to ascend, except for small steps back.
   double stated_jump_u_s(double time_s);
 
  private:

@@ -44,7 +44,7 @@ double VerifyContext::way_tolerance_u(const JerkPiece& p) const {
 double VerifyContext::way_tolerance_u(const JerkPiece& p, const VerifiedState& end) const {
   return slack_u_ + kSumUlps * kUlp * law.duration_s * std::max(p.speed_u_s, end.v) +
          kSmallShare * options.relative_tolerance * (end.s - p.s_u) +
-         // a speed below the floor is taken for rest: what is left of the way, within one control tick
+         // a speed below the floor counts as rest: the distance that it leaves within one control tick
          kSpeedFloor_u_s * std::min(p.duration_s, machine.clock.tau_s());
 }
 

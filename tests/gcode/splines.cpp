@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support.h"
@@ -73,8 +74,11 @@ TEST_CASE("a NURBS block takes its points, weights and order from its lines") {
   check_point(b, 0, 1, 1, 2);
   check_point(b, 2, 2, 2, 0.5);
   check_point(b, 4, 0, 0, 3);
-  for (const Block& block : run(program).blocks)
-    if (is<Spline>(block)) CHECK(block.span.line == 8);
+  const std::vector<Block> blocks = run(program).blocks;
+  const auto spline =
+      std::find_if(blocks.begin(), blocks.end(), [](const Block& one) { return is<Spline>(one); });
+  REQUIRE(spline != blocks.end());
+  CHECK(spline->span.line == 8);
   // the first point may stand on the line of G5.2, with weight 1
   const Spline short_one = spline_of("F60\nG5.2 X1 Y1\nX2 Y0 P1\nG5.3\n");
   check_point(short_one, 1, 1, 1, 1);

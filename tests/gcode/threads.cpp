@@ -60,12 +60,13 @@ TEST_CASE("K of an inch program is in inches, of a rotary move in degrees") {
 TEST_CASE("G33.1 taps down and comes back to where it began, I times as fast") {
   const Outcome outcome = run("M3 S120\nG0 X5 Z2\nG33.1 Z-8 K1.25 I2\nG0 Y1\n");
   CHECK_FALSE(outcome.diagnostics.has_errors());
-  for (const RigidTap& tap : outcome.all<RigidTap>()) {
-    CHECK(tap.end[2] == -8);
-    CHECK(tap.length_u == 10);
-    CHECK(tap.retract_ratio == 2);
-    CHECK(tap.feed_u_s == doctest::Approx(2.5).epsilon(1e-15));
-  }
+  const std::vector<RigidTap> taps = outcome.all<RigidTap>();
+  REQUIRE(taps.size() == 1);
+  const RigidTap& tap = taps.front();
+  CHECK(tap.end[2] == -8);
+  CHECK(tap.length_u == 10);
+  CHECK(tap.retract_ratio == 2);
+  CHECK(tap.feed_u_s == doctest::Approx(2.5).epsilon(1e-15));
   CHECK(outcome.moves().back().end == AxisValues{5, 1, 2});
 }
 

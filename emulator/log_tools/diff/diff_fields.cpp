@@ -154,8 +154,6 @@ std::string value_text(const FieldValue& value) {
 
 std::string unit_text(FieldUnit unit, const std::string& path_unit, const std::string& axis_unit) {
   switch (unit) {
-    case FieldUnit::none:
-      return "";
     case FieldUnit::path:
       return path_unit;
     case FieldUnit::path_speed:
@@ -176,14 +174,13 @@ std::string unit_text(FieldUnit unit, const std::string& path_unit, const std::s
       return axis_unit == "deg" ? "mdeg" : "um";
     case FieldUnit::force:
       return axis_unit == "deg" ? "N m" : "N";
+    case FieldUnit::none:
     case FieldUnit::energy:
-      return "J";
     case FieldUnit::time:
-      return "s";
     case FieldUnit::percent:
-      return "%";
+      break;
   }
-  return "";
+  return std::string(unit_symbol(unit));
 }
 
 std::string path_unit(const LogHeader& header) {

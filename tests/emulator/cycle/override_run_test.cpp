@@ -1,9 +1,11 @@
 #include <doctest/doctest.h>
 
+#include "tests/support/operator_step.h"
 #include "tests/support/run_program.h"
 
 using namespace kadr;
 using namespace kadr::emulator;
+using kadr::test::operator_step;
 
 namespace {
 
@@ -17,16 +19,8 @@ machine::MachineModel mill() {
 
 using Ride = test::RunResult;
 
-OperatorStep at_tick(std::int64_t tick, OperatorAction action, double value = 1) {
-  OperatorStep step;
-  step.action = action;
-  step.value = value;
-  step.tick = ControlTicks{tick};
-  return step;
-}
-
 OperatorStep at_place(PathPlace place, OperatorAction action, double value = 1) {
-  OperatorStep step = at_tick(0, action, value);
+  OperatorStep step = operator_step(0, action, value);
   step.place = place;
   return step;
 }
@@ -63,7 +57,7 @@ TEST_CASE(
     "an emergency stop brakes at once, also while braking and in a thread, and the run ends where the axis "
     "stands") {
   Ride cruise;
-  run_with(cruise, kRunLine, {at_tick(400, OperatorAction::emergency_stop)});
+  run_with(cruise, kRunLine, {operator_step(400, OperatorAction::emergency_stop)});
   CHECK(cruise.summary.outcome == emulator::Outcome::emergency_stop);
   CHECK(cruise.summary.control_ticks.value == 500);  // 100 ticks from 100 mm/s
   CHECK(cruise.summary.axis[0].end_u == doctest::Approx(40.0).epsilon(1e-9));
@@ -71,29 +65,29 @@ TEST_CASE(
   CHECK(cruise.summary.alarms == 1);
 
   Ride braking;  // for the corner, from tick 501 on: a hold would wait for it
-  run_with(braking, kCorner, {at_tick(560, OperatorAction::emergency_stop)});
+  run_with(braking, kCorner, {operator_step(560, OperatorAction::emergency_stop)});
   CHECK(braking.summary.outcome == emulator::Outcome::emergency_stop);
   CHECK(braking.summary.control_ticks.value < 605);
 
   Ride thread;
-  run_with(thread, kThread, {at_tick(600, OperatorAction::emergency_stop)});
+  run_with(thread, kThread, {operator_step(600, OperatorAction::emergency_stop)});
   CHECK(thread.summary.outcome == emulator::Outcome::emergency_stop);
   CHECK(thread.summary.control_ticks.value < 660);
 }
 
 TEST_CASE("a hold that nobody ends ends the run, and says so") {
   Ride r;
-  run_with(r, kRunLine, {at_tick(400, OperatorAction::hold)});
+  run_with(r, kRunLine, {operator_step(400, OperatorAction::hold)});
   CHECK(r.summary.outcome == emulator::Outcome::held);
   CHECK(alarms(r) == std::vector<Code>{Code::held_to_the_end});
   Ride zero;
-  run_with(zero, kRunLine, {at_tick(400, OperatorAction::feed_override, 0.0)});
+  run_with(zero, kRunLine, {operator_step(400, OperatorAction::feed_override, 0.0)});
   CHECK(zero.summary.outcome == emulator::Outcome::held);
 }
 
 TEST_CASE("a spindle overload inside a thread is told once and waits") {
   Ride r;
-  run_with(r, kThread, {at_tick(600, OperatorAction::spindle_load, 1.25)});
+  run_with(r, kThread, {operator_step(600, OperatorAction::spindle_load, 1.25)});
   CHECK(alarms(r) == std::vector<Code>{Code::overload_locked});
 }
 
@@ -125,9 +119,9 @@ TEST_CASE("steps on the path come into force with the first control tick that be
 TEST_CASE("the time lost by each reason adds up to the run's time less the planned one") {
   Ride r;
   run_with(r, kCorner,
-           {at_tick(100, OperatorAction::feed_override, 0.7), at_tick(300, OperatorAction::hold),
-            at_tick(600, OperatorAction::resume), at_tick(900, OperatorAction::spindle_load, 1.3),
-            at_tick(2500, OperatorAction::spindle_load, 0.5)});
+           {operator_step(100, OperatorAction::feed_override, 0.7), operator_step(300, OperatorAction::hold),
+            operator_step(600, OperatorAction::resume), operator_step(900, OperatorAction::spindle_load, 1.3),
+            operator_step(2500, OperatorAction::spindle_load, 0.5)});
   CHECK(r.summary.outcome == emulator::Outcome::complete);
   double sum_s = 0;
   for (const LimitShare& share : r.summary.lost_by) sum_s += share.time_s;
@@ -139,8 +133,8 @@ TEST_CASE("the time lost by each reason adds up to the run's time less the plann
 }
 
 TEST_CASE("the same timeline gives the same pulses, tick by tick") {
-  const std::vector<OperatorStep> steps = {at_tick(100, OperatorAction::feed_override, 0.7),
-                                           at_tick(120, OperatorAction::feed_override, 1.5)};
+  const std::vector<OperatorStep> steps = {operator_step(100, OperatorAction::feed_override, 0.7),
+                                           operator_step(120, OperatorAction::feed_override, 1.5)};
   Ride a, b;
   run_with(a, kCorner, steps);
   run_with(b, kCorner, steps);

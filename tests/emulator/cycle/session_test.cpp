@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/support/operator_step.h"
 #include "tests/support/run_program.h"
 #include "tests/support/test_machine.h"
 
@@ -18,9 +19,10 @@ constexpr const char* kProgram =
 /// The program, prepared, under a timeline.
 struct Prepared {
   RunResult r;
-  explicit Prepared(const std::vector<OperatorStep>& steps = {}) {
+  explicit Prepared(const std::vector<OperatorStep>& steps = {}, std::optional<double> most_override = {}) {
     r.in = make_inputs(kProgram, test_machine(2));
     r.in.given.operator_steps = steps;
+    r.in.given.most_override = most_override;
     prepare_run(r);
   }
   const Job& job() const { return *r.job; }
@@ -67,14 +69,6 @@ void check_same(const RecordingLog& a, const RecordingLog& b) {
            a.ticks[i].steps == b.ticks[i].steps && a.ticks[i].axis.size() == b.ticks[i].axis.size() &&
            (a.ticks[i].axis.empty() || a.ticks[i].axis[0].link_u == b.ticks[i].axis[0].link_u);
   CHECK(same);
-}
-
-OperatorStep operator_step(std::int64_t tick, OperatorAction action, double value = 1) {
-  OperatorStep step;
-  step.action = action;
-  step.value = value;
-  step.tick = ControlTicks{tick};
-  return step;
 }
 
 }  // namespace
@@ -144,12 +138,12 @@ TEST_CASE("a live operator's steps give the run of a timeline with the same step
   begin(planned, timeline);
   REQUIRE(run(timeline, &planned, {}).has_value());
 
-  const Prepared prepared;
+  const Prepared prepared({}, 1.3);
   const Job& job = prepared.job();
   RecordingLog live;
   begin(live, job);
   SessionOptions options;
-  options.most_override = 1.3;
+  options.live_operator = true;
   Session session(job, &live, options);
   for (const OperatorStep& step : steps) {
     REQUIRE(session.advance(step.tick - session.ticks()).has_value());
@@ -165,13 +159,27 @@ TEST_CASE("a live operator's steps give the run of a timeline with the same step
   CHECK(alone.summary.steps_hash != live.summary.steps_hash);
 }
 
-TEST_CASE("an override above the session's most and an operator of a session without one are refused") {
-  const Prepared prepared;
+TEST_CASE("a live run that nobody touched is that of an empty timeline with the same highest override") {
+  const Prepared prepared({}, 2.0);
+  RecordingLog live, empty;
+  begin(live, prepared.job());
+  begin(empty, prepared.job());
+  SessionOptions options;
+  options.live_operator = true;
+  Session session(prepared.job(), &live, options);
+  to_end(session, ControlTicks{100});
+  REQUIRE(run(prepared.job(), &empty, {}).has_value());
+  check_same(empty, live);
+  CHECK(empty.summary.lost_by.size() == live.summary.lost_by.size());
+}
+
+TEST_CASE("an override above the highest prepared for and an operator of a session without one are refused") {
+  const Prepared prepared({}, 1.2);
   const Job& job = prepared.job();
   Session closed(job, nullptr);
   CHECK_FALSE(closed.operate(operator_step(0, OperatorAction::hold)));
   SessionOptions options;
-  options.most_override = 1.2;
+  options.live_operator = true;
   RecordingLog log;
   begin(log, job);
   Session session(job, &log, options);
@@ -189,7 +197,7 @@ TEST_CASE(
   const Job& job = prepared.job();
   SessionOptions options;
   options.plant = false;
-  options.most_override = 1.0;
+  options.live_operator = true;
   Session session(job, nullptr, options);
   REQUIRE(session.advance(ControlTicks{100}).has_value());
   CHECK(session.operate(operator_step(0, OperatorAction::hold)));

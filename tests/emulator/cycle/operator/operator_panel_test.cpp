@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "emulator/cycle/operator/operator_watch.h"
+#include "tests/support/operator_step.h"
 #include "tests/support/straight_run.h"
 #include "tests/support/test_machine.h"
 
@@ -11,16 +12,8 @@ using namespace kadr::emulator;
 using namespace kadr::test;
 
 namespace {
-
-OperatorStep step_at(std::int64_t tick, OperatorAction action, double value = 1) {
-  OperatorStep step;
-  step.action = action;
-  step.value = value;
-  step.tick = ControlTicks{tick};
-  return step;
-}
 OperatorStep step_on_path(OperatorAction action, double value = 1) {
-  OperatorStep step = step_at(0, action, value);
+  OperatorStep step = operator_step(0, action, value);
   step.place = PathPlace{};
   return step;
 }
@@ -33,9 +26,10 @@ TEST_CASE(
   const machine::MachineModel machine = test_machine(1);
   const planner::Path path = straight_path({100});
   EventList events(path);
-  const std::vector<OperatorStep> steps = {
-      step_at(2, OperatorAction::feed_override, 0.5), step_at(2, OperatorAction::rapid_override, 0.25),
-      step_at(4, OperatorAction::hold), step_on_path(OperatorAction::resume)};
+  const std::vector<OperatorStep> steps = {operator_step(2, OperatorAction::feed_override, 0.5),
+                                           operator_step(2, OperatorAction::rapid_override, 0.25),
+                                           operator_step(4, OperatorAction::hold),
+                                           step_on_path(OperatorAction::resume)};
   OperatorPanel panel(steps, {0, 0, 0, 12.5}, machine, events);
   CHECK(panel.advance(ControlTicks{0}, 0).feed_override == 1.0);
   CHECK(panel.advance(ControlTicks{1}, 3).feed_override == 1.0);
@@ -63,8 +57,8 @@ TEST_CASE("the feed override is the operator's times the spindle's") {
   machine.spindle.high_ms = 1;
   const planner::Path path = straight_path({100});
   EventList events(path);
-  const std::vector<OperatorStep> steps = {step_at(0, OperatorAction::feed_override, 0.5),
-                                           step_at(0, OperatorAction::spindle_load, 1.5)};
+  const std::vector<OperatorStep> steps = {operator_step(0, OperatorAction::feed_override, 0.5),
+                                           operator_step(0, OperatorAction::spindle_load, 1.5)};
   OperatorPanel panel(steps, {0, 0}, machine, events);
   CHECK(panel.advance(ControlTicks{0}, 0).feed_override == doctest::Approx(0.45));
   CHECK(panel.spindle_override() == doctest::Approx(0.9));
@@ -78,10 +72,10 @@ TEST_CASE("a live step comes into force with the next tick, behind the timeline'
   const machine::MachineModel machine = test_machine(1);
   const planner::Path path = straight_path({100});
   EventList events(path);
-  const std::vector<OperatorStep> steps = {step_at(1, OperatorAction::feed_override, 0.5)};
+  const std::vector<OperatorStep> steps = {operator_step(1, OperatorAction::feed_override, 0.5)};
   OperatorPanel panel(steps, {0}, machine, events);
   panel.advance(ControlTicks{0}, 0);
-  panel.operate(step_at(99, OperatorAction::feed_override, 0.7));
+  panel.operate(operator_step(99, OperatorAction::feed_override, 0.7));
   CHECK(panel.advance(ControlTicks{1}, 0).feed_override == 0.7);
   CHECK(panel.advance(ControlTicks{2}, 0).feed_override == 0.7);
   REQUIRE(events.list().size() == 2);
