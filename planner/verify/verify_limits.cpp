@@ -187,7 +187,10 @@ class LimitVerifier {
     const bool excused = seg.kind == SegmentKind::curve && is_excused(i);
     if (seg.kind != SegmentKind::line && !excused) {
       const Joints& axes = c_.joints.axes();
-      check_centripetal(i, x, &axes == &c_.joints ? d : Derivatives(axes, i, local_s), time);
+      if (&axes == &c_.joints)
+        check_centripetal(i, x, d, time);
+      else
+        check_centripetal(i, x, Derivatives(axes, i, local_s), time);
     }
     const bool enforced = c_.axes_enforced(seg);
     for (std::size_t j = 0; j < c_.machine.axis.size(); ++j) {
