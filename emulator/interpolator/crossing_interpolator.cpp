@@ -14,7 +14,7 @@
 #include "machine/machine.h"
 #include "planner/path/joints.h"
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 namespace {
 
@@ -348,4 +348,4 @@ std::size_t CrossingInterpolator::worst_node_segment() const { return impl_->che
 void CrossingInterpolator::set_trace(bool on) { impl_->tracing = on; }
 const std::vector<StepEvent>& CrossingInterpolator::trace() const { return impl_->events; }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator
