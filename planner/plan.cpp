@@ -45,16 +45,16 @@ tl::expected<void, PlanError> plan_blocks(const Path& path, const machine::Machi
 }
 
 /// Plans all motion of a path, run by run.
-tl::expected<void, PlanError> plan_runs(const Path& path, const machine::MachineModel& machine,
+tl::expected<void, PlanError> plan_runs(const Joints& joints, const machine::MachineModel& machine,
                                         const PathLimitTable& limits, FeedPlan& plan,
                                         std::vector<RunBegin>& begins) {
   PieceWriter writer(plan.law);
   std::int64_t ticks = 0;
   const double tau = machine.clock.tau_s();
-  RunMaker runs(path, machine, limits);
+  RunMaker runs(joints, machine, limits);
   while (runs.next()) {
     if (!(writer.time_s() + runs.time_s() < kLongest_s))
-      return tl::unexpected(too_long(path, runs.run(), writer.time_s() + runs.time_s()));
+      return tl::unexpected(too_long(joints.path(), runs.run(), writer.time_s() + runs.time_s()));
     ticks += runs.whole().ticks;
     begins.push_back({runs.run().first, plan.law.pieces.size()});
     runs.write(writer, machine.planner.whole_ticks ? static_cast<double>(ticks) * tau : -1.0);
@@ -63,7 +63,7 @@ tl::expected<void, PlanError> plan_runs(const Path& path, const machine::Machine
   if (runs.error()) return tl::unexpected(std::move(*runs.error()));
   plan.law.duration_s = writer.time_s();
   require(!plan.law.pieces.empty(), "a path that moves has a law");
-  fill_segment_table(path, limits, plan);
+  fill_segment_table(joints.path(), limits, plan);
   return {};
 }
 
@@ -71,17 +71,22 @@ tl::expected<void, PlanError> plan_runs(const Path& path, const machine::Machine
 
 tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineModel& machine,
                                        std::span<const Pause> pauses) {
-  require(path.axes() == static_cast<int>(machine.axis.size()), "path and machine have the same axes");
+  return plan(*machine_joints(path, machine), machine, pauses);
+}
+
+tl::expected<FeedPlan, PlanError> plan(const Joints& joints, const machine::MachineModel& machine,
+                                       std::span<const Pause> pauses) {
+  const Path& path = joints.path();
   if (!path.faults.empty()) return tl::unexpected(PlanError{path.faults.front()});
   FeedPlan result;
   result.law.length_u = path.length_u();
   std::vector<RunBegin> begins;
   if (path.size() > 0) {
-    auto limits = limit_table(path, machine);
+    auto limits = limit_table(joints, machine);
     if (!limits) return tl::unexpected(std::move(limits.error()));
     const bool blockwise = machine.planner.scheduler == machine::SchedulerKind::blockwise;
     auto planned = blockwise ? plan_blocks(path, machine, *limits, result, begins)
-                             : plan_runs(path, machine, *limits, result, begins);
+                             : plan_runs(joints, machine, *limits, result, begins);
     if (!planned) return tl::unexpected(std::move(planned.error()));
   }
   add_pauses(path, pauses, begins, result);
@@ -93,7 +98,8 @@ tl::expected<double, PlanError> motion_time_s(const Path& path, const machine::M
   if (!path.faults.empty()) return tl::unexpected(PlanError{path.faults.front()});
   if (first >= path.size()) return 0.0;
   const Path rest = path.tail(first);
-  auto limits = limit_table(rest, machine);
+  const auto joints = machine_joints(rest, machine);
+  auto limits = limit_table(*joints, machine);
   if (!limits) return tl::unexpected(std::move(limits.error()));
   std::int64_t ticks = 0;
   double time = 0.0;
@@ -106,7 +112,7 @@ tl::expected<double, PlanError> motion_time_s(const Path& path, const machine::M
     }
     return machine.planner.whole_ticks ? static_cast<double>(ticks) * machine.clock.tau_s() : time;
   }
-  RunMaker runs(rest, machine, *limits);
+  RunMaker runs(*joints, machine, *limits);
   while (runs.next()) {
     time += runs.time_s() * runs.whole().stretch;
     if (!(time < kLongest_s)) return tl::unexpected(too_long(rest, runs.run(), time));

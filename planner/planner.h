@@ -10,12 +10,14 @@
 #include "planner/laws/motion_source.h"
 #include "planner/limits/plan_error.h"
 #include "planner/override/override.h"
+#include "planner/path/joints.h"
 #include "planner/path/path.h"
 #include "planner/path/path_builder.h"
 #include "planner/path/path_cut.h"
 #include "planner/verify/verify.h"
 
-/// Blocks -> path -> feed plan -> motion law. One door to the cycle: MotionSource.
+/// Blocks -> path -> feed plan -> motion law. One door to the cycle: MotionSource. One door between geometry and
+/// limits: Joints.
 namespace kadr::planner {
 
 /// Plans a whole path, rest to rest between the segments that stop, with look-ahead over the whole path.
@@ -33,6 +35,9 @@ namespace kadr::planner {
 /// table states it.
 /// @param pauses  ascending in after_segment; the law stands there, what follows begins later
 tl::expected<FeedPlan, PlanError> plan(const Path& path, const machine::MachineModel& machine,
+                                       std::span<const Pause> pauses = {});
+/// The same by the limits of other joints than the machine's own (machine_joints).
+tl::expected<FeedPlan, PlanError> plan(const Joints& joints, const machine::MachineModel& machine,
                                        std::span<const Pause> pauses = {});
 
 /// Time that plan() gives to the segments from `first` to the path's end, where the machine stops, without

@@ -76,11 +76,11 @@ double sum_of_times_s(const std::vector<JerkPiece>& run) {
 
 }  // namespace
 
-RunMaker::RunMaker(const Path& path, const machine::MachineModel& machine, const PathLimitTable& table)
-    : task_{path, table, machine}, method_(run_method(task_)), rapids_(machine) {}
+RunMaker::RunMaker(const Joints& joints, const machine::MachineModel& machine, const PathLimitTable& table)
+    : task_{joints, table, machine}, method_(run_method(task_)), rapids_(machine) {}
 
 bool RunMaker::next() {
-  if (behind_ >= task_.path.size()) return false;
+  if (behind_ >= task_.path().size()) return false;
   run_.first = run_.last = behind_;
   while (task_.table.cap_u_s[2 * run_.last + 2] > 0.0) ++run_.last;
   behind_ = run_.last + 1;
@@ -88,7 +88,7 @@ bool RunMaker::next() {
   planned_.pieces.clear();
   positioned_.reset();
   whole_ = {};
-  if (!is_positioning(task_.path, run_.first, task_.machine)) return plan_by_method();
+  if (!is_positioning(task_.path(), run_.first, task_.machine)) return plan_by_method();
   position();
   return true;
 }
@@ -114,13 +114,13 @@ void RunMaker::position() {
   require(run_.last == i, "a positioning move is a run of its own");
   const PathLimitTable& table = task_.table;
   const Positioning rapid =
-      rapids_.plan(task_.path, i, table.cap_u_s[2 * i + 1], table.accel_u_s2[i], table.jerk_u_s3[i]);
-  append_pieces(rapid.law, task_.path.start_s_u[i], table.signature[2 * i + 1], planned_.pieces);
+      rapids_.plan(task_.path(), i, table.cap_u_s[2 * i + 1], table.accel_u_s2[i], table.jerk_u_s3[i]);
+  append_pieces(rapid.law, task_.path().start_s_u[i], table.signature[2 * i + 1], planned_.pieces);
   time_s_ = rapid.law.duration_s();
   if (task_.machine.planner.whole_ticks)
     whole_.ticks = static_cast<std::int64_t>(std::floor(time_s_ / task_.machine.clock.tau_s() + 0.5));
   positioned_ = {static_cast<std::uint32_t>(i), rapid.shape, rapid.reason, rapid.loss_s, {}};
-  for (const ExcitedMode& m : rapids_.excited(task_.path, i))
+  for (const ExcitedMode& m : rapids_.excited(task_.path(), i))
     positioned_->residual_u[static_cast<std::size_t>(m.axis)] += residual_u(rapid.law, m);
 }
 

@@ -11,10 +11,10 @@
 namespace kadr::planner {
 
 /// Plans the runs of a path, from rest to rest, one after the other: by planner.method, and rapids of
-/// planner.rapid_law by PositioningPlanner.
+/// planner.rapid_law by PositioningPlanner. Joints, machine and table outlive it.
 class RunMaker {
  public:
-  RunMaker(const Path& path, const machine::MachineModel& machine, const PathLimitTable& table);
+  RunMaker(const Joints& joints, const machine::MachineModel& machine, const PathLimitTable& table);
 
   /// Plans the next run; false after the last one, or where it can't be planned: error().
   bool next();

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include "emulator/interpolator/arc_crossings.h"
 #include "emulator/interpolator/curve_crossings.h"
@@ -11,6 +12,7 @@
 #include "emulator/interpolator/tick_clock.h"
 #include "machine/base/require.h"
 #include "machine/machine.h"
+#include "planner/path/joints.h"
 
 namespace kadr::interpolator {
 
@@ -57,6 +59,7 @@ struct CrossingInterpolator::Impl {
 
   const planner::Path& path;
   const machine::MachineModel& machine;
+  std::unique_ptr<const planner::Joints> joints;
   std::size_t axes;
 
   std::size_t segment = 0;
@@ -83,6 +86,7 @@ struct CrossingInterpolator::Impl {
 CrossingInterpolator::Impl::Impl(const planner::Path& the_path, const machine::MachineModel& the_machine)
     : path(the_path),
       machine(the_machine),
+      joints(planner::machine_joints(the_path, the_machine)),
       axes(static_cast<std::size_t>(the_path.axes())),
       track(axes),
       steps(axes),
@@ -90,7 +94,6 @@ CrossingInterpolator::Impl::Impl(const planner::Path& the_path, const machine::M
       position_u(axes),
       tangent(axes),
       check(the_path, the_machine) {
-  require(axes == machine.axis.size(), "the path has the machine's axes");
   require(machine.clock.control_tick.value >= 1 && machine.clock.control_tick.value <= 65536,
           "a control tick has 1 to 65536 base ticks");
   moving.reserve(axes);
@@ -308,7 +311,7 @@ void CrossingInterpolator::Impl::begin_commands(const planner::TickMotion& motio
   // before the motion begins inside the tick the axes are at rest
   const double speed_u_s = motion.move_begin_ticks > 0.0 ? 0.0 : motion.ramp_begin_u_s;
   // on the same segment the tangent is that of the last tick's end
-  if (corner) planner::eval_tangent(path, segment, motion.s_begin_u - path.start_s_u[segment], tangent);
+  if (corner) joints->at(segment, motion.s_begin_u - path.start_s_u[segment], {.d1 = tangent});
   for (std::size_t k = 0; k < axes; ++k) {
     batch.axis[k].command.position_begin_u = position_u[k];
     batch.axis[k].command.speed_begin_u_s = tangent[k] * speed_u_s;
@@ -320,8 +323,7 @@ void CrossingInterpolator::Impl::end_commands(const planner::TickMotion& motion,
   const double speed_u_s = motion.move_end_ticks < tau ? 0.0 : motion.ramp_end_u_s;
   const double length_u = path.segments[segment].length_u;
   const double s_u = segment_done ? length_u : motion.s_end_u - path.start_s_u[segment];
-  planner::eval_position(path, segment, s_u, position_u);
-  planner::eval_tangent(path, segment, s_u, tangent);
+  joints->at(segment, s_u, {.position_u = position_u, .d1 = tangent});
   for (std::size_t k = 0; k < axes; ++k) {
     batch.axis[k].command.position_end_u = position_u[k];
     batch.axis[k].command.speed_end_u_s = tangent[k] * speed_u_s;

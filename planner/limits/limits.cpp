@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "machine/base/numbers.h"
+#include "machine/base/require.h"
 #include "machine/machine.h"
-#include "planner/bezier/curve_bounds.h"
+#include "planner/path/joints.h"
 #include "planner/path/path.h"
 
 namespace kadr::planner {
@@ -27,19 +27,11 @@ constexpr const char* kNoJerkLimit = "nothing limits the jerk";
 
 using AxisVector = std::array<double, kProgramAxes>;
 
+/// A segment's joints at both of its ends, by joint.
 struct Ends {
   AxisVector tangent_begin, tangent_end;
-  AxisVector curvature_begin, curvature_end;  // not set on lines
-  bool curved = false;
-};
-
-/// Derivatives of an arc's two circular coordinates with respect to s, bounded over the whole circle.
-struct ArcBounds {
-  double tangent = 0;    // |x'|
-  double curvature = 0;  // |x''|
-  double turning = 0;    // |x'''|
-  double skew = 1;  // axis limits are divided by this: x' and x'' are not quite at right angles on a spiral
-  double first_tangent = 0, second_tangent = 0;  // each axis, over the angles really passed
+  AxisVector curvature_begin, curvature_end;  // not set where every joint runs straight
+  bool straight = true;
 };
 
 struct SegmentCaps {
@@ -53,32 +45,6 @@ struct SegmentCaps {
   void lower_accel(double a) { accel = std::min(accel, a); }
   void lower_jerk(double j) { jerk = std::min(jerk, j); }
 };
-
-/// Largest |sin| between two angles.
-double largest_sine(double from_rad, double to_rad) {
-  const double low = std::min(from_rad, to_rad) / kPi - 0.5;
-  const double high = std::max(from_rad, to_rad) / kPi - 0.5;
-  if (std::floor(high) >= std::ceil(low)) return 1.0;
-  return std::max(std::fabs(exact_sincos(from_rad).sin), std::fabs(exact_sincos(to_rad).sin));
-}
-
-ArcBounds arc_bounds(const ArcShape& arc, double length_u) {
-  const double w = std::fabs(arc.sweep_rad);
-  const double dr = std::fabs(arc.radius_end_u - arc.radius_begin_u);
-  const double r = std::max(arc.radius_begin_u, arc.radius_end_u);
-  const double r_min = std::min(arc.radius_begin_u, arc.radius_end_u);
-  ArcBounds b;
-  const double l2 = length_u * length_u;
-  b.tangent = std::sqrt(dr * dr + r * w * r * w) / length_u;
-  b.curvature = (2.0 * dr * w + r * w * w) / l2;
-  b.turning = (3.0 * dr * w * w + r * w * w * w) / (l2 * length_u);
-  // |x' . x''| <= skew |x'| |x''|: |a x' + b x''|^2 <= (1 + skew) (|a x'|^2 + |b x''|^2)
-  if (dr > 0.0) b.skew = std::sqrt(1.0 + (6.0 * dr < r_min * w ? 6.0 * dr / (r_min * w) : 1.0));
-  const double to = arc.angle_begin_rad + arc.sweep_rad;
-  b.first_tangent = (dr + r * w * largest_sine(arc.angle_begin_rad, to)) / length_u;
-  b.second_tangent = (dr + r * w * largest_sine(arc.angle_begin_rad + 0.5 * kPi, to + 0.5 * kPi)) / length_u;
-  return b;
-}
 
 /// A guard: Newton ends when a step no longer falls.
 constexpr int kCubeRootSteps = 60;
@@ -103,56 +69,47 @@ double normal_share(double accel, double centripetal) {
                                  : kNormalShare;
 }
 
-/// One circular axis on an arc: the normal part first takes its share of speed, then the tangential limits follow.
-void lower_speed_on_arc(SegmentCaps& caps, const ArcBounds& b, const machine::AxisModel& axis, int index,
-                        double centripetal) {
+/// Turning first takes its share of a joint's limits, which caps the speed ...
+void lower_speed_by_turning(SegmentCaps& caps, const JointBounds& b, const machine::AxisModel& axis,
+                            int index, double centripetal) {
+  if (!(b.skew > 0.0)) return;
   const double accel = axis.max_accel_u_s2 / b.skew;
-  caps.lower_speed(std::sqrt(normal_share(accel, centripetal) * accel / b.curvature), LimitedBy::centripetal,
-                   index);
-  const double jerk = axis.max_jerk_u_s3 / b.skew;
-  caps.lower_speed(cube_root(kTurningJerkShare * jerk / b.turning), LimitedBy::centripetal, index);
-}
-
-void lower_tangential_on_arc(SegmentCaps& caps, const ArcBounds& b, const machine::AxisModel& axis) {
-  const double v = caps.speed;
-  const double accel = axis.max_accel_u_s2 / b.skew;
-  const double normal = v * v * b.curvature;
-  caps.lower_accel(std::sqrt(std::max(accel * accel - normal * normal, 0.0)) / b.tangent);
-  const double jerk = axis.max_jerk_u_s3 / b.skew;
-  caps.lower_accel(kNormalJerkShare * jerk / (3.0 * v * b.curvature));
-  if (jerk < kInfinity) caps.lower_jerk((kTangentJerkShare * jerk - v * v * v * b.turning) / b.tangent);
-}
-
-/// One axis on a curve: as on an arc, with the axis's share of the motion in the plane of the curve.
-void lower_speed_on_curve(SegmentCaps& caps, const CurveBounds& b, const machine::AxisModel& axis, int index,
-                          double centripetal) {
-  const auto j = static_cast<std::size_t>(index);
-  if (!(b.plane[j] > 0.0)) return;
-  const double accel = axis.max_accel_u_s2 / b.plane[j];
   caps.lower_speed(std::sqrt(normal_share(accel, centripetal) * accel / b.curvature_per_u),
                    LimitedBy::centripetal, index);
-  caps.lower_speed(cube_root(kTurningJerkShare * axis.max_jerk_u_s3 / b.third_u2[j]), LimitedBy::centripetal,
-                   index);
+  const double jerk = b.course == JointCourse::circle ? axis.max_jerk_u_s3 / b.skew : axis.max_jerk_u_s3;
+  caps.lower_speed(cube_root(kTurningJerkShare * jerk / b.third_per_u2), LimitedBy::centripetal, index);
 }
 
-void lower_tangential_on_curve(SegmentCaps& caps, const CurveBounds& b, const machine::AxisModel& axis,
-                               std::size_t j) {
-  if (!(b.plane[j] > 0.0)) return;
+/// ... and the rest, at that speed, is for accelerating along the path.
+void lower_tangential(SegmentCaps& caps, const JointBounds& b, const machine::AxisModel& axis) {
+  if (!(b.skew > 0.0)) return;
   const double v = caps.speed;
-  const double accel = axis.max_accel_u_s2 / b.plane[j];
+  const double accel = axis.max_accel_u_s2 / b.skew;
   const double normal = v * v * b.curvature_per_u;
-  caps.lower_accel(std::sqrt(std::max(accel * accel - normal * normal, 0.0)));
+  caps.lower_accel(std::sqrt(std::max(accel * accel - normal * normal, 0.0)) / b.tangent);
   if (!(axis.max_jerk_u_s3 < kInfinity)) return;
-  // the rest after the curve itself; its third derivative has any direction
-  const double jerk = (axis.max_jerk_u_s3 - v * v * v * b.third_u2[j]) / b.plane[j];
-  caps.lower_accel(kNormalJerkShare * jerk / (3.0 * v * b.curvature_per_u));
-  caps.lower_jerk(kTangentJerkShare * jerk);
+  const double turning = v * v * v * b.third_per_u2;
+  if (b.course == JointCourse::circle) {
+    const double jerk = axis.max_jerk_u_s3 / b.skew;
+    caps.lower_accel(kNormalJerkShare * jerk / (3.0 * v * b.curvature_per_u));
+    caps.lower_jerk((kTangentJerkShare * jerk - turning) / b.tangent);
+  } else {
+    // the third derivative has any direction
+    const double jerk = (axis.max_jerk_u_s3 - turning) / b.skew;
+    caps.lower_accel(kNormalJerkShare * jerk / (3.0 * v * b.curvature_per_u));
+    caps.lower_jerk(kTangentJerkShare * jerk / b.tangent);
+  }
 }
 
 class TableMaker {
  public:
-  TableMaker(const Path& path, const machine::MachineModel& machine, double feed_scale)
-      : path_(path), machine_(machine), feed_scale_(feed_scale), axes_(machine.axis.size()) {
+  TableMaker(const Joints& joints, const machine::MachineModel& machine, double feed_scale)
+      : joints_(joints),
+        path_(joints.path()),
+        machine_(machine),
+        feed_scale_(feed_scale),
+        axes_(machine.axis.size()) {
+    require(joints.size() == axes_, "each joint has the limits of one axis");
     const double tau = machine.clock.tau_s();
     for (std::size_t j = 0; j < axes_; ++j)
       speed_step_[j] =
@@ -171,8 +128,9 @@ class TableMaker {
     Ends ends[2];
     for (std::size_t i = 0; i < n; ++i) {
       Ends& now = ends[i & 1];
+      joints_.bound(i, bounds_);
       measure_ends(i, now);
-      const SegmentCaps caps = segment_caps(i, now);
+      const SegmentCaps caps = segment_caps(i);
       if (const char* wrong = fault(i, caps)) return tl::unexpected(refuse(i, wrong));
       table_.cap_u_s[2 * i + 1] = caps.speed;
       table_.signature[2 * i + 1] = caps.signature;
@@ -187,26 +145,19 @@ class TableMaker {
 
  private:
   void measure_ends(std::size_t i, Ends& ends) const {
-    eval_line_tangent(i, ends.tangent_begin);
-    ends.curved = path_.segments[i].kind != SegmentKind::line;
-    if (!ends.curved) {
+    ends.straight = bounds_.straight;
+    if (ends.straight) {
+      joints_.at(i, 0.0, {.d1 = {ends.tangent_begin.data(), axes_}});
       ends.tangent_end = ends.tangent_begin;
       return;
     }
-    const double length = path_.segments[i].length_u;
-    eval_tangent(path_, i, 0.0, {ends.tangent_begin.data(), axes_});
-    eval_tangent(path_, i, length, {ends.tangent_end.data(), axes_});
-    eval_curvature(path_, i, 0.0, {ends.curvature_begin.data(), axes_});
-    eval_curvature(path_, i, length, {ends.curvature_end.data(), axes_});
+    joints_.at(i, 0.0,
+               {.d1 = {ends.tangent_begin.data(), axes_}, .d2_per_u = {ends.curvature_begin.data(), axes_}});
+    joints_.at(i, path_.segments[i].length_u,
+               {.d1 = {ends.tangent_end.data(), axes_}, .d2_per_u = {ends.curvature_end.data(), axes_}});
   }
 
-  void eval_line_tangent(std::size_t i, AxisVector& tangent) const {
-    const double* from = path_.nodes_u.data() + i * axes_;
-    const double length = path_.segments[i].length_u;
-    for (std::size_t j = 0; j < axes_; ++j) tangent[j] = (from[axes_ + j] - from[j]) / length;
-  }
-
-  SegmentCaps segment_caps(std::size_t i, const Ends& ends) const {
+  SegmentCaps segment_caps(std::size_t i) const {
     const PathSegment& seg = path_.segments[i];
     SegmentCaps caps;
     const machine::PathLimits& limits = machine_.path;
@@ -222,50 +173,33 @@ class TableMaker {
     // a segment without an acceleration limit of the path keeps those of the axes, whatever the setting
     const bool enforce =
         machine_.planner.axis_limits == machine::AxisLimitRule::enforce || caps.accel == kInfinity;
-    if (seg.kind == SegmentKind::curve) return curve_caps(i, caps, enforce);
-    const ArcShape* arc = seg.kind == SegmentKind::arc ? &path_.arc_of(i) : nullptr;
-    const ArcBounds bounds = arc ? arc_bounds(*arc, seg.length_u) : ArcBounds{};
-    if (arc)
-      caps.lower_speed(std::sqrt(limits.centripetal_accel_mm_s2 / bounds.curvature), LimitedBy::centripetal);
-
-    for (std::size_t j = 0; j < axes_; ++j) {
-      const machine::AxisModel& axis = machine_.axis[j];
-      const int index = static_cast<int>(j);
-      const bool first = arc && index == arc->first_axis;
-      const bool circular = first || (arc && index == arc->second_axis);
-      const double share = circular ? (first ? bounds.first_tangent : bounds.second_tangent)
-                                    : std::fabs(ends.tangent_begin[j]);
-      if (share > 0.0 && (enforce || seg.rapid))
-        caps.lower_speed(axis.max_feed_u_s / share, seg.rapid ? LimitedBy::rapid : LimitedBy::axis_speed,
-                         index);
-      if (!enforce) continue;
-      if (circular) {
-        lower_speed_on_arc(caps, bounds, axis, index, limits.centripetal_accel_mm_s2);
-      } else if (share > 0.0) {
-        caps.lower_accel(axis.max_accel_u_s2 / share);
-        caps.lower_jerk(axis.max_jerk_u_s3 / share);
-      }
-    }
-    if (arc && enforce)
-      for (const int j : {arc->first_axis, arc->second_axis})
-        lower_tangential_on_arc(caps, bounds, machine_.axis[static_cast<std::size_t>(j)]);
+    if (bounds_.curvature_per_u > 0.0)
+      caps.lower_speed(std::sqrt(limits.centripetal_accel_mm_s2 / bounds_.curvature_per_u),
+                       LimitedBy::centripetal);
+    lower_by_joints(caps, seg, enforce);
     return caps;
   }
 
-  SegmentCaps curve_caps(std::size_t i, SegmentCaps caps, bool enforce) const {
-    const CurveBounds bounds = curve_bounds(path_.curve_of(i));
-    const double centripetal = machine_.path.centripetal_accel_mm_s2;
-    caps.lower_speed(std::sqrt(centripetal / bounds.curvature_per_u), LimitedBy::centripetal);
-    if (!enforce) return caps;
+  void lower_by_joints(SegmentCaps& caps, const PathSegment& seg, bool enforce) const {
     for (std::size_t j = 0; j < axes_; ++j) {
       const machine::AxisModel& axis = machine_.axis[j];
+      const JointBounds& b = bounds_.joint[j];
       const int index = static_cast<int>(j);
-      if (bounds.tangent[j] > 0.0)
-        caps.lower_speed(axis.max_feed_u_s / bounds.tangent[j], LimitedBy::axis_speed, index);
-      lower_speed_on_curve(caps, bounds, axis, index, centripetal);
+      if (b.slope > 0.0 && (enforce || seg.rapid))
+        caps.lower_speed(axis.max_feed_u_s / b.slope, seg.rapid ? LimitedBy::rapid : LimitedBy::axis_speed,
+                         index);
+      if (!enforce) continue;
+      if (b.course != JointCourse::straight) {
+        lower_speed_by_turning(caps, b, axis, index, machine_.path.centripetal_accel_mm_s2);
+      } else if (b.slope > 0.0) {
+        caps.lower_accel(axis.max_accel_u_s2 / b.slope);
+        caps.lower_jerk(axis.max_jerk_u_s3 / b.slope);
+      }
     }
-    for (std::size_t j = 0; j < axes_; ++j) lower_tangential_on_curve(caps, bounds, machine_.axis[j], j);
-    return caps;
+    if (!enforce || bounds_.straight) return;
+    for (std::size_t j = 0; j < axes_; ++j)
+      if (bounds_.joint[j].course != JointCourse::straight)
+        lower_tangential(caps, bounds_.joint[j], machine_.axis[j]);
   }
 
   void joint_cap(std::size_t i, const Ends& before, const Ends& after) {
@@ -273,13 +207,13 @@ class TableMaker {
     const double v_after = table_.cap_u_s[2 * i + 1];
     double cap = std::min(v_before, v_after);
     Signature signature = table_.signature[v_before <= v_after ? 2 * i - 1 : 2 * i + 1];
-    const bool curved = before.curved || after.curved;
+    const bool straight = before.straight && after.straight;
     for (std::size_t j = 0; j < axes_; ++j) {
       const double turn = std::fabs(after.tangent_begin[j] - before.tangent_end[j]);
       double v = turn * cap > speed_step_[j] ? speed_step_[j] / turn : cap;
-      if (curved) {
-        const double step = std::fabs((after.curved ? after.curvature_begin[j] : 0.0) -
-                                      (before.curved ? before.curvature_end[j] : 0.0));
+      if (!straight) {
+        const double step = std::fabs((after.straight ? 0.0 : after.curvature_begin[j]) -
+                                      (before.straight ? 0.0 : before.curvature_end[j]));
         const double allowed = machine_.axis[j].junction_accel_u_s2;
         if (v * v * step > allowed) v = std::sqrt(allowed / step);
       }
@@ -338,19 +272,26 @@ class TableMaker {
     return {std::move(d)};
   }
 
+  const Joints& joints_;
   const Path& path_;
   const machine::MachineModel& machine_;
   double feed_scale_;
   std::size_t axes_;
+  SegmentBounds bounds_;     // of the current segment
   AxisVector speed_step_{};  // min(a_inst tau, j_inst tau^2)
   PathLimitTable table_;
 };
 
 }  // namespace
 
+tl::expected<PathLimitTable, PlanError> limit_table(const Joints& joints,
+                                                    const machine::MachineModel& machine, double feed_scale) {
+  return TableMaker(joints, machine, feed_scale).make();
+}
+
 tl::expected<PathLimitTable, PlanError> limit_table(const Path& path, const machine::MachineModel& machine,
                                                     double feed_scale) {
-  return TableMaker(path, machine, feed_scale).make();
+  return limit_table(*machine_joints(path, machine), machine, feed_scale);
 }
 
 }  // namespace kadr::planner

@@ -15,6 +15,7 @@ struct MachineModel;
 /// Limits that geometry and machine set at each place of a path, before any ramp.
 namespace kadr::planner {
 
+class Joints;
 class Path;
 
 /// The reason of a cap: the signature of one place.
@@ -36,23 +37,23 @@ struct PathLimitTable {
 
 /// Computes all caps.
 ///
-/// Segment, with e = dx/ds, kappa = d2x/ds2, per machine axis j:
+/// Segment, per joint j of the machine, whose limits are those of axis j (Joints), with e = dx/ds:
 ///   v <= programmed feed,   v <= max_feed_j / max|e_j|
 ///   a <= A_j / |e_j|,       jerk <= J_j / |e_j|
-/// Limits of [path] count along the length that F measures: they are scaled by length_u / feed_length_u.
+/// Limits of [path] count along the length that F measures: they are scaled by length_u / feed_length_u. The
+/// centripetal limit counts by the curvature of the path itself: v^2 kappa <= centripetal limit.
 ///
-/// Arcs share each axis limit between turning and accelerating along the path:
-///   v^2 |kappa| <= centripetal limit of the path
-///   v^2 |kappa| <= 0.8 A_j,         (|e| a)^2 + (v^2 |kappa|)^2 <= A_j^2
-///   v^3 |x'''|  <= 0.4 J_j,         |e| jerk + v^3 |x'''| <= 0.8 J_j,     3 v a |kappa| <= 0.6 J_j
-/// so that both parts together obey the axis at every angle (0.8^2 + 0.6^2 = 1). A finite centripetal limit
-/// takes its own share instead of 0.8 A_j; it is met exactly up to 0.98 A_j.
+/// Where a joint turns, each of its limits is shared between turning and accelerating along the path, by
+/// bounds over the whole segment (JointBounds: T = tangent, K = curvature, W = third). On circles, with
+/// A = A_j / skew and J = J_j / skew:
+///   v^2 K <= 0.8 A,    (T a)^2 + (v^2 K)^2 <= A^2
+///   v^3 W <= 0.4 J,    T jerk + v^3 W <= 0.8 J,    3 v a K <= 0.6 J
+/// so that both parts together obey the joint at every angle (0.8^2 + 0.6^2 = 1). A finite centripetal limit
+/// takes its own share instead of 0.8 A; it is met exactly up to 0.98 A. On curves likewise, but
+///   v^3 W <= 0.4 J_j,  J' = (J_j - v^3 W)/skew:    T jerk <= 0.8 J',    3 v a K <= 0.6 J'
 ///
-/// Curves (PathCurve) likewise, by bounds over the whole segment (CurveBounds: kappa, plane_j, |x'''_j|):
-///   v^2 kappa <= 0.8 A_j/plane_j,   a^2 + (v^2 kappa)^2 <= (A_j/plane_j)^2,   v^3 |x'''_j| <= 0.4 J_j
-///   J' = (J_j - v^3 |x'''_j|)/plane_j:   jerk <= 0.8 J',   3 v a kappa <= 0.6 J'
-///
-/// Joint (paper 003, section 1.2), a curvature step counting as a jump of acceleration:
+/// Place where two segments meet (paper 003, section 1.2), a curvature step counting as a jump of
+/// acceleration, with kappa_j = d2x_j/ds2:
 ///   v <= min_j min(a_inst_j tau, j_inst_j tau^2) / |delta e_j|,    v^2 |delta kappa_j| <= a_inst_j
 /// and 0 at both ends of a rapid that planner.rapid_law takes care of.
 ///
@@ -60,6 +61,10 @@ struct PathLimitTable {
 /// corners keep the junction rule and rapids their axis speed.
 ///
 /// @param feed_scale  factor on the programmed feeds: the highest override that an operator will request
+tl::expected<PathLimitTable, PlanError> limit_table(const Joints& joints,
+                                                    const machine::MachineModel& machine,
+                                                    double feed_scale = 1.0);
+/// Of the machine's own joints (machine_joints).
 tl::expected<PathLimitTable, PlanError> limit_table(const Path& path, const machine::MachineModel& machine,
                                                     double feed_scale = 1.0);
 

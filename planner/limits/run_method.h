@@ -6,15 +6,17 @@
 #include "planner/limits/limits.h"
 #include "planner/limits/plan_error.h"
 #include "planner/limits/ramp.h"
+#include "planner/path/joints.h"
 
 /// The door through which plan() asks a planner.method for one motion from rest to rest.
 namespace kadr::planner {
 
 /// What every method works on; all three outlive it.
 struct RunTask {
-  const Path& path;
+  const Joints& joints;
   const PathLimitTable& table;
   const machine::MachineModel& machine;
+  const Path& path() const { return joints.path(); }
 };
 
 /// A run in path order, without gaps: ramps and holds, or else pieces of constant jerk, whose own beginnings

@@ -12,11 +12,11 @@ namespace {
 
 constexpr double kSameTime_s = 1e-9;  ///< the law is at a position of its own up to rounding
 
-PathLimitTable caps_of(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
+PathLimitTable caps_of(const Joints& joints, const FeedPlan& plan, const machine::MachineModel& machine,
                        double most_percent) {
   using machine::OverrideMode;
   const OverrideMode mode = machine.feed_override.mode;
-  auto table = limit_table(path, machine, mode == OverrideMode::corrected_plus ? most_percent : 1.0);
+  auto table = limit_table(joints, machine, mode == OverrideMode::corrected_plus ? most_percent : 1.0);
   require(table.has_value(), "a path that was planned has limits");
   // a time law's own speeds are never exceeded. Eq. 7 and 8 by the letter: with F_HK and F_KK of blocks that
   // end without acceleration; ramps that run over many blocks have no such numbers, there F
@@ -28,7 +28,7 @@ PathLimitTable caps_of(const Path& path, const FeedPlan& plan, const machine::Ma
   // nor do the ramps that follow them keep a jerk that they do not
   if (!machine.planner.keeps_jerk())
     std::fill(table->jerk_u_s3.begin(), table->jerk_u_s3.end(), machine::kInfinity);
-  for (std::size_t i = 0; i < path.size(); ++i) {
+  for (std::size_t i = 0; i < joints.path().size(); ++i) {
     double& peak = table->cap_u_s[2 * i + 1];
     peak = std::min(peak, plan.segments[i].peak_u_s);
     double& end = table->cap_u_s[2 * i + 2];
@@ -65,9 +65,10 @@ MotionState towards(MotionState x, double wanted_u_s, RampLimits l, double time_
 OverrideSource::OverrideSource(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
                                double most_percent)
     : path_(path),
+      joints_(machine_joints(path, machine)),
       plan_(plan),
       machine_(machine),
-      terrain_(path, machine, caps_of(path, plan, machine, most_percent)),
+      terrain_(path, machine, caps_of(*joints_, plan, machine, most_percent)),
       law_(plan.law, machine),
       tracker_(terrain_),
       probe_(terrain_),
@@ -309,7 +310,7 @@ bool OverrideSource::advance_limited(TickMotion& m, const Percent& percent) {
 
 LimitedFeed OverrideSource::limiter_at(double s_u, double feed_u_s) {
   const std::size_t i = terrain_.segment_at(std::min(s_u, path_.length_u()), segment_);
-  eval_tangent(path_, i, std::clamp(s_u - path_.start_s_u[i], 0.0, path_.segments[i].length_u), tangent_);
+  joints_->at(i, std::clamp(s_u - path_.start_s_u[i], 0.0, path_.segments[i].length_u), {.d1 = tangent_});
   return limited_feed(machine_, tangent_, feed_u_s);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <optional>
 
 #include "planner/laws/feed_plan.h"
@@ -7,6 +8,7 @@
 #include "planner/override/feed_terrain.h"
 #include "planner/override/feed_tracker.h"
 #include "planner/override/override.h"
+#include "planner/path/joints.h"
 #include "planner/positioning/positioning.h"
 
 namespace kadr::planner {
@@ -52,6 +54,7 @@ class OverrideSource final : public MotionSource {
   void take_back(const Percent& percent);
 
   const Path& path_;
+  std::unique_ptr<const Joints> joints_;
   const FeedPlan& plan_;
   const machine::MachineModel& machine_;
   FeedTerrain terrain_;
@@ -61,7 +64,7 @@ class OverrideSource final : public MotionSource {
   LimitedFeed limit_;     ///< of the last tick: it counts in the next one (eq. 12)
   MotionState demand_{};  ///< feed before the limiter, while limited
   bool limited_ = false;
-  std::vector<double> tangent_;
+  std::vector<double> tangent_;  ///< [joints]
   PositioningPlanner rapids_;
   std::size_t next_rapid_ = 0;  ///< of plan.positioned: the first that the law is not past
   MotionLaw slow_rapid_;        ///< the current one under an override

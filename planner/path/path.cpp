@@ -6,34 +6,17 @@
 
 #include "machine/base/numbers.h"
 #include "machine/machine.h"
+#include "planner/path/arc_place.h"
 
 namespace kadr::planner {
 namespace {
 
-/// Derivatives of the two circular coordinates with respect to u = s/length, of the order asked for (0..2).
-///   p = c + r e(phi), phi' = sweep, r' = dr (constant):
-///   p' = dr e + r sweep n,   p'' = 2 dr sweep n - r sweep^2 e,   e = (cos, sin), n = (-sin, cos)
-std::pair<double, double> circle_derivative(const ArcShape& arc, double u, int order) {
-  const double dr = arc.radius_end_u - arc.radius_begin_u;
-  const double r = arc.radius_begin_u + dr * u;
-  const SinCos angle = exact_sincos(arc.angle_begin_rad + arc.sweep_rad * u);
-  const double w = arc.sweep_rad;
-  switch (order) {
-    case 0:
-      return {arc.center_first_u + r * angle.cos, arc.center_second_u + r * angle.sin};
-    case 1:
-      return {dr * angle.cos - r * w * angle.sin, dr * angle.sin + r * w * angle.cos};
-    default:
-      return {-2.0 * dr * w * angle.sin - r * w * w * angle.cos,
-              2.0 * dr * w * angle.cos - r * w * w * angle.sin};
-  }
-}
-
 /// Where an extreme of one circular coordinate lies near u: zero of its derivative, Newton with a fixed count.
 double polish_extreme(const ArcShape& arc, double u, bool first) {
   for (int i = 0; i < 4; ++i) {
-    const auto d1 = circle_derivative(arc, u, 1);
-    const auto d2 = circle_derivative(arc, u, 2);
+    const ArcPlace place(arc, u);
+    const auto d1 = place.first();
+    const auto d2 = place.second();
     const double slope = first ? d2.first : d2.second;
     if (slope == 0.0) break;
     u = std::clamp(u - (first ? d1.first : d1.second) / slope, 0.0, 1.0);
@@ -83,44 +66,9 @@ void eval_position(const Path& path, std::size_t segment, double s_u, std::span<
   for (std::size_t j = 0; j < from.size(); ++j) position_u[j] = from[j] + (to[j] - from[j]) * u;
   if (seg.kind == SegmentKind::arc) {
     const ArcShape& arc = path.arc_of(segment);
-    const auto p = circle_derivative(arc, u, 0);
+    const auto p = ArcPlace(arc, u).position();
     position_u[static_cast<std::size_t>(arc.first_axis)] = p.first;
     position_u[static_cast<std::size_t>(arc.second_axis)] = p.second;
-  }
-}
-
-void eval_tangent(const Path& path, std::size_t segment, double s_u, std::span<double> tangent) {
-  const PathSegment& seg = path.segments[segment];
-  if (seg.kind == SegmentKind::curve) {
-    const PathCurve& curve = path.curve_of(segment);
-    const LengthDerivatives x = curve.by_length(curve.t(s_u));
-    std::copy_n(x.d1.begin(), path.axes(), tangent.begin());
-    return;
-  }
-  const auto from = path.node(segment);
-  const auto to = path.node(segment + 1);
-  for (std::size_t j = 0; j < from.size(); ++j) tangent[j] = (to[j] - from[j]) / seg.length_u;
-  if (seg.kind == SegmentKind::arc) {
-    const ArcShape& arc = path.arc_of(segment);
-    const auto d = circle_derivative(arc, std::clamp(s_u / seg.length_u, 0.0, 1.0), 1);
-    tangent[static_cast<std::size_t>(arc.first_axis)] = d.first / seg.length_u;
-    tangent[static_cast<std::size_t>(arc.second_axis)] = d.second / seg.length_u;
-  }
-}
-
-void eval_curvature(const Path& path, std::size_t segment, double s_u, std::span<double> curvature_per_u) {
-  const PathSegment& seg = path.segments[segment];
-  std::fill_n(curvature_per_u.begin(), path.axes(), 0.0);
-  if (seg.kind == SegmentKind::arc) {
-    const ArcShape& arc = path.arc_of(segment);
-    const auto d = circle_derivative(arc, std::clamp(s_u / seg.length_u, 0.0, 1.0), 2);
-    const double scale = seg.length_u * seg.length_u;
-    curvature_per_u[static_cast<std::size_t>(arc.first_axis)] = d.first / scale;
-    curvature_per_u[static_cast<std::size_t>(arc.second_axis)] = d.second / scale;
-  } else if (seg.kind == SegmentKind::curve) {
-    const PathCurve& curve = path.curve_of(segment);
-    const LengthDerivatives x = curve.by_length(curve.t(s_u));
-    std::copy_n(x.d2.begin(), path.axes(), curvature_per_u.begin());
   }
 }
 
@@ -151,7 +99,7 @@ std::pair<double, double> axis_extent(const Path& path, std::size_t segment, int
   for (const double k : {k_low, k_low + 1.0, k_high - 1.0, k_high}) {
     if (k < k_low || k > k_high) continue;
     const double u = std::clamp(((k + phase) * kPi - arc.angle_begin_rad) / arc.sweep_rad, 0.0, 1.0);
-    const auto p = circle_derivative(arc, polish_extreme(arc, u, first), 0);
+    const auto p = ArcPlace(arc, polish_extreme(arc, u, first)).position();
     const double value = first ? p.first : p.second;
     low = std::min(low, value);
     high = std::max(high, value);

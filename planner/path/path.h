@@ -17,7 +17,8 @@ namespace kadr::machine {
 struct MachineModel;
 }
 
-/// The tool path: segments in the machine's n axes, joined end to end. Geometry only; timing is elsewhere.
+/// The tool path: segments in the machine's n axes, joined end to end. Geometry only; timing is elsewhere, and
+/// how the joints move along it is in joints.h.
 ///
 /// Path length s: one metric for all segments, s = sqrt(sum of squares over the machine's axes), mm and deg
 /// counted alike, so that axis speeds stay continuous where s does (arc: radius * angle in the plane,
@@ -120,10 +121,6 @@ class Path {
 std::string_view motion_name(const PathSegment& segment);
 /// Position on a segment at local length s in [0, length]; exact at both ends (returns the node itself).
 void eval_position(const Path& path, std::size_t segment, double s_u, std::span<double> position_u);
-/// dx/ds there, one value per axis.
-void eval_tangent(const Path& path, std::size_t segment, double s_u, std::span<double> tangent);
-/// d2x/ds2 there (zero on lines).
-void eval_curvature(const Path& path, std::size_t segment, double s_u, std::span<double> curvature_per_u);
 /// Smallest and largest position of one axis on a segment, extremes of arcs included.
 std::pair<double, double> axis_extent(const Path& path, std::size_t segment, int axis);
 

@@ -8,7 +8,7 @@ tl::expected<void, PlanError> RampMethod::plan(const Run& run, PlannedRun& out) 
   if (limits_jerk(task_.table, run))
     valley_.plan(run, out.elements);
   else
-    plan_trapezoids(task_.path, task_.table, run, out.elements);
+    plan_trapezoids(task_.path(), task_.table, run, out.elements);
   return {};
 }
 

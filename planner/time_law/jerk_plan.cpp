@@ -153,14 +153,14 @@ class JerkPlanner {
 
 tl::expected<double, PlanError> plan_jerk_law(const RunTask& task, const Run& run,
                                               std::vector<JerkPiece>& out) {
-  const auto& [path, table, machine] = task;
-  RunProblem stated = run_problem(path, table, run, machine, RunLimits::path);
+  const auto& [joints, table, machine] = task;
+  RunProblem stated = run_problem(joints, table, run, machine, RunLimits::path);
   if (const auto wrong = check_problem(stated.problem))
-    return tl::unexpected(law_not_found(path, stated, *wrong));
+    return tl::unexpected(law_not_found(task.path(), stated, *wrong));
   const std::vector<double> caps = stated.problem.cap_u_s;
   JerkPlanner planner(stated, table);
   if (const auto done = planner.run(); !done)
-    return tl::unexpected(law_not_found(path, stated, done.error()));
+    return tl::unexpected(law_not_found(task.path(), stated, done.error()));
   const double k = planner.stretch() > 1.0 ? planner.stretch() * (1.0 + kRounding) : 1.0;
   for (std::size_t i = 1; i < stated.problem.nodes(); ++i) {
     const IntervalMotion m = stretched(planner.motion()[i], k);

@@ -7,6 +7,7 @@
 
 #include "machine/base/numbers.h"
 #include "machine/machine.h"
+#include "planner/path/joints.h"
 #include "planner/path/path.h"
 
 namespace kadr::planner {
@@ -21,21 +22,15 @@ constexpr double kSlower = 0.9;           ///< of a segment's cap: a joint that 
 constexpr double kAtCap = 1e-9;           ///< relative: a speed that its cap holds
 constexpr double kAtCapRounding = 1e-12;  ///< relative: a speed that rounding alone keeps off its cap
 
-/// Angle of an arc's intervals; a curve counts by the limits along its path, which hold all over it.
-double arc_step_rad(const Path& path, std::size_t segment, double intervals) {
-  if (path.segments[segment].kind != SegmentKind::arc) return 0.0;
-  const ArcShape& arc = path.arc_of(segment);
-  return std::fabs(arc.sweep_rad) / intervals;
-}
-
 /// Part of a limit that an interval of so many radians may use.
 double arc_share(double step_rad) { return 1.0 / (1.0 + 6.0 * step_rad * step_rad / 8.0); }
 
 class ProblemMaker {
  public:
-  ProblemMaker(const Path& path, const PathLimitTable& table, const Run& run,
+  ProblemMaker(const Joints& joints, const PathLimitTable& table, const Run& run,
                const machine::MachineModel& machine, RunLimits limits)
-      : path_(path),
+      : joints_(joints),
+        path_(joints.path()),
         table_(table),
         run_(run),
         machine_(machine),
@@ -69,7 +64,7 @@ class ProblemMaker {
       longest = std::max(longest, local - from);
       from = local;
     }
-    const double share = arc_share(arc_step_rad(path_, i, length / longest));
+    const double share = arc_share(joints_.turn_rad(i) / (length / longest));
     behind(i, 0.0, share);
     for (const double local : places_) {
       node(i, local);
@@ -82,8 +77,9 @@ class ProblemMaker {
 
   /// Longest interval of a segment where nothing is slow.
   double widest_u(std::size_t i) const {
-    if (path_.segments[i].kind != SegmentKind::arc) return longest_u_;
-    return std::min(longest_u_, path_.segments[i].length_u * kArcStep_rad / arc_step_rad(path_, i, 1.0));
+    const double turn_rad = joints_.turn_rad(i);
+    if (!(turn_rad > 0.0)) return longest_u_;
+    return std::min(longest_u_, path_.segments[i].length_u * kArcStep_rad / turn_rad);
   }
 
   /// Longest interval of a segment at one of its joints. Where that is slower than the segment, the way of
@@ -158,8 +154,7 @@ class ProblemMaker {
   void at(std::size_t i, double local, double share, std::vector<double>& slope,
           std::vector<double>& curvature) {
     std::array<double, kProgramAxes> d1{}, d2{};
-    eval_tangent(path_, i, local, {d1.data(), axes_});
-    eval_curvature(path_, i, local, {d2.data(), axes_});
+    joints_.at(i, local, {.d1 = {d1.data(), axes_}, .d2_per_u = {d2.data(), axes_}});
     const bool counts =
         !even_ && path_.segments[i].kind != SegmentKind::curve &&
         (machine_.planner.axis_limits == machine::AxisLimitRule::enforce || path_.segments[i].rapid);
@@ -169,6 +164,7 @@ class ProblemMaker {
     }
   }
 
+  const Joints& joints_;
   const Path& path_;
   const PathLimitTable& table_;
   const Run& run_;
@@ -202,19 +198,19 @@ Signature law_signature(const PathLimitTable& table, std::size_t segment, double
 
 Penalty run_penalty(double length_u) { return {Penalty{}.weight_s5_u2 * (length_u / kPaperLength_u), true}; }
 
-RunProblem run_problem(const Path& path, const PathLimitTable& table, const Run& run,
+RunProblem run_problem(const Joints& joints, const PathLimitTable& table, const Run& run,
                        const machine::MachineModel& machine, RunLimits limits) {
-  return ProblemMaker(path, table, run, machine, limits).make();
+  return ProblemMaker(joints, table, run, machine, limits).make();
 }
 
 tl::expected<void, PlanError> plan_time_law(const RunTask& task, const Run& run, const RunSolver& solve,
                                             std::vector<Element>& out) {
-  const auto& [path, table, machine] = task;
-  RunProblem stated = run_problem(path, table, run, machine);
+  const auto& [joints, table, machine] = task;
+  RunProblem stated = run_problem(joints, table, run, machine);
   LawProblem& p = stated.problem;
-  if (const auto wrong = check_problem(p)) return tl::unexpected(law_not_found(path, stated, *wrong));
+  if (const auto wrong = check_problem(p)) return tl::unexpected(law_not_found(task.path(), stated, *wrong));
   LawResult law = solve(p, machine);
-  if (!law) return tl::unexpected(law_not_found(path, stated, law.error()));
+  if (!law) return tl::unexpected(law_not_found(task.path(), stated, law.error()));
   const std::vector<NodeCap> caps = node_caps(p);
   std::vector<double>& v = law->speed_u_s;
   // speeds that only rounding keeps off their cap are on it, so that holds are holds

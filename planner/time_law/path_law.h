@@ -8,8 +8,8 @@
 namespace kadr::planner {
 
 /// A run of a path as a problem of paper 000: nodes at every joint and between, at most planner.node_mm apart
-/// and at most 2 degrees on arcs; X' and X'' of every axis from the segments themselves (both sides of a
-/// joint), programmed feed, corners and centripetal limit as caps of nodes (limit_table). Accelerations at
+/// and at most 2 degrees on arcs; X' and X'' of every joint of the machine (on both sides where two segments
+/// meet), programmed feed, corners and centripetal limit as caps of nodes (limit_table). Accelerations at
 /// both nodes of an interval; on arcs they are limited a little lower, by as much as may be exceeded between
 /// nodes:
 ///   d^2/8 (5 |a_t| + a_n) with d the angle of an interval, of X' a + X'' v^2 where X is a circle.
@@ -22,7 +22,7 @@ struct RunProblem {
 /// own, jerk included (limit_table). These are for motions of continuous acceleration, which also need
 /// intervals that do not differ much from their neighbours.
 enum class RunLimits : std::uint8_t { axes, path };
-RunProblem run_problem(const Path& path, const PathLimitTable& table, const Run& run,
+RunProblem run_problem(const Joints& joints, const PathLimitTable& table, const Run& run,
                        const machine::MachineModel& machine, RunLimits limits = RunLimits::axes);
 
 /// Penalty of a run of that length: as much a millimetre as in paper 000, whose path was one stretch of 2846.9 mm.

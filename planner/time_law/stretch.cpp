@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/path/joints.h"
 #include "planner/path/path.h"
 
 namespace kadr::planner {
 
 Stretch state_stretch(const Path& path, const PathLimitTable& table, const Run& run,
                       const machine::MachineModel& machine) {
-  RunProblem stated = run_problem(path, table, run, machine);
+  RunProblem stated = run_problem(*machine_joints(path, machine), table, run, machine);
   Stretch out{std::move(stated.problem), std::move(stated.segment), {}};
   LawProblem& p = out.problem;
   p.cap_u_s.front() = table.cap_u_s[2 * run.first];
@@ -27,7 +28,7 @@ Stretch state_stretch(const Path& path, const PathLimitTable& table, const Run& 
 }
 
 PathDerivatives derivatives(const Path& path, const Run& run) {
-  return [&path, run](double s, double* slope, double* curvature) {
+  return [&path, joints = DirectJoints(path), run](double s, double* slope, double* curvature) {
     const double at = path.start_s_u[run.first] + s;
     const auto first = path.start_s_u.begin() + static_cast<std::ptrdiff_t>(run.first + 1);
     const auto last = path.start_s_u.begin() + static_cast<std::ptrdiff_t>(run.last + 1);
@@ -35,9 +36,8 @@ PathDerivatives derivatives(const Path& path, const Run& run) {
     const auto end = std::upper_bound(first, last, at);
     const auto segment = static_cast<std::size_t>(std::min(end, last) - path.start_s_u.begin()) - 1;
     const double local = std::clamp(at - path.start_s_u[segment], 0.0, path.segments[segment].length_u);
-    const auto axes = static_cast<std::size_t>(path.axes());
-    eval_tangent(path, segment, local, {slope, axes});
-    eval_curvature(path, segment, local, {curvature, axes});
+    const auto axes = static_cast<std::size_t>(joints.size());
+    joints.at(segment, local, {.d1 = {slope, axes}, .d2_per_u = {curvature, axes}});
   };
 }
 

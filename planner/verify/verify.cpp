@@ -52,7 +52,13 @@ VerifyOptions production_check() {
 
 std::vector<Violation> verify(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
                               const VerifyOptions& options, std::span<const Pause> pauses) {
-  VerifyContext context(path, plan, machine, options, pauses);
+  return verify(*machine_joints(path, machine), plan, machine, options, pauses);
+}
+
+std::vector<Violation> verify(const Joints& joints, const FeedPlan& plan,
+                              const machine::MachineModel& machine, const VerifyOptions& options,
+                              std::span<const Pause> pauses) {
+  VerifyContext context(joints, plan, machine, options, pauses);
   verify_all(context);
   return std::move(context.found);
 }

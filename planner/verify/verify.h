@@ -12,6 +12,7 @@ struct MachineModel;
 
 namespace kadr::planner {
 
+class Joints;
 class Path;
 
 /// One broken limit found by verify().
@@ -48,8 +49,10 @@ struct VerifyOptions {
 VerifyOptions production_check();
 
 /// Independent check of any planner's output against path and machine alone; it shares no code with the
-/// planners (caps, junction rule and ramps are computed again from the definitions). Checks, at every piece
-/// end, joint, inner extreme and sample: s and speed continuous (acceleration too where jerk is limited, jerk
+/// planners (caps, junction rule and ramps are computed again from the definitions). What the joints do at a
+/// place is asked of Joints, place by place; their bounds over segments, by which planners cap, are not used.
+/// Axis limits are limits of joints, and Violation::axis is the joint. Checks, at every piece end, joint of
+/// segments, inner extreme and sample: s and speed continuous (acceleration too where jerk is limited, jerk
 /// too with quintic ramps), speed >= 0, path and axis speed, axis acceleration and jerk (normal and
 /// tangential parts together on arcs), centripetal acceleration, programmed feed, junction step per axis,
 /// rest at the ends and at every stop, total length, whole ticks where asked. Laws of paper 000 promise no
@@ -59,5 +62,9 @@ VerifyOptions production_check();
 /// @param pauses  that plan() was asked for: the law stands there so long, and nowhere else
 std::vector<Violation> verify(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
                               const VerifyOptions& options = {}, std::span<const Pause> pauses = {});
+/// The same for other joints than the machine's own (machine_joints).
+std::vector<Violation> verify(const Joints& joints, const FeedPlan& plan,
+                              const machine::MachineModel& machine, const VerifyOptions& options = {},
+                              std::span<const Pause> pauses = {});
 
 }  // namespace kadr::planner

@@ -20,9 +20,16 @@ constexpr double kSmallShare = 1e-3;
 
 }  // namespace
 
-VerifyContext::VerifyContext(const Path& p, const FeedPlan& feed_plan, const machine::MachineModel& model,
-                             const VerifyOptions& how, std::span<const Pause> held)
-    : path(p), plan(feed_plan), law(feed_plan.law), machine(model), options(how), pauses(held) {
+VerifyContext::VerifyContext(const Joints& the_joints, const FeedPlan& feed_plan,
+                             const machine::MachineModel& model, const VerifyOptions& how,
+                             std::span<const Pause> held)
+    : joints(the_joints),
+      path(the_joints.path()),
+      plan(feed_plan),
+      law(feed_plan.law),
+      machine(model),
+      options(how),
+      pauses(held) {
   slack_u_ = kSumUlps * kUlp * std::max(path.length_u(), 1.0);
   for (const JerkPiece& piece : law.pieces) top_speed_u_s_ = std::max(top_speed_u_s_, piece.speed_u_s);
 }
@@ -71,15 +78,6 @@ std::size_t VerifyContext::segment_at(double s) const {
   return hint_ = std::min(i, path.size() - 1);
 }
 
-bool VerifyContext::moves(std::size_t i, std::size_t axis) const {
-  const PathSegment& segment = path.segments[i];
-  if (path.node(i)[axis] != path.node(i + 1)[axis]) return true;
-  if (segment.kind == SegmentKind::line) return false;
-  if (segment.kind == SegmentKind::curve) return path.curve_of(i).moves(axis);
-  const ArcShape& arc = path.arc_of(i);
-  return static_cast<int>(axis) == arc.first_axis || static_cast<int>(axis) == arc.second_axis;
-}
-
 bool VerifyContext::axes_enforced(const PathSegment& segment) const {
   return machine.planner.axis_limits == machine::AxisLimitRule::enforce || !segment.path_limits ||
          !(machine.path.max_accel_mm_s2 < machine::kInfinity);
@@ -91,7 +89,7 @@ bool VerifyContext::jerk_limited(std::size_t i) const {
   if (segment.path_limits && machine.path.max_jerk_mm_s3 < machine::kInfinity) return true;
   if (!axes_enforced(segment)) return false;
   for (std::size_t j = 0; j < machine.axis.size(); ++j)
-    if (moves(i, j) && machine.axis[j].max_jerk_u_s3 < machine::kInfinity) return true;
+    if (joints.moves(i, j) && machine.axis[j].max_jerk_u_s3 < machine::kInfinity) return true;
   return false;
 }
 
@@ -107,7 +105,7 @@ bool VerifyContext::jerk_limited_around(double s) const {
 bool VerifyContext::positions(std::size_t i) const {
   if (machine.planner.rapid_law == machine::RapidShape::scurve || !path.segments[i].rapid) return false;
   for (std::size_t j = 0; j < machine.axis.size(); ++j)
-    if (moves(i, j) && machine.axis[j].has_plant) return true;
+    if (joints.moves(i, j) && machine.axis[j].has_plant) return true;
   return false;
 }
 

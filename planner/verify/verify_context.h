@@ -2,6 +2,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/path/joints.h"
 #include "planner/path/path.h"
 #include "planner/verify/verify.h"
 #include "planner/verify/verify_blocks.h"
@@ -11,9 +12,10 @@ namespace kadr::planner {
 /// What all parts of verify() share: what is looked at, how exactly, and what was found.
 class VerifyContext {
  public:
-  VerifyContext(const Path& path, const FeedPlan& plan, const machine::MachineModel& machine,
+  VerifyContext(const Joints& joints, const FeedPlan& plan, const machine::MachineModel& machine,
                 const VerifyOptions& options, std::span<const Pause> pauses);
 
+  const Joints& joints;
   const Path& path;
   const FeedPlan& plan;
   const MotionLaw& law;
@@ -36,7 +38,6 @@ class VerifyContext {
   double time_of(const JerkPiece& piece, double s_u) const;
 
   std::size_t segment_at(double s_u) const;
-  bool moves(std::size_t segment, std::size_t axis) const;
   /// Whether the limits of the axes themselves are kept on a segment.
   bool axes_enforced(const PathSegment& segment) const;
   bool jerk_limited(std::size_t segment) const;

@@ -21,33 +21,15 @@ constexpr double kMostSamples = 1e7;
 constexpr double kQuinticUlps = 32.0;
 constexpr double kJointUlps = 16.0;  ///< of the time: a joint's speed
 
-/// x', x'', x''' with respect to s, from the definition of the shapes in path.h.
-VerifiedDerivatives derivatives(const Path& path, std::size_t segment, double local_s) {
-  const PathSegment& seg = path.segments[segment];
-  const double length = seg.length_u;
-  VerifiedDerivatives d;
-  for (int k = 0; k < path.axes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    d.d1[i] = (path.node(segment + 1)[i] - path.node(segment)[i]) / length;
+/// Derivatives of every joint by s at one place, or those of the path's own axes.
+struct Derivatives {
+  Derivatives(const Joints& joints, std::size_t segment, double local_s) {
+    const std::size_t n = joints.size();
+    joints.at(segment, local_s,
+              {.d1 = {d1.data(), n}, .d2_per_u = {d2.data(), n}, .d3_per_u2 = {d3.data(), n}});
   }
-  if (seg.kind == SegmentKind::curve) return verified_curve(path.curve_of(segment), local_s);
-  if (seg.kind == SegmentKind::line) return d;
-  const ArcShape& arc = path.arc_of(segment);
-  const double u = std::clamp(local_s / length, 0.0, 1.0);
-  const double dr = arc.radius_end_u - arc.radius_begin_u;
-  const double r = arc.radius_begin_u + dr * u;
-  const double w = arc.sweep_rad;
-  const SinCos angle = exact_sincos(arc.angle_begin_rad + w * u);
-  const auto set = [&](int axis, double e, double n) {
-    const auto i = static_cast<std::size_t>(axis);
-    d.d1[i] = (dr * e + r * w * n) / length;
-    d.d2[i] = (2.0 * dr * w * n - r * w * w * e) / (length * length);
-    d.d3[i] = (-3.0 * dr * w * w * e - r * w * w * w * n) / (length * length * length);
-  };
-  set(arc.first_axis, angle.cos, -angle.sin);
-  set(arc.second_axis, angle.sin, angle.cos);
-  return d;
-}
+  AxisVector d1{}, d2{}, d3{};
+};
 
 /// The law on the segments from `first` to the one before `last`.
 class LimitVerifier {
@@ -200,14 +182,15 @@ class LimitVerifier {
       at_most("path acceleration", time, i, -1, std::fabs(x.a) * scale, limits.max_accel_mm_s2);
       if (keeps_jerk) at_most("path jerk", time, i, -1, std::fabs(x.j) * scale, limits.max_jerk_mm_s3);
     }
-    const VerifiedDerivatives d = derivatives(c_.path, i, x.s - c_.path.start_s_u[i]);
-    if (seg.kind == SegmentKind::arc) check_centripetal(i, x, d, time);
+    const double local_s = x.s - c_.path.start_s_u[i];
+    const Derivatives d(c_.joints, i, local_s);
     const bool excused = seg.kind == SegmentKind::curve && is_excused(i);
-    if (seg.kind == SegmentKind::curve && !excused) {
-      double square = 0;
-      for (const double d2 : d.d2) square += d2 * d2;
-      at_most("centripetal acceleration", time, i, -1, x.v * x.v * std::sqrt(square),
-              limits.centripetal_accel_mm_s2);
+    if (seg.kind != SegmentKind::line && !excused) {
+      const Joints& axes = c_.joints.axes();
+      if (&axes == &c_.joints)
+        check_centripetal(i, x, d, time);
+      else
+        check_centripetal(i, x, Derivatives(axes, i, local_s), time);
     }
     const bool enforced = c_.axes_enforced(seg);
     for (std::size_t j = 0; j < c_.machine.axis.size(); ++j) {
@@ -234,16 +217,25 @@ class LimitVerifier {
     return excused_;
   }
 
-  void check_centripetal(std::size_t i, const VerifiedState& x, const VerifiedDerivatives& d, double time) {
-    const ArcShape& arc = c_.path.arc_of(i);
-    const auto f = static_cast<std::size_t>(arc.first_axis);
-    const auto g = static_cast<std::size_t>(arc.second_axis);
-    // the part of x'' across the direction of motion in the plane
-    const double across = std::fabs(d.d1[f] * d.d2[g] - d.d1[g] * d.d2[f]);
-    const double along = std::sqrt(d.d1[f] * d.d1[f] + d.d1[g] * d.d1[g]);
-    if (along > 0.0)
-      at_most("centripetal acceleration", time, i, -1, x.v * x.v * across / along,
-              c_.machine.path.centripetal_accel_mm_s2);
+  /// A limit of the path: by the curvature of a curve, and of an arc in its plane.
+  /// @param d  of the axes
+  void check_centripetal(std::size_t i, const VerifiedState& x, const Derivatives& d, double time) {
+    double curvature = 0;
+    if (c_.path.segments[i].kind == SegmentKind::arc) {
+      const ArcShape& arc = c_.path.arc_of(i);
+      const auto f = static_cast<std::size_t>(arc.first_axis);
+      const auto g = static_cast<std::size_t>(arc.second_axis);
+      // the part of x'' across the direction of motion in the plane
+      const double across = std::fabs(d.d1[f] * d.d2[g] - d.d1[g] * d.d2[f]);
+      const double along = std::sqrt(d.d1[f] * d.d1[f] + d.d1[g] * d.d1[g]);
+      if (!(along > 0.0)) return;
+      curvature = across / along;
+    } else {
+      for (const double d2 : d.d2) curvature += d2 * d2;
+      curvature = std::sqrt(curvature);
+    }
+    at_most("centripetal acceleration", time, i, -1, x.v * x.v * curvature,
+            c_.machine.path.centripetal_accel_mm_s2);
   }
 
   /// Joint i between segment i-1 and i, somewhere in this piece.
@@ -258,8 +250,8 @@ class LimitVerifier {
     const double time = p.begin_s + t;
     v = std::min({v, verified_state(p, t0).v, verified_state(p, t1).v}) -
         kJointUlps * kUlp * time * std::fabs(verified_state(p, t).a);
-    const VerifiedDerivatives before = derivatives(c_.path, i - 1, c_.path.segments[i - 1].length_u);
-    const VerifiedDerivatives after = derivatives(c_.path, i, 0.0);
+    const Derivatives before(c_.joints, i - 1, c_.path.segments[i - 1].length_u);
+    const Derivatives after(c_.joints, i, 0.0);
     const double tau = c_.machine.clock.tau_s();
     at_most("technology point", time, i, -1, v, c_.path.segments[i].begin_limit_u_s);
     for (std::size_t j = 0; j < c_.machine.axis.size(); ++j) {

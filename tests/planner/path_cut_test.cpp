@@ -41,14 +41,12 @@ TEST_CASE("a path that is cut anywhere is the same path: places, tangents, curva
       while (whole.start_s_u[from + 1] <= middle) ++from;
       CHECK(s.block == whole.segments[from].block);
       CHECK(s.feed_u_s == whole.segments[from].feed_u_s);
-      std::array<double, kProgramAxes> here{}, there{};
-      const auto axes = static_cast<std::size_t>(cut.axes());
-      for (const auto eval : {eval_position, eval_tangent, eval_curvature}) {
-        eval(cut, i, 0.5 * s.length_u, {here.data(), axes});
-        eval(whole, from, middle - whole.start_s_u[from], {there.data(), axes});
-        for (std::size_t c = 0; c < axes; ++c)
-          CHECK(std::fabs(here[c] - there[c]) <= 1e-6 * (1.0 + std::fabs(there[c])));
-      }
+      const JointPlace here(cut, i, 0.5 * s.length_u);
+      const JointPlace there(whole, from, middle - whole.start_s_u[from]);
+      for (const auto values : {&JointPlace::x, &JointPlace::d1, &JointPlace::d2})
+        for (std::size_t c = 0; c < kProgramAxes; ++c)
+          CHECK(std::fabs((here.*values)[c] - (there.*values)[c]) <=
+                1e-6 * (1.0 + std::fabs((there.*values)[c])));
       CHECK(s.stop_at_end ==
             (whole.segments[from].stop_at_end && cut.start_s_u[i + 1] == whole.start_s_u[from + 1]));
     }

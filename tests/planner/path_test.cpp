@@ -16,11 +16,7 @@ std::vector<double> position(const Path& path, std::size_t i, double s) {
   planner::eval_position(path, i, s, p);
   return p;
 }
-std::vector<double> tangent(const Path& path, std::size_t i, double s) {
-  std::vector<double> p(static_cast<std::size_t>(path.axes()));
-  planner::eval_tangent(path, i, s, p);
-  return p;
-}
+auto tangent(const Path& path, std::size_t i, double s) { return JointPlace(path, i, s).d1; }
 
 }  // namespace
 
@@ -46,9 +42,7 @@ TEST_CASE("a quarter circle of radius 20 is 10 pi long, passes the 45 degree poi
   CHECK(position(path, 0, 0.5 * length)[0] == doctest::Approx(20.0 * std::sqrt(0.5)).epsilon(1e-14));
   CHECK(tangent(path, 0, 0.0)[1] == doctest::Approx(1.0));
   CHECK(tangent(path, 0, length)[0] == doctest::Approx(-1.0));
-  std::vector<double> curvature(3);
-  planner::eval_curvature(path, 0, 0.0, curvature);
-  CHECK(curvature[0] == doctest::Approx(-1.0 / 20.0));
+  CHECK(JointPlace(path, 0, 0.0).d2[0] == doctest::Approx(-1.0 / 20.0));
 }
 
 TEST_CASE("clockwise in the ZX plane runs from +Z to -X by way of the programmed side") {

@@ -132,6 +132,18 @@ class ProgramWriter {
 
 inline AxisValues xyz(double x, double y = 0.0, double z = 0.0) { return {x, y, z, 0, 0, 0, 0, 0, 0}; }
 
+/// What the joints do at a place of a path, by joint.
+struct JointPlace {
+  JointPlace(const planner::Joints& joints, std::size_t segment, double local_s) {
+    const std::size_t n = joints.size();
+    joints.at(segment, local_s, {{x.data(), n}, {d1.data(), n}, {d2.data(), n}, {d3.data(), n}});
+  }
+  /// Of the axes.
+  JointPlace(const planner::Path& path, std::size_t segment, double local_s)
+      : JointPlace(planner::DirectJoints(path), segment, local_s) {}
+  std::array<double, kProgramAxes> x{}, d1{}, d2{}, d3{};
+};
+
 /// splitmix64: the same numbers everywhere.
 class Random {
  public:

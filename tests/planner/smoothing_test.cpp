@@ -71,16 +71,13 @@ struct Jumps {
 };
 Jumps jumps(const Path& path) {
   const auto axes = static_cast<std::size_t>(path.axes());
-  std::vector<double> a(axes), b(axes);
   Jumps worst;
   for (std::size_t i = 1; i < path.size(); ++i) {
-    planner::eval_tangent(path, i - 1, path.segments[i - 1].length_u, a);
-    planner::eval_tangent(path, i, 0, b);
-    for (std::size_t k = 0; k < axes; ++k) worst.tangent = std::max(worst.tangent, std::fabs(a[k] - b[k]));
-    planner::eval_curvature(path, i - 1, path.segments[i - 1].length_u, a);
-    planner::eval_curvature(path, i, 0, b);
-    for (std::size_t k = 0; k < axes; ++k)
-      worst.curvature = std::max(worst.curvature, std::fabs(a[k] - b[k]));
+    const JointPlace a(path, i - 1, path.segments[i - 1].length_u), b(path, i, 0);
+    for (std::size_t k = 0; k < axes; ++k) {
+      worst.tangent = std::max(worst.tangent, std::fabs(a.d1[k] - b.d1[k]));
+      worst.curvature = std::max(worst.curvature, std::fabs(a.d2[k] - b.d2[k]));
+    }
   }
   return worst;
 }
@@ -269,11 +266,11 @@ TEST_CASE("dense lines become a curve through their points, of continuous curvat
       CHECK(path.node(i)[1] == points[block][1]);
     }
   // away from its ends it is the circle to a micrometre, curvature 1/30
-  std::vector<double> at(3), bend(3);
+  std::vector<double> at(3);
   for (std::size_t i = 10; i < path.size() - 10; ++i) {
     planner::eval_position(path, i, 0.5 * path.segments[i].length_u, at);
     CHECK(std::hypot(at[0], at[1]) == doctest::Approx(30).epsilon(1e-6));
-    planner::eval_curvature(path, i, 0.5 * path.segments[i].length_u, bend);
+    const auto bend = JointPlace(path, i, 0.5 * path.segments[i].length_u).d2;
     CHECK(std::hypot(bend[0], bend[1]) == doctest::Approx(1 / 30.0).epsilon(1e-3));
   }
   // as lines every joint jumps by 60 mm/s * 3 degrees = 3.1 mm/s, which the axes do not take

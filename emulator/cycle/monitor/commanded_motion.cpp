@@ -8,7 +8,11 @@
 namespace kadr::cycle {
 
 CommandedMotion::CommandedMotion(const planner::Path& path, const machine::MachineModel& machine)
-    : path_(path), tau_s_(machine.clock.tau_s()), axes_(machine.axis.size()), tangent_(machine.axis.size()) {
+    : path_(path),
+      joints_(planner::machine_joints(path, machine)),
+      tau_s_(machine.clock.tau_s()),
+      axes_(machine.axis.size()),
+      tangent_(machine.axis.size()) {
   for (std::size_t a = 0; a < axes_.size(); ++a)
     axes_[a].position_u = path.size() > 0 ? path.node(0)[a] : machine.axis[a].home_u;
 }
@@ -19,10 +23,10 @@ void CommandedMotion::tick(const TickView& view) {
   segment_ = view.segment;
   const double feed_u_s = view.motion.speed_end_u_s;
   if (path_.size() > 0 && feed_u_s > 0)
-    planner::eval_tangent(
-        path_, segment_,
+    joints_->at(
+        segment_,
         std::clamp(view.motion.s_end_u - path_.start_s_u[segment_], 0.0, path_.segments[segment_].length_u),
-        tangent_);
+        {.d1 = tangent_});
   else
     std::fill(tangent_.begin(), tangent_.end(), 0.0);
   for (std::size_t a = 0; a < axes_.size(); ++a) {

@@ -1,8 +1,10 @@
 #pragma once
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "emulator/cycle/monitor/tick_view.h"
+#include "planner/path/joints.h"
 
 namespace kadr::planner {
 class Path;
@@ -38,6 +40,7 @@ class CommandedMotion {
 
  private:
   const planner::Path& path_;
+  std::unique_ptr<const planner::Joints> joints_;
   double tau_s_;
   std::vector<CommandedAxis> axes_;
   std::vector<double> tangent_;
