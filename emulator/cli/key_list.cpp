@@ -8,7 +8,7 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::Json;
+using text::Json;
 
 Json keys_json(const std::vector<machine::TableDocument>& tables) {
   Json list = Json::array();
@@ -34,12 +34,12 @@ int list_keys(const std::vector<machine::TableDocument>& tables, Console& consol
     console.document(keys_json(tables));
     return kYes;
   }
-  using Align = emulator::TextTable::Align;
+  using Align = text::TextTable::Align;
   std::string out;
   for (const machine::TableDocument& table : tables) {
     out += fmt::format("{}{}{}\n", out.empty() ? "" : "\n", table.header.empty() ? "" : table.header + "  ",
                        table.sentence);
-    emulator::TextTable text(
+    text::TextTable text(
         {{"key", Align::left}, {"default", Align::left}, {"takes", Align::left}, {"meaning", Align::left}});
     for (const machine::KeyDocument& key : table.keys) {
       text.add({key.name, key.otherwise, key.words.empty() ? key.allowed : "one of", key.sentence});

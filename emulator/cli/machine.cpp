@@ -12,7 +12,7 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::Json;
+using text::Json;
 
 std::string axis_letters(const machine::MachineModel& model) {
   std::string letters;
@@ -25,7 +25,7 @@ std::string axis_letters(const machine::MachineModel& model) {
 std::string description(std::string_view toml) {
   const std::string_view line = toml.substr(0, toml.find('\n'));
   if (line.empty() || line.front() != '#') return {};
-  return emulator::one_line(line.substr(1), 100);
+  return text::one_line(line.substr(1), 100);
 }
 
 Json machine_json(const std::string& file, bool good, const machine::MachineFile& machine,
@@ -35,7 +35,7 @@ Json machine_json(const std::string& file, bool good, const machine::MachineFile
   j["exit_code"] = good ? kYes : kNo;
   j["name"] = good ? Json(machine.model.name) : Json(nullptr);
   j["axes"] = good ? Json(axis_letters(machine.model)) : Json(nullptr);
-  j["diagnostics"] = emulator::json_of(diagnostics, sources);
+  j["diagnostics"] = text::json_of(diagnostics, sources);
   return j;
 }
 
@@ -60,8 +60,8 @@ int machine_show(const Arguments& arguments, Console& console) {
 }
 
 int machine_list(const Arguments&, Console& console) {
-  using Align = emulator::TextTable::Align;
-  emulator::TextTable table({{"machine", Align::left}, {"axes", Align::left}, {"what it is", Align::left}});
+  using Align = text::TextTable::Align;
+  text::TextTable table({{"machine", Align::left}, {"axes", Align::left}, {"what it is", Align::left}});
   Json list = Json::array();
   for (const std::string_view name : machine::shipped_machine_names()) {
     SourceSet sources;

@@ -6,7 +6,7 @@
 #include "machine/base/count.h"
 #include "planner/path/path.h"
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 /// Half-crossings of one of the two plane axes of an arc, run by run in the order of the path.
 ///
@@ -65,4 +65,4 @@ class ArcCrossings : public CrossingRun {
   std::int64_t found_ = 0;  // crossings of this piece already found
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

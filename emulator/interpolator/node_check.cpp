@@ -7,7 +7,7 @@
 #include "machine/machine.h"
 #include "planner/path/path.h"
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 namespace {
 
@@ -68,4 +68,4 @@ void NodeCheck::measure(std::size_t segment, std::size_t axis, Steps node, doubl
   worst_segment_ = segment;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

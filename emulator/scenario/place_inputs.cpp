@@ -6,7 +6,7 @@
 #include "emulator/scenario/scenario.h"
 #include "machine/file/tree.h"
 
-namespace kadr::emulator {
+namespace kadr::scenario {
 namespace {
 
 // times are decimals: 0.3 s is 300 ticks of 1 ms up to rounding
@@ -17,7 +17,7 @@ Span in_file(Span span, std::uint32_t file) {
   return span;
 }
 
-void place_technology(const Scenario& scenario, std::uint32_t file, JobInputs& given) {
+void place_technology(const Scenario& scenario, std::uint32_t file, cycle::JobInputs& given) {
   for (const ScenarioTechnology& point : scenario.technology) {
     const Span span = in_file(point.span, file);
     if (point.path_u)
@@ -32,12 +32,12 @@ void place_technology(const Scenario& scenario, std::uint32_t file, JobInputs& g
 /// Puts the steps of a timeline on control ticks.
 class StepPlacer {
  public:
-  StepPlacer(std::uint32_t file, JobInputs& given, Diagnostics& diagnostics)
+  StepPlacer(std::uint32_t file, cycle::JobInputs& given, Diagnostics& diagnostics)
       : file_(file), given_(given), diagnostics_(diagnostics), tau_s_(given.machine.model.clock.tau_s()) {}
 
   void add(const ScenarioStep& step) {
     const Span span = in_file(step.span, file_);
-    OperatorStep action;
+    cycle::OperatorStep action;
     action.place = step.place;
     if (!step.place) {
       const double ticks = step.at_tick ? static_cast<double>(*step.at_tick) : step.at_s / tau_s_;
@@ -53,7 +53,7 @@ class StepPlacer {
     action.value = step.value;
     action.span = span;
     given_.operator_steps.push_back(action);
-    if (*step.action == OperatorAction::spindle_load) end_load(step, action);
+    if (*step.action == cycle::OperatorAction::spindle_load) end_load(step, action);
   }
 
  private:
@@ -70,7 +70,7 @@ class StepPlacer {
   }
 
   /// A load with for_s ends in the one before it.
-  void end_load(const ScenarioStep& step, OperatorStep action) {
+  void end_load(const ScenarioStep& step, cycle::OperatorStep action) {
     if (!(step.for_s > 0)) {
       load_ = step.value;
       return;
@@ -83,7 +83,7 @@ class StepPlacer {
   }
 
   std::uint32_t file_;
-  JobInputs& given_;
+  cycle::JobInputs& given_;
   Diagnostics& diagnostics_;
   double tau_s_;
   double load_ = 0;  // of the spindle, before a step with for_s
@@ -91,17 +91,19 @@ class StepPlacer {
 
 }  // namespace
 
-void place_inputs(const Scenario& scenario, std::uint32_t file, JobInputs& given, Diagnostics& diagnostics) {
+void place_inputs(const Scenario& scenario, std::uint32_t file, cycle::JobInputs& given,
+                  Diagnostics& diagnostics) {
   given.most_override = scenario.most_override;
   place_technology(scenario, file, given);
   StepPlacer placer(file, given, diagnostics);
   for (const ScenarioStep& step : scenario.steps) placer.add(step);
   std::stable_sort(given.inputs.begin(), given.inputs.end(),
-                   [](const InputStep& a, const InputStep& b) { return a.tick < b.tick; });
+                   [](const cycle::InputStep& a, const cycle::InputStep& b) { return a.tick < b.tick; });
   const auto placed = std::stable_partition(given.operator_steps.begin(), given.operator_steps.end(),
-                                            [](const OperatorStep& s) { return !s.place; });
-  std::stable_sort(given.operator_steps.begin(), placed,
-                   [](const OperatorStep& a, const OperatorStep& b) { return a.tick < b.tick; });
+                                            [](const cycle::OperatorStep& s) { return !s.place; });
+  std::stable_sort(
+      given.operator_steps.begin(), placed,
+      [](const cycle::OperatorStep& a, const cycle::OperatorStep& b) { return a.tick < b.tick; });
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::scenario

@@ -9,7 +9,7 @@
 #include "emulator/log_tools/diff/diff_fields.h"
 #include "machine/tick_motion.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -26,10 +26,10 @@ std::string suffix(const std::string& unit) {
 }
 
 /// Unit of a signal, as its name and its column have it.
-std::string signal_unit(FieldUnit unit, const std::string& of_path, const std::string& of_axis) {
-  if (unit == FieldUnit::path_speed) return of_path + "/s";
-  if (unit == FieldUnit::path_accel) return of_path + "/s2";
-  if (unit == FieldUnit::path_jerk) return of_path + "/s3";
+std::string signal_unit(log::FieldUnit unit, const std::string& of_path, const std::string& of_axis) {
+  if (unit == log::FieldUnit::path_speed) return of_path + "/s";
+  if (unit == log::FieldUnit::path_accel) return of_path + "/s2";
+  if (unit == log::FieldUnit::path_jerk) return of_path + "/s3";
   return unit_text(unit, of_path, of_axis);
 }
 
@@ -72,7 +72,7 @@ class Table {
 /// A value of a column at a control tick; none in control ticks whose log does not have it.
 template <class R, std::size_t kIndex>
 double column_value(const ExactTicks& exact, std::size_t row, std::size_t column) {
-  static constexpr const Field<R>& kField = Channel<R>::fields[kIndex];
+  static constexpr const log::Field<R>& kField = log::Channel<R>::fields[kIndex];
   const R* block = exact.of<R>();
   if (block == nullptr || !kField.has(*block, row, column)) return kNone;
   return kField.signal.factor * kField.number(*block, row, column);
@@ -80,7 +80,7 @@ double column_value(const ExactTicks& exact, std::size_t row, std::size_t column
 
 /// Whether a column is a signal of this log.
 template <class R>
-bool is_signal(const Field<R>& field, std::size_t dimensions, const ExactTicks& exact, std::size_t row,
+bool is_signal(const log::Field<R>& field, std::size_t dimensions, const ExactTicks& exact, std::size_t row,
                std::size_t column) {
   if (!field.signal.shown || field.number == nullptr || field.dimensions() != dimensions) return false;
   const R* block = exact.of<R>();
@@ -88,17 +88,18 @@ bool is_signal(const Field<R>& field, std::size_t dimensions, const ExactTicks& 
 }
 
 /// Of a plant's column: an axis without plant has none, whatever the log holds for it.
-bool is_of_plant(const FieldInfo& field) {
-  const auto count = std::find_if(Channel<TickBlock>::fields.begin(), Channel<TickBlock>::fields.end(),
-                                  [&](const FieldInfo& each) { return each.name == field.extent[0]; });
-  return count != Channel<TickBlock>::fields.end() && count->count == CountRule::plant_axes;
+bool is_of_plant(const log::FieldInfo& field) {
+  const auto count =
+      std::find_if(log::Channel<log::TickBlock>::fields.begin(), log::Channel<log::TickBlock>::fields.end(),
+                   [&](const log::FieldInfo& each) { return each.name == field.extent[0]; });
+  return count != log::Channel<log::TickBlock>::fields.end() && count->count == log::CountRule::plant_axes;
 }
 
-bool is_whole(const FieldInfo& field) { return field.wire != Wire::real; }
+bool is_whole(const log::FieldInfo& field) { return field.wire != log::Wire::real; }
 
 /// One column of KADR_TICKS under the name that its field gives it.
-void add_column(Table& table, const FieldInfo& field, const std::string& before_name, const std::string& unit,
-                std::function<double(const TickContext&)> value) {
+void add_column(Table& table, const log::FieldInfo& field, const std::string& before_name,
+                const std::string& unit, std::function<double(const TickContext&)> value) {
   const std::string name = before_name + std::string(field.signal.name);
   const std::string behind =
       field.signal.behind.empty() ? "" : before_name + std::string(field.signal.behind);
@@ -110,16 +111,16 @@ void add_column(Table& table, const FieldInfo& field, const std::string& before_
     table.real(name, unit, behind, std::move(value));
 }
 
-void add_feed(Table& table, const LogHeader& header, const LogFrame& first) {
+void add_feed(Table& table, const log::LogHeader& header, const LogFrame& first) {
   const std::string unit = path_unit(header);
-  for_each_field<TickBlock>([&]<std::size_t kIndex>(const Field<TickBlock>& field) {
+  log::for_each_field<log::TickBlock>([&]<std::size_t kIndex>(const log::Field<log::TickBlock>& field) {
     if (field.signal.name.empty() || !is_signal(field, 1, *first.ticks, first.tick_index, 0)) return;
     add_column(table, field, "", signal_unit(field.signal.unit, unit, ""), [](const TickContext& c) {
-      return column_value<TickBlock, kIndex>(*c.frame->ticks, c.at(), 0);
+      return column_value<log::TickBlock, kIndex>(*c.frame->ticks, c.at(), 0);
     });
   });
   table.real("feed.programmed", unit + "/s", "feed.commanded", [](const TickContext& c) {
-    const BlockRecord* block = c.frame->block.get();
+    const log::BlockRecord* block = c.frame->block.get();
     return block != nullptr && block->programmed_u_s > 0 ? block->programmed_u_s : kNone;
   });
   table.real("feed.jerk", unit + "/s3", "feed.acceleration",
@@ -131,7 +132,7 @@ void add_feed(Table& table, const LogHeader& header, const LogFrame& first) {
 
 /// Distance of the tool from the command over the axes X Y Z, across the motion of the control tick: what lies
 /// along it is delay, not a wrong contour. At rest all of it.
-void add_path_error(Table& table, const LogHeader& header) {
+void add_path_error(Table& table, const log::LogHeader& header) {
   std::vector<std::size_t> axes;
   for (std::size_t a = 0; a < header.axis.size(); ++a)
     if (header.axis[a].has_plant && header.axis[a].unit == "mm" &&
@@ -141,7 +142,7 @@ void add_path_error(Table& table, const LogHeader& header) {
   table.real("path.error", "um", "path.length", [axes](const TickContext& c) {
     double sum = 0, along = 0, way = 0;
     for (const std::size_t a : axes) {
-      const AxisTicks& axis = c.ticks().axis[a];
+      const log::AxisTicks& axis = c.ticks().axis[a];
       const double off = axis.base_u[c.at()] + axis.link_u[c.at()] - axis.command_u[c.at()];
       const double speed = c.axis[a].speed_u_s;
       sum += off * off;
@@ -154,8 +155,8 @@ void add_path_error(Table& table, const LogHeader& header) {
 }
 
 /// What the positions of successive control ticks and the plant's states say together.
-void add_motion(Table& table, const LogHeader& header, std::size_t a) {
-  const LogAxis& axis = header.axis[a];
+void add_motion(Table& table, const log::LogHeader& header, std::size_t a) {
+  const log::LogAxis& axis = header.axis[a];
   const std::string name = "axis." + axis.name + ".", &unit = axis.unit, column = name + "command";
   table.real(name + "speed", unit + "/s", column, [a](const TickContext& c) { return c.axis[a].speed_u_s; });
   table.real(name + "acceleration", unit + "/s2", column,
@@ -170,7 +171,7 @@ void add_motion(Table& table, const LogHeader& header, std::size_t a) {
   });
 }
 
-void add_load(Table& table, const LogAxis& axis, std::size_t a) {
+void add_load(Table& table, const log::LogAxis& axis, std::size_t a) {
   const std::string name = "axis." + axis.name + ".", &unit = axis.unit, column = name + "command";
   table.real(name + "load", unit, column, [a](const TickContext& c) {
     return c.ticks().axis[a].base_u[c.at()] + c.ticks().axis[a].link_u[c.at()];
@@ -178,28 +179,29 @@ void add_load(Table& table, const LogAxis& axis, std::size_t a) {
   table.real(name + "load_rate", unit + "/s", column, [a](const TickContext& c) {
     return c.ticks().axis[a].base_u_s[c.at()] + c.ticks().axis[a].link_u_s[c.at()];
   });
-  table.real(name + "following", signal_unit(FieldUnit::axis_thousandth, "", unit), column,
+  table.real(name + "following", signal_unit(log::FieldUnit::axis_thousandth, "", unit), column,
              [a](const TickContext& c) {
-               const AxisTicks& x = c.ticks().axis[a];
+               const log::AxisTicks& x = c.ticks().axis[a];
                return 1000 * (x.base_u[c.at()] + x.link_u[c.at()] - x.command_u[c.at()]);
              });
 }
 
-void add_axis(Table& table, const LogHeader& header, const LogFrame& first, std::size_t a) {
-  const LogAxis& axis = header.axis[a];
-  for_each_field<TickBlock>([&]<std::size_t kIndex>(const Field<TickBlock>& field) {
+void add_axis(Table& table, const log::LogHeader& header, const LogFrame& first, std::size_t a) {
+  const log::LogAxis& axis = header.axis[a];
+  log::for_each_field<log::TickBlock>([&]<std::size_t kIndex>(const log::Field<log::TickBlock>& field) {
     if (field.signal.name.empty() || !is_signal(field, 2, *first.ticks, a, first.tick_index)) return;
     if (is_of_plant(field) && !axis.has_plant) return;
-    add_column(
-        table, field, "axis." + axis.name + ".", signal_unit(field.signal.unit, path_unit(header), axis.unit),
-        [a](const TickContext& c) { return column_value<TickBlock, kIndex>(*c.frame->ticks, a, c.at()); });
+    add_column(table, field, "axis." + axis.name + ".",
+               signal_unit(field.signal.unit, path_unit(header), axis.unit), [a](const TickContext& c) {
+                 return column_value<log::TickBlock, kIndex>(*c.frame->ticks, a, c.at());
+               });
   });
   add_motion(table, header, a);
   if (first.ticks->has_plant && axis.has_plant) add_load(table, axis, a);
 }
 
 /// "load.torque_Nm" of KADR_LOAD's torque_Nm
-std::string own_name(std::string_view channel, const FieldInfo& field) {
+std::string own_name(std::string_view channel, const log::FieldInfo& field) {
   constexpr std::string_view kPrefix = "KADR_";
   std::string name;
   for (const char c : channel.substr(channel.starts_with(kPrefix) ? kPrefix.size() : 0))
@@ -208,14 +210,14 @@ std::string own_name(std::string_view channel, const FieldInfo& field) {
 }
 
 /// Columns without a name of their own: those of other channels, and those appended to KADR_TICKS.
-void add_further(std::vector<SignalSource>& list, const LogHeader& header, const LogFrame& first) {
+void add_further(std::vector<SignalSource>& list, const log::LogHeader& header, const LogFrame& first) {
   const auto each = [&](std::size_t dimensions, std::size_t a) {
     const bool of_axis = dimensions == 2;
     const std::size_t row = of_axis ? a : first.tick_index, column = of_axis ? first.tick_index : 0;
-    for_each_channel(TickChannels{}, [&]<class R>() {
-      for_each_field<R>([&]<std::size_t kIndex>(const Field<R>& field) {
+    log::for_each_channel(log::TickChannels{}, [&]<class R>() {
+      log::for_each_field<R>([&]<std::size_t kIndex>(const log::Field<R>& field) {
         if (!field.signal.name.empty() || !is_signal(field, dimensions, *first.ticks, row, column)) return;
-        std::string name = own_name(Channel<R>::info.name, field);
+        std::string name = own_name(log::Channel<R>::info.name, field);
         if (of_axis) name = fmt::format("axis.{}.{}", header.axis[a].name, name);
         list.push_back({{std::move(name),
                          signal_unit(field.unit, path_unit(header), of_axis ? header.axis[a].unit : ""),
@@ -235,7 +237,7 @@ void add_further(std::vector<SignalSource>& list, const LogHeader& header, const
 
 }  // namespace
 
-std::vector<SignalSource> signal_table(const LogHeader& header, const LogFrame& first) {
+std::vector<SignalSource> signal_table(const log::LogHeader& header, const LogFrame& first) {
   Table path;
   add_feed(path, header, first);
   if (first.ticks->has_plant) add_path_error(path, header);
@@ -271,4 +273,4 @@ void advance(TickContext& c, const LogFrame& frame, double tau_s) {
   }
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

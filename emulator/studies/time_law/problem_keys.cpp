@@ -1,6 +1,6 @@
 #include "emulator/studies/time_law/problem_keys.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 std::string in_unit(std::string_view name, PathUnit unit) {
   constexpr std::string_view kPlaceOfUnit = "{u}";
@@ -59,4 +59,4 @@ std::vector<machine::TableDocument> problem_keys() {
   return d.take();
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

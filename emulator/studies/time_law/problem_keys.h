@@ -9,7 +9,7 @@
 
 /// The keys of a problem file, each declared once: from here they are read, bounded and documented
 /// (`kadr tube --keys`, docs/time_law.md).
-namespace kadr::emulator {
+namespace kadr::studies {
 
 // The outer ends are far beyond any path: they keep squares, products and angles of the values within reach.
 inline constexpr machine::Bounds kProblemSpeed{1e-6, 1e9};
@@ -191,4 +191,4 @@ void read_axis_keys(machine::TableReader& r, Model& model, const std::tuple<Keys
 /// Every key of a problem file, table by table.
 std::vector<machine::TableDocument> problem_keys();
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -9,7 +9,7 @@
 #include "emulator/studies/time_law/problem_keys.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::studies;
 
 namespace {
 
