@@ -69,11 +69,11 @@ struct PlantSettings {
 };
 
 struct LogSettings {
-  bool ticks = true;            ///< KADR_TICKS
-  bool steps = true;            ///< KADR_STEPS
-  int block_ticks = 32;         ///< control ticks per exact message, 16..64
-  double viewer_rate_hz = 100;  ///< KADR_FEED, KADR_AXIS_*; 0 switches them off
-  bool energy = false;          ///< joules of the motors, of each block and of the run
+  bool ticks = true;             ///< KADR_TICKS
+  bool steps = true;             ///< KADR_STEPS
+  ControlTicks block_ticks{32};  ///< control ticks per exact message, 16..64
+  double viewer_rate_hz = 100;   ///< KADR_FEED, KADR_AXIS_*; 0 switches them off
+  bool energy = false;           ///< joules of the motors, of each block and of the run
   bool operator==(const LogSettings&) const = default;
 };
 

@@ -6,9 +6,9 @@
 
 namespace kadr {
 
-/// Lattice node of a position: floor(x/step + 1/2), so that every axis counts consistently from block to
+/// Lattice node of a position, in steps from machine zero: floor(x/step + 1/2), so that every axis counts consistently from block to
 /// block. Positions beyond 2^52 steps break a promise: doubles count no further.
-std::int64_t lattice_node(double position_u, double step_u);
+Steps lattice_node(double position_u, double step_u);
 
 /// Motion of one axis that the interpolator followed in this control tick, before the lattice; axis units (mm or deg).
 struct AxisCommand {
@@ -20,6 +20,7 @@ struct AxisCommand {
 };
 
 /// Pulses of one axis in one control tick. Offsets never decrease and are < the control tick's length.
+/// They are bare 16-bit numbers: the widest array of a run, whose loops run in vector registers.
 struct AxisPulses {
   std::vector<std::uint16_t> offset_ticks;  ///< [count], base ticks from the beginning of the control tick
   std::int8_t first_sign = 1;               ///< +1 or -1, direction of the first pulse

@@ -29,38 +29,73 @@ PlanError too_long(const Path& path, const Run& run, double time_s) {
   return {std::move(d)};
 }
 
-/// Plans all motion of a path, block by block.
+/// What a path's motion takes.
+struct MotionTotal {
+  double time_s = 0;
+  ControlTicks ticks;  ///< whole ones; 0 if motions last as long as they take
+};
+
+/// Finds all motion of a path, block by block, and calls each(blocks, block) for every one.
+template <class Each>
+tl::expected<MotionTotal, PlanError> over_blocks(const Path& path, const machine::MachineModel& machine,
+                                                 const PathLimitTable& limits, Each each) {
+  MotionTotal total;
+  BlockScheduler blocks(path, limits, machine);
+  for (BlockDiagram block; blocks.next(block);) {
+    total.time_s += block.time_s();
+    if (!(total.time_s < kLongest_s))
+      return tl::unexpected(too_long(path, {0, blocks.segment()}, total.time_s));
+    total.ticks += ControlTicks{block.ticks};
+    each(blocks, block);
+  }
+  return total;
+}
+
+/// Finds all motion of a path, run by run, and calls each(runs, ticks to its end) for every one.
+template <class Each>
+tl::expected<MotionTotal, PlanError> over_runs(const Joints& joints, const machine::MachineModel& machine,
+                                               const PathLimitTable& limits, Each each) {
+  MotionTotal total;
+  RunMaker runs(joints, machine, limits);
+  while (runs.next()) {
+    total.time_s += runs.time_s() * runs.whole().stretch;
+    if (!(total.time_s < kLongest_s))
+      return tl::unexpected(too_long(joints.path(), runs.run(), total.time_s));
+    total.ticks += ControlTicks{runs.whole().ticks};
+    each(runs, total.ticks);
+  }
+  if (runs.error()) return tl::unexpected(std::move(*runs.error()));
+  return total;
+}
+
+bool is_blockwise(const machine::MachineModel& machine) {
+  return machine.planner.scheduler == machine::SchedulerKind::blockwise;
+}
+
 tl::expected<void, PlanError> plan_blocks(const Path& path, const machine::MachineModel& machine,
                                           const PathLimitTable& limits, FeedPlan& plan,
                                           std::vector<RunBegin>& begins) {
   BlockWriter writer(path, machine.clock.tau_s(), plan);
-  BlockScheduler blocks(path, limits, machine);
-  for (BlockDiagram block; blocks.next(block);) {
-    const double time = writer.time_s() + block.time_s();
-    if (!(time < kLongest_s)) return tl::unexpected(too_long(path, {0, blocks.segment()}, time));
-    begins.push_back({plan.segments.size(), plan.law.pieces.size()});
-    writer.add(block, blocks.reasons());
-  }
+  const auto total =
+      over_blocks(path, machine, limits, [&](const BlockScheduler& blocks, const BlockDiagram& block) {
+        begins.push_back({plan.segments.size(), plan.law.pieces.size()});
+        writer.add(block, blocks.reasons());
+      });
+  if (!total) return tl::unexpected(total.error());
   return {};
 }
 
-/// Plans all motion of a path, run by run.
 tl::expected<void, PlanError> plan_runs(const Joints& joints, const machine::MachineModel& machine,
                                         const PathLimitTable& limits, FeedPlan& plan,
                                         std::vector<RunBegin>& begins) {
   PieceWriter writer(plan.law);
-  std::int64_t ticks = 0;
   const double tau = machine.clock.tau_s();
-  RunMaker runs(joints, machine, limits);
-  while (runs.next()) {
-    if (!(writer.time_s() + runs.time_s() < kLongest_s))
-      return tl::unexpected(too_long(joints.path(), runs.run(), writer.time_s() + runs.time_s()));
-    ticks += runs.whole().ticks;
+  const auto total = over_runs(joints, machine, limits, [&](RunMaker& runs, ControlTicks ticks) {
     begins.push_back({runs.run().first, plan.law.pieces.size()});
-    runs.write(writer, machine.planner.whole_ticks ? static_cast<double>(ticks) * tau : -1.0);
+    runs.write(writer, machine.planner.whole_ticks ? static_cast<double>(ticks.value) * tau : -1.0);
     if (runs.positioned()) plan.positioned.push_back(*runs.positioned());
-  }
-  if (runs.error()) return tl::unexpected(std::move(*runs.error()));
+  });
+  if (!total) return tl::unexpected(total.error());
   plan.law.duration_s = writer.time_s();
   require(!plan.law.pieces.empty(), "a path that moves has a law");
   fill_segment_table(joints.path(), limits, plan);
@@ -84,9 +119,8 @@ tl::expected<FeedPlan, PlanError> plan(const Joints& joints, const machine::Mach
   if (path.size() > 0) {
     auto limits = limit_table(joints, machine);
     if (!limits) return tl::unexpected(std::move(limits.error()));
-    const bool blockwise = machine.planner.scheduler == machine::SchedulerKind::blockwise;
-    auto planned = blockwise ? plan_blocks(path, machine, *limits, result, begins)
-                             : plan_runs(joints, machine, *limits, result, begins);
+    auto planned = is_blockwise(machine) ? plan_blocks(path, machine, *limits, result, begins)
+                                         : plan_runs(joints, machine, *limits, result, begins);
     if (!planned) return tl::unexpected(std::move(planned.error()));
   }
   add_pauses(path, pauses, begins, result);
@@ -101,25 +135,12 @@ tl::expected<double, PlanError> motion_time_s(const Path& path, const machine::M
   const auto joints = machine_joints(rest, machine);
   auto limits = limit_table(*joints, machine);
   if (!limits) return tl::unexpected(std::move(limits.error()));
-  std::int64_t ticks = 0;
-  double time = 0.0;
-  if (machine.planner.scheduler == machine::SchedulerKind::blockwise) {
-    BlockScheduler blocks(rest, *limits, machine);
-    for (BlockDiagram block; blocks.next(block);) {
-      time += block.time_s();
-      if (!(time < kLongest_s)) return tl::unexpected(too_long(rest, {0, blocks.segment()}, time));
-      ticks += block.ticks;
-    }
-    return machine.planner.whole_ticks ? static_cast<double>(ticks) * machine.clock.tau_s() : time;
-  }
-  RunMaker runs(*joints, machine, *limits);
-  while (runs.next()) {
-    time += runs.time_s() * runs.whole().stretch;
-    if (!(time < kLongest_s)) return tl::unexpected(too_long(rest, runs.run(), time));
-    ticks += runs.whole().ticks;
-  }
-  if (runs.error()) return tl::unexpected(std::move(*runs.error()));
-  return machine.planner.whole_ticks ? static_cast<double>(ticks) * machine.clock.tau_s() : time;
+  const auto nothing_more = [](const auto&...) {};
+  auto total = is_blockwise(machine) ? over_blocks(rest, machine, *limits, nothing_more)
+                                     : over_runs(*joints, machine, *limits, nothing_more);
+  if (!total) return tl::unexpected(std::move(total.error()));
+  return machine.planner.whole_ticks ? static_cast<double>(total->ticks.value) * machine.clock.tau_s()
+                                     : total->time_s;
 }
 
 }  // namespace kadr::planner

@@ -69,6 +69,46 @@ int check_one(const Arguments& arguments, const std::string& path, Console& cons
   return code;
 }
 
+/// @param j    the document so far; the rows of a long program are streamed into its last key
+/// @param job  nullptr: the program has no plan
+void print_plan_json(Json j, const cycle::Job* job, Console& console) {
+  j["time_s"] = job ? Json(job->planned.plan.motion_s + job->planned.plan.pause_s) : Json(nullptr);
+  const planner::Smoothing smoothing = job ? job->read.path.smoothing : planner::Smoothing{};
+  j["smoothing"] = {{"corners", smoothing.corners},
+                    {"corner_deviation_u", smoothing.corner_deviation_u},
+                    {"curves", smoothing.curves},
+                    {"curve_deviation_u", smoothing.curve_deviation_u}};
+  j["rows"] = Json::array();
+  std::string text = text::json_text(j);
+  text.erase(text.rfind("[]"));
+  console.data(text + "[");
+  bool first = true;
+  if (job)
+    answers::for_each_plan_row(*job, [&](const answers::PlanRow& row) {
+      console.data((first ? "\n    " : ",\n    ") + text::json_line(answers::json_of(row)));
+      first = false;
+    });
+  console.data(first ? "]\n}\n" : "\n  ]\n}\n");
+}
+
+void print_plan_csv(const cycle::Job& job, Console& console) {
+  const machine::MachineModel& model = job.given.machine.model;
+  console.data(answers::plan_csv_title(model));
+  answers::for_each_plan_row(
+      job, [&](const answers::PlanRow& row) { console.data(answers::plan_csv_row(row, model)); });
+}
+
+void print_plan_table(const cycle::Job& job, Console& console) {
+  const answers::PlanTable table(job);
+  std::size_t rows = 0;
+  console.data(table.title());
+  answers::for_each_plan_row(job, [&](const answers::PlanRow& row) {
+    console.data(table.row(row));
+    ++rows;
+  });
+  console.data(table.footer(job, rows));
+}
+
 }  // namespace
 
 int check_programs(const Arguments& arguments, Console& console) {
@@ -108,44 +148,15 @@ int plan_program(const Arguments& arguments, Console& console) {
   if (console.options().json) {
     Json j = head("plan", program, given.machine.model, diagnostics, sources);
     j["exit_code"] = code;
-    j["time_s"] = job ? Json(job->planned.plan.motion_s + job->planned.plan.pause_s) : Json(nullptr);
-    const planner::Smoothing smoothing = job ? job->read.path.smoothing : planner::Smoothing{};
-    j["smoothing"] = {{"corners", smoothing.corners},
-                      {"corner_deviation_u", smoothing.corner_deviation_u},
-                      {"curves", smoothing.curves},
-                      {"curve_deviation_u", smoothing.curve_deviation_u}};
-    j["rows"] = Json::array();
-    // the rows of a long program are streamed into the document's last key
-    std::string text = text::json_text(j);
-    text.erase(text.rfind("[]"));
-    console.data(text + "[");
-    bool first = true;
-    if (job)
-      answers::for_each_plan_row(*job, [&](const answers::PlanRow& row) {
-        console.data((first ? "\n    " : ",\n    ") + text::json_line(answers::json_of(row)));
-        first = false;
-      });
-    console.data(first ? "]\n}\n" : "\n  ]\n}\n");
+    print_plan_json(std::move(j), job ? &*job : nullptr, console);
     return code;
   }
-
   console.diagnostics(diagnostics, sources, program, Console::Where::errors);
   if (code != kYes) return code;
-  if (arguments.csv) {
-    console.data(answers::plan_csv_title(given.machine.model));
-    answers::for_each_plan_row(*job, [&](const answers::PlanRow& row) {
-      console.data(answers::plan_csv_row(row, given.machine.model));
-    });
-    return code;
-  }
-  const answers::PlanTable table(*job);
-  std::size_t rows = 0;
-  console.data(table.title());
-  answers::for_each_plan_row(*job, [&](const answers::PlanRow& row) {
-    console.data(table.row(row));
-    ++rows;
-  });
-  console.data(table.footer(*job, rows));
+  if (arguments.csv)
+    print_plan_csv(*job, console);
+  else
+    print_plan_table(*job, console);
   return code;
 }
 

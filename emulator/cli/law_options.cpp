@@ -34,9 +34,10 @@ void add_tube(Options& o) {
                 "Find time laws along a stated path by several methods: times in s, how far from\n"
                 "the best, smoothness, what the check found; exit 1 if a law breaks a limit");
   sub->add_option("PROBLEM", o.arguments.files, "Problem file (docs/time_law.md); `-`: standard input")
-      ->required()
       ->expected(1)
       ->type_name("");
+  sub->add_flag("--keys", o.arguments.list,
+                "List every key of a problem file: what it takes, its default and what it means");
   o.repeated(
       sub, "--method", "NAME",
       fmt::format("Use only this method: {};\nrepeatable (default: all that the problem states)",

@@ -6,6 +6,7 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
+#include "emulator/cli/key_list.h"
 #include "emulator/text/text.h"
 
 namespace kadr::cli {
@@ -79,41 +80,7 @@ int machine_list(const Arguments&, Console& console) {
   return kYes;
 }
 
-int machine_keys(const Arguments&, Console& console) {
-  const std::vector<machine::TableDocument> tables = machine::machine_keys();
-  if (console.options().json) {
-    Json list = Json::array();
-    for (const machine::TableDocument& table : tables) {
-      for (const machine::KeyDocument& key : table.keys) {
-        Json words = Json::array();
-        for (const auto& [word, meaning] : key.words) words.push_back({{"word", word}, {"meaning", meaning}});
-        list.push_back({{"table", table.header},
-                        {"key", key.name},
-                        {"allowed", key.allowed},
-                        {"default", key.otherwise},
-                        {"meaning", key.sentence},
-                        {"words", std::move(words)}});
-      }
-    }
-    console.document(list);
-    return kYes;
-  }
-  using Align = text::TextTable::Align;
-  std::string out;
-  for (const machine::TableDocument& table : tables) {
-    out += fmt::format("{}{}{}\n", out.empty() ? "" : "\n", table.header.empty() ? "" : table.header + "  ",
-                       table.sentence);
-    text::TextTable text(
-        {{"key", Align::left}, {"default", Align::left}, {"takes", Align::left}, {"meaning", Align::left}});
-    for (const machine::KeyDocument& key : table.keys) {
-      text.add({key.name, key.otherwise, key.words.empty() ? key.allowed : "one of", key.sentence});
-      for (const auto& [word, meaning] : key.words) text.add({"", "", "  " + word, meaning});
-    }
-    out += text.render("  ");
-  }
-  console.data(out);
-  return kYes;
-}
+int machine_keys(const Arguments&, Console& console) { return list_keys(machine::machine_keys(), console); }
 
 int machine_check(const Arguments& arguments, Console& console) {
   int worst = kYes;

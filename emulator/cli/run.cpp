@@ -175,22 +175,62 @@ int exit_code(const log::RunSummary& summary, int signal) {
   return summary.alarms > 0 || summary.outcome == log::Outcome::plant_error ? kAlarm : kYes;
 }
 
-int move(const RunInputs& in, const cycle::Job& job, Console& console) {
-  const Arguments& arguments = in.arguments;
-  std::string log_path = arguments.log_path;
-  if (log_path.empty()) log_path = default_log_path(in.sources[in.given.program].name());
-  if (!arguments.log) log_path.clear();
+/// Where the log of this run goes; empty: it has none.
+std::string log_path_of(const RunInputs& in) {
+  if (!in.arguments.log) return {};
+  if (!in.arguments.log_path.empty()) return in.arguments.log_path;
+  return default_log_path(in.sources[in.given.program].name());
+}
 
-  SignalGuard signals;
+cycle::RunOptions run_options(const RunInputs& in, SignalGuard& signals) {
   cycle::RunOptions options;
-  options.plant = arguments.plant;
-  options.threads = arguments.threads;
-  options.until_s = arguments.until_s;
+  options.plant = in.arguments.plant;
+  options.threads = in.arguments.threads;
+  options.until_s = in.arguments.until_s;
   options.interrupt = signals.flag();
   options.warnings = in.diagnostics.warnings();
   options.exit_code = [&signals](const log::RunSummary& summary) {
     return exit_code(summary, signals.signal());
   };
+  return options;
+}
+
+answers::SummaryContext summary_context(const RunInputs& in, const cycle::Job& job,
+                                        const log::AlarmList& alarms) {
+  const machine::MachineModel& model = job.given.machine.model;
+  answers::SummaryContext context;
+  context.program = in.program;
+  context.machine = machine_text(in.arguments.machine, model);
+  context.scenario = in.scenario_name;
+  context.model = &model;
+  context.path_unit = answers::path_unit(job.read.path, model);
+  context.plant = in.arguments.plant;
+  context.program_warnings = in.diagnostics.warnings();
+  context.alarms = alarms.alarms();
+  context.alarm_counts = alarms.counts();
+  return context;
+}
+
+/// Prints what came of a run.
+void tell_summary(const RunInputs& in, const log::RunSummary& summary, const answers::SummaryContext& context,
+                  Console& console) {
+  if (console.options().json) {
+    Json j = head(in, summary.exit_code);
+    j["run"] = answers::json_of(summary, context);
+    console.document(j);
+  } else if (!console.options().quiet) {
+    console.data(answers::render_summary(summary, context));
+  }
+  if (summary.outcome == log::Outcome::interrupted)
+    console.error(fmt::format(
+        "interrupted{}", context.log_path.empty() ? "" : "; what was written is in " + context.log_path));
+}
+
+int move(const RunInputs& in, const cycle::Job& job, Console& console) {
+  const Arguments& arguments = in.arguments;
+  const std::string log_path = log_path_of(in);
+  SignalGuard signals;
+  cycle::RunOptions options = run_options(in, signals);
   const log::RunHeader header = run_header(job, options, in.scenario_toml);
   if (!log_path.empty()) {
     refuse_bad_log_path(log_path, arguments, in.sources[in.given.program].name());
@@ -208,17 +248,7 @@ int move(const RunInputs& in, const cycle::Job& job, Console& console) {
   progress.erase();
   if (!result) fail(result.error().what);
 
-  const int code = result->exit_code;
-  answers::SummaryContext context;
-  context.program = in.program;
-  context.machine = machine_text(arguments.machine, job.given.machine.model);
-  context.scenario = in.scenario_name;
-  context.model = &job.given.machine.model;
-  context.path_unit = answers::path_unit(job.read.path, job.given.machine.model);
-  context.plant = arguments.plant;
-  context.program_warnings = in.diagnostics.warnings();
-  context.alarms = alarms.alarms();
-  context.alarm_counts = alarms.counts();
+  answers::SummaryContext context = summary_context(in, job, alarms);
   context.wall_s = wall_s;
   if (!log_path.empty()) {
     context.log_path = result->outcome == log::Outcome::interrupted ? log_path + ".part" : log_path;
@@ -226,17 +256,8 @@ int move(const RunInputs& in, const cycle::Job& job, Console& console) {
     const auto size = fs::file_size(context.log_path, error);
     context.log_bytes = error ? 0 : static_cast<std::int64_t>(size);
   }
-  if (console.options().json) {
-    Json j = head(in, code);
-    j["run"] = answers::json_of(*result, context);
-    console.document(j);
-  } else if (!console.options().quiet) {
-    console.data(answers::render_summary(*result, context));
-  }
-  if (result->outcome == log::Outcome::interrupted)
-    console.error(
-        fmt::format("interrupted{}", log_path.empty() ? "" : "; what was written is in " + context.log_path));
-  return code;
+  tell_summary(in, *result, context, console);
+  return result->exit_code;
 }
 
 }  // namespace

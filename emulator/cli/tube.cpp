@@ -6,9 +6,11 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
+#include "emulator/cli/key_list.h"
 #include "emulator/cli/output_file.h"
 #include "emulator/cli/progress.h"
 #include "emulator/studies/time_law/law_report.h"
+#include "emulator/studies/time_law/problem_keys.h"
 #include "emulator/studies/time_law/sweep_report.h"
 #include "emulator/studies/time_law/tube_page.h"
 
@@ -106,9 +108,38 @@ int sweep_tube(const Arguments& arguments, const TimeLawProblem& problem, const 
   return code;
 }
 
+int study_tube(const Arguments& arguments, const TimeLawProblem& problem,
+               const std::vector<PlanMethod>& methods, const std::string& name, Console& console) {
+  ProgressLine progress(arguments.output, ProgressLine::Elsewhere::nothing);
+  const LawStudy study = studies::study_laws(
+      problem, methods, !arguments.page_path.empty(),
+      [&](PlanMethod method, std::string_view stage, double done) {
+        tell(progress, fmt::format("{}: {}", machine::kLawMethods.word(method), stage), done);
+      });
+  progress.erase();
+  write_files(arguments, study, problem, name);
+  const int code = study.good() ? kYes : kNo;
+  if (console.options().json) {
+    Json j = {{"kadr", KADR_VERSION}, {"command", "tube"}, {"file", name}, {"exit_code", code}};
+    j["diagnostics"] = Json::array();
+    j.update(studies::json_of(study, problem));
+    console.document(j);
+    return code;
+  }
+  if (!console.options().quiet) console.data(tables(arguments, study, problem, name));
+  note_times(arguments, study, console);
+  return code;
+}
+
 }  // namespace
 
 int solve_tube(const Arguments& arguments, Console& console) {
+  if (arguments.list) return list_keys(studies::problem_keys(), console);
+  if (arguments.files.empty()) {
+    console.error(
+        "which problem? e.g. kadr tube docs/tube/laying.toml; kadr tube --keys lists the keys of one");
+    return kNotStarted;
+  }
   const std::string& path = arguments.files.front();
   const std::string name = program_text(path);
   SourceSet sources;
@@ -140,24 +171,7 @@ int solve_tube(const Arguments& arguments, Console& console) {
     return refuse(diagnostics);
   }
   if (sweep) return sweep_tube(arguments, *problem, name, console);
-  ProgressLine progress(arguments.output, ProgressLine::Elsewhere::nothing);
-  const LawStudy study = studies::study_laws(
-      *problem, methods, keep_profiles, [&](PlanMethod method, std::string_view stage, double done) {
-        tell(progress, fmt::format("{}: {}", machine::kLawMethods.word(method), stage), done);
-      });
-  progress.erase();
-  write_files(arguments, study, *problem, name);
-  const int code = study.good() ? kYes : kNo;
-  if (console.options().json) {
-    Json j = {{"kadr", KADR_VERSION}, {"command", "tube"}, {"file", name}, {"exit_code", code}};
-    j["diagnostics"] = Json::array();
-    j.update(studies::json_of(study, *problem));
-    console.document(j);
-    return code;
-  }
-  if (!console.options().quiet) console.data(tables(arguments, study, *problem, name));
-  note_times(arguments, study, console);
-  return code;
+  return study_tube(arguments, *problem, methods, name, console);
 }
 
 }  // namespace kadr::cli

@@ -16,7 +16,7 @@ namespace {
 struct OwnedTick {
   log::TickRecord record;
   TickMotion motion;
-  std::vector<std::int64_t> position_steps;
+  std::vector<Steps> position_steps;
   std::vector<AxisState> axis;
   bool has_plant = false;
   StepBatch batch;

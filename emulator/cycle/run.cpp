@@ -5,7 +5,7 @@
 namespace kadr::cycle {
 namespace {
 
-constexpr std::int64_t kProgressTicks = 1000;
+constexpr ControlTicks kProgressPeriod{1000};
 
 void report_progress(const Job& job, const Session& session, const RunOptions& options) {
   const machine::ClockModel& clock = job.given.machine.model.clock;
@@ -25,7 +25,7 @@ tl::expected<log::RunSummary, RunFailure> run_session(const Job& job, log::RunLo
     if (static_cast<double>(session.ticks().value) * tau_s >= options.until_s)
       return session.finish(log::Outcome::stopped_by_until);
     if (auto moved = session.advance(ControlTicks{1}); !moved) return tl::unexpected(moved.error());
-    if (options.progress && session.ticks().value % kProgressTicks == 0)
+    if (options.progress && session.ticks().value % kProgressPeriod.value == 0)
       report_progress(job, session, options);
   }
   return session.finish();

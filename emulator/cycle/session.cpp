@@ -27,7 +27,7 @@ namespace {
 
 /// The interpolator is checked in every control tick with a multiple of this number: a prime, so that no
 /// program repeats itself in step with it.
-constexpr std::int64_t kNodeCheckTicks = 127;
+constexpr ControlTicks kNodeCheckPeriod{127};
 
 bool has_operator(const Job& job, const SessionOptions& options) {
   return options.live_operator || job.given.most_override || !job.given.operator_steps.empty();
@@ -147,7 +147,7 @@ class Session::Cycle {
   }
 
   void move_interpolator() {
-    const bool check = checks_nodes_ && ticks_.value % kNodeCheckTicks == 0;
+    const bool check = checks_nodes_ && ticks_.value % kNodeCheckPeriod.value == 0;
     batch_.tick = motion_.tick;
     interpolator_.set_self_check(check);
     interpolator_.advance(motion_, batch_);
@@ -261,8 +261,7 @@ log::RunSummary Session::Cycle::summary() const {
   monitor_.summarize(summary);
   const std::vector<double> begin_u = start_u(job_);
   for (std::size_t a = 0; a < summary.axis.size(); ++a)
-    summary.axis[a].end_steps =
-        Steps{lattice_node(begin_u[a], machine_.axis[a].step_u)} + summary.axis[a].net_steps;
+    summary.axis[a].end_steps = lattice_node(begin_u[a], machine_.axis[a].step_u) + summary.axis[a].net_steps;
   for (std::size_t i = 0; i < block_starts_.segments(); ++i) {
     const double done =
         std::clamp((motion_.s_end_u - path.start_s_u[i]) / path.segments[i].length_u, 0.0, 1.0);

@@ -106,7 +106,7 @@ void ArcCrossings::begin_piece() {
   } else {
     u_end_ = turning_share(piece_ + 1, u_begin_);
     s_end_u_ = u_end_ * length_u_;
-    node_end_ = static_cast<std::int64_t>(std::floor(turning_position(piece_ + 1, u_end_) + 0.5));
+    node_end_ = {static_cast<std::int64_t>(std::floor(turning_position(piece_ + 1, u_end_) + 0.5))};
   }
   const double base = half_turns_rad(piece_);
   parity_ = (piece_ & 1) == 0 ? 1.0 : -1.0;
@@ -117,19 +117,19 @@ void ArcCrossings::begin_piece() {
 }
 
 bool ArcCrossings::find_run() {
-  std::int64_t left = std::llabs(node_end_ - node_begin_) - found_;
+  std::int64_t left = magnitude(node_end_ - node_begin_) - found_;
   while (left == 0) {
     if (last_piece_) return false;
     ++piece_;
     begin_piece();
-    left = std::llabs(node_end_ - node_begin_);
+    left = magnitude(node_end_ - node_begin_);
   }
   sign = node_end_ > node_begin_ ? 1 : -1;
   count = static_cast<int>(std::min<std::int64_t>(left, kRun));
   next = 0;
 
   Run height, chi;
-  const double level = static_cast<double>(node_begin_ + sign * found_) + 0.5 * sign;
+  const double level = static_cast<double>(node_begin_.value + sign * found_) + 0.5 * sign;
   for (int i = 0; i < count; ++i) height[i] = parity_ * ((level + sign * static_cast<double>(i)) - center_);
   if (growth_ == 0.0)
     circle_angles(height, chi);

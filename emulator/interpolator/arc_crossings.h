@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "emulator/interpolator/crossing_run.h"
+#include "machine/base/count.h"
 #include "planner/path/path.h"
 
 namespace kadr::interpolator {
@@ -20,8 +21,8 @@ namespace kadr::interpolator {
 class ArcCrossings : public CrossingRun {
  public:
   struct Ends {
-    std::int64_t node_begin = 0;
-    std::int64_t node_end = 0;
+    Steps node_begin;
+    Steps node_end;
     double length_u = 0;
   };
   /// @param second the plane's second axis (sine) instead of the first (cosine)
@@ -48,7 +49,7 @@ class ArcCrossings : public CrossingRun {
   double u_per_rad_ = 0, s_per_rad_u_ = 0, length_u_ = 0;
   double radius_per_rad_ = 0;
   std::int64_t last_extreme_ = 0;  // last m inside the segment
-  std::int64_t node_last_ = 0;     // node of the segment's end
+  Steps node_last_;                // node of the segment's end
 
   // the piece from extreme piece_ (or the segment's beginning) to extreme piece_ + 1 (or its end); chi =
   // angle - piece_ pi
@@ -60,7 +61,7 @@ class ArcCrossings : public CrossingRun {
   double u_begin_ = 0, u_end_ = 0;
   double s_begin_u_ = 0, s_end_u_ = 0;
   double chi_begin_ = 0, chi_end_ = 0;
-  std::int64_t node_begin_ = 0, node_end_ = 0;
+  Steps node_begin_, node_end_;
   std::int64_t found_ = 0;  // crossings of this piece already found
 };
 

@@ -73,13 +73,13 @@ struct CrossingInterpolator::Impl {
   std::vector<std::size_t> moving;  // axes with pulses on this segment, ascending
   SlotTrack slots;                  // another method than crossings, on this segment
   bool by_slots = false;
-  std::vector<std::int64_t> steps;          // [axes] lattice nodes now
-  std::vector<std::int64_t> node_end;       // [axes] lattice nodes of the segment's end
+  std::vector<Steps> steps;                 // [axes] lattice nodes now
+  std::vector<Steps> node_end;              // [axes] lattice nodes of the segment's end
   std::vector<double> position_u, tangent;  // [axes] at the end of the last tick
 
   bool tracing = false, checking = false;
   std::vector<StepEvent> events;
-  std::vector<std::int64_t> steps_before;
+  std::vector<Steps> steps_before;
   NodeCheck check;
 };
 
@@ -167,7 +167,7 @@ void CrossingInterpolator::Impl::advance(const planner::TickMotion& motion, Step
   if (motion.s_end_u == motion.s_begin_u || path.size() == 0) return rest(batch);
   if (checking) steps_before = steps;
 
-  const TickClock clock(motion, machine.clock.control_tick.value);
+  const TickClock clock(motion, machine.clock.control_tick);
   bool begun = false, corner = false;
   for (;;) {
     if (segment_done) {
@@ -295,7 +295,7 @@ std::uint16_t* CrossingInterpolator::Impl::append(std::size_t axis, std::size_t 
     pulses.reversals.push_back(static_cast<std::uint16_t>(before));
   }
   track[axis].sign = sign;
-  steps[axis] += sign * static_cast<std::int64_t>(count);
+  steps[axis] += Steps{sign * static_cast<std::int64_t>(count)};
   pulses.offset_ticks.resize(before + count);
   return pulses.offset_ticks.data() + before;
 }
@@ -337,7 +337,7 @@ CrossingInterpolator::~CrossingInterpolator() = default;
 void CrossingInterpolator::advance(const planner::TickMotion& motion, StepBatch& batch) {
   impl_->advance(motion, batch);
 }
-const std::vector<std::int64_t>& CrossingInterpolator::position_steps() const { return impl_->steps; }
+const std::vector<Steps>& CrossingInterpolator::position_steps() const { return impl_->steps; }
 std::size_t CrossingInterpolator::segment() const { return impl_->segment; }
 bool CrossingInterpolator::passed_joint() const { return impl_->joint_passed; }
 void CrossingInterpolator::set_self_check(bool on) { impl_->checking = on; }

@@ -12,8 +12,8 @@ constexpr int kMostIterations = 60;
 
 }  // namespace
 
-void CurveCrossings::start(const planner::PathCurve& curve, std::size_t axis, double step_u,
-                           std::int64_t node_begin, std::int64_t node_end) {
+void CurveCrossings::start(const planner::PathCurve& curve, std::size_t axis, double step_u, Steps node_begin,
+                           Steps node_end) {
   curve_ = &curve;
   for (std::size_t j = 0; j < c_.size(); ++j) c_[j] = curve.coefficient(axis, j) / step_u;
   ends_ = curve.turning_points(axis);
@@ -39,7 +39,7 @@ bool CurveCrossings::begin_piece() {
   ++piece_;
   piece_node_ = piece_ == ends_.size()
                     ? node_end_
-                    : static_cast<std::int64_t>(std::floor(position(ends_[piece_ - 1]) + 0.5));
+                    : Steps{static_cast<std::int64_t>(std::floor(position(ends_[piece_ - 1]) + 0.5))};
   sign = piece_node_ > node_ ? 1 : -1;
   return true;
 }
@@ -50,8 +50,8 @@ bool CurveCrossings::find_run() {
     if (!begin_piece()) return false;
   const double end = ends_[piece_ - 1];
   while (count < kRun && node_ != piece_node_) {
-    t_ = crossing(static_cast<double>(node_) + 0.5 * sign, t_, end);
-    node_ += sign;
+    t_ = crossing(static_cast<double>(node_.value) + 0.5 * sign, t_, end);
+    node_ += Steps{sign};
     s_last_u_ = std::max(s_last_u_, curve_->s_u(t_));
     s_u[static_cast<std::size_t>(count++)] = s_last_u_;
   }

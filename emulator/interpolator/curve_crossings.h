@@ -1,9 +1,9 @@
 #pragma once
 #include <array>
-#include <cstdint>
 #include <vector>
 
 #include "emulator/interpolator/crossing_run.h"
+#include "machine/base/count.h"
 #include "planner/path/path.h"
 
 namespace kadr::interpolator {
@@ -17,8 +17,8 @@ namespace kadr::interpolator {
 class CurveCrossings : public CrossingRun {
  public:
   /// @pre curve.moves(axis); `curve` lives as long as this
-  void start(const planner::PathCurve& curve, std::size_t axis, double step_u, std::int64_t node_begin,
-             std::int64_t node_end);
+  void start(const planner::PathCurve& curve, std::size_t axis, double step_u, Steps node_begin,
+             Steps node_end);
 
   /// Finds the next run of crossings in one direction; false when the segment has no more.
   bool find_run();
@@ -30,11 +30,11 @@ class CurveCrossings : public CrossingRun {
   double crossing(double level, double low, double high) const;
 
   const planner::PathCurve* curve_ = nullptr;
-  std::array<double, planner::PathCurve::kPowers> c_{};    // x(t) in steps
-  std::vector<double> ends_;                               // t where the monotone pieces end; the last is 1
-  std::size_t piece_ = 0;                                  // the next to begin
-  std::int64_t node_ = 0, piece_node_ = 0, node_end_ = 0;  // now, at the piece's end, at the curve's end
-  double t_ = 0;                                           // of the last crossing
+  std::array<double, planner::PathCurve::kPowers> c_{};  // x(t) in steps
+  std::vector<double> ends_;                             // t where the monotone pieces end; the last is 1
+  std::size_t piece_ = 0;                                // the next to begin
+  Steps node_, piece_node_, node_end_;                   // now, at the piece's end, at the curve's end
+  double t_ = 0;                                         // of the last crossing
   double s_last_u_ = 0;
 };
 

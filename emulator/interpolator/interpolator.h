@@ -40,9 +40,9 @@ class CrossingInterpolator {
   /// s_end] contains its position; a position at the very beginning of a segment fires when the motion enters it. A
   /// tick that ends at rest within 1e-9 units before a joint is on the joint.
   void advance(const planner::TickMotion& motion, StepBatch& batch);
-  /// Lattice node (steps from machine zero) at the end of the last tick, per machine axis; begins at the node
+  /// Lattice node at the end of the last tick, per machine axis; begins at the node
   /// of the path's start.
-  const std::vector<std::int64_t>& position_steps() const;
+  const std::vector<Steps>& position_steps() const;
   /// Segment reached at the end of the last tick (on a joint: the one that ends there), and whether a joint
   /// lay strictly inside the tick, so that a corner may lie between the speeds at its two ends.
   std::size_t segment() const;

@@ -5,12 +5,12 @@
 
 namespace kadr::interpolator {
 
-LineCrossings LineCrossings::between(double begin, double end, std::int64_t node_begin, std::int64_t node_end,
+LineCrossings LineCrossings::between(double begin, double end, Steps node_begin, Steps node_end,
                                      double length_u) {
   LineCrossings line;
   line.sign = node_end > node_begin ? 1 : -1;
-  line.count = node_end > node_begin ? node_end - node_begin : node_begin - node_end;
-  const double level = static_cast<double>(node_begin) + 0.5 * line.sign;
+  line.count = magnitude(node_end - node_begin);
+  const double level = static_cast<double>(node_begin.value) + 0.5 * line.sign;
   line.first_level = std::fabs(level - begin);
   line.spacing_u = length_u / std::fabs(end - begin);
   return line;

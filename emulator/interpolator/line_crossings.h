@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 
+#include "machine/base/count.h"
+
 namespace kadr::interpolator {
 
 /// Half-crossings of one axis that moves linearly along a segment: x(s) = begin + (end - begin) s/length, in
@@ -14,8 +16,7 @@ struct LineCrossings {
 
   /// @param begin, end            positions at the segment's ends in steps
   /// @param node_begin, node_end  their lattice nodes; not equal
-  static LineCrossings between(double begin, double end, std::int64_t node_begin, std::int64_t node_end,
-                               double length_u);
+  static LineCrossings between(double begin, double end, Steps node_begin, Steps node_end, double length_u);
 
   double s_u(std::int64_t k) const { return (first_level + static_cast<double>(k)) * spacing_u; }
 

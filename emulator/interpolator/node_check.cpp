@@ -32,7 +32,7 @@ NodeCheck::NodeCheck(const planner::Path& path, const machine::MachineModel& mac
   worst_steps_.resize(axes);
 }
 
-void NodeCheck::add(const planner::TickMotion& motion, const std::vector<std::int64_t>& nodes,
+void NodeCheck::add(const planner::TickMotion& motion, const std::vector<Steps>& nodes,
                     const std::vector<StepEvent>& events) {
   nodes_ = nodes;
   const auto base_hz = static_cast<double>(machine_.clock.base_hz);
@@ -50,17 +50,18 @@ void NodeCheck::add(const planner::TickMotion& motion, const std::vector<std::in
     for (std::size_t axis = 0; axis < nodes_.size(); ++axis)
       measure(event.segment, axis, nodes_[axis], motion.s_end_u);
     const auto stepped = static_cast<std::size_t>(event.axis);
-    nodes_[stepped] += event.sign;
+    nodes_[stepped] += Steps{event.sign};
     measure(event.segment, stepped, nodes_[stepped], motion.s_end_u);
   }
 }
 
-void NodeCheck::measure(std::size_t segment, std::size_t axis, std::int64_t node, double s_u) {
+void NodeCheck::measure(std::size_t segment, std::size_t axis, Steps node, double s_u) {
   const double step_u = machine_.axis[axis].step_u;
   // doubles can't resolve positions closer than this on a path of that length and at that position
   const double blur_u =
       4.0 * std::numeric_limits<double>::epsilon() * (s_u + std::fabs(position_u_[axis]) + reach_u_[axis]);
-  const double error = std::fabs(static_cast<double>(node) - position_u_[axis] / step_u) - blur_u / step_u;
+  const double error =
+      std::fabs(static_cast<double>(node.value) - position_u_[axis] / step_u) - blur_u / step_u;
   worst_steps_[axis] = std::max(worst_steps_[axis], error);
   if (error <= worst_) return;
   worst_ = error;

@@ -1,5 +1,4 @@
 #pragma once
-#include <cstdint>
 #include <vector>
 
 #include "emulator/interpolator/interpolator.h"
@@ -14,18 +13,18 @@ class NodeCheck {
   NodeCheck(const planner::Path& path, const machine::MachineModel& machine);
   /// @param nodes   lattice nodes before the tick's first event [axes]
   /// @param events  the tick's events in path order
-  void add(const planner::TickMotion& motion, const std::vector<std::int64_t>& nodes,
+  void add(const planner::TickMotion& motion, const std::vector<Steps>& nodes,
            const std::vector<StepEvent>& events);
   /// Where the largest error of all axes was.
   std::size_t worst_segment() const { return worst_segment_; }
   const std::vector<double>& worst_steps() const { return worst_steps_; }
 
  private:
-  void measure(std::size_t segment, std::size_t axis, std::int64_t node, double s_u);
+  void measure(std::size_t segment, std::size_t axis, Steps node, double s_u);
 
   const planner::Path& path_;
   const machine::MachineModel& machine_;
-  std::vector<std::int64_t> nodes_;
+  std::vector<Steps> nodes_;
   std::vector<double> position_u_, reach_u_, worst_steps_;
   double worst_ = 0;
   std::size_t worst_segment_ = 0;

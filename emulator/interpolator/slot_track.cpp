@@ -23,17 +23,16 @@ const lattice::MethodEntry::Followers& followers_of(Method asked) {
 }
 
 /// A coordinate that is a node up to rounding.
-std::optional<std::int64_t> node_of(double position_u, double step_u) {
+std::optional<Steps> node_of(double position_u, double step_u) {
   const double steps = position_u / step_u, node = std::floor(steps + 0.5);
   if (std::fabs(steps - node) > kOnNode) return {};
-  return static_cast<std::int64_t>(node);
+  return Steps{static_cast<std::int64_t>(node)};
 }
 
 }  // namespace
 
 bool SlotTrack::start(const planner::Path& path, std::size_t segment, const machine::MachineModel& machine,
-                      const std::vector<std::int64_t>& node_begin,
-                      const std::vector<std::int64_t>& node_end) {
+                      const std::vector<Steps>& node_begin, const std::vector<Steps>& node_end) {
   has_next_ = false;
   if (machine.interpolator == Method::crossing) return false;
   const std::size_t axes = node_begin.size();
@@ -45,7 +44,7 @@ bool SlotTrack::start(const planner::Path& path, std::size_t segment, const mach
     lattice::LineCurve line;
     for (std::size_t k = 0; k < axes; ++k) {
       if (!moves(k)) continue;
-      line.delta[static_cast<std::size_t>(lanes)] = node_end[k] - node_begin[k];
+      line.delta[static_cast<std::size_t>(lanes)] = (node_end[k] - node_begin[k]).value;
       lane_[k] = lanes++;
     }
     if (lanes == 0) return false;
@@ -64,8 +63,8 @@ bool SlotTrack::start(const planner::Path& path, std::size_t segment, const mach
     if (machine.axis[second].step_u != step_u || std::fabs(shape.sweep_rad) > kOneTurn_rad) return false;
     const auto x = node_of(shape.center_first_u, step_u), y = node_of(shape.center_second_u, step_u);
     if (!x || !y) return false;
-    curve_ = lattice::ArcCurve{{node_begin[first] - *x, node_begin[second] - *y},
-                               {node_end[first] - *x, node_end[second] - *y},
+    curve_ = lattice::ArcCurve{{(node_begin[first] - *x).value, (node_begin[second] - *y).value},
+                               {(node_end[first] - *x).value, (node_end[second] - *y).value},
                                shape.sweep_rad > 0 ? lattice::Turn::ccw : lattice::Turn::cw};
     lane_[first] = 0;
     lane_[second] = 1;

@@ -20,7 +20,7 @@ class SlotTrack {
   /// Takes up a segment; false: no method here follows it, or none is configured.
   /// @param node_begin, node_end  [axes] lattice nodes of the segment's ends
   bool start(const planner::Path& path, std::size_t segment, const machine::MachineModel& machine,
-             const std::vector<std::int64_t>& node_begin, const std::vector<std::int64_t>& node_end);
+             const std::vector<Steps>& node_begin, const std::vector<Steps>& node_end);
 
   /// The next slot, until there are none: its position on the segment, and the axes that step.
   bool at_end() const { return !has_next_; }

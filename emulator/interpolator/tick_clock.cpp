@@ -26,11 +26,11 @@ inline void stamp_list_loop(const TickClock& clock, const double* s_u, int count
 
 }  // namespace
 
-TickClock::TickClock(const planner::TickMotion& motion, std::int64_t control_tick)
+TickClock::TickClock(const planner::TickMotion& motion, Ticks control_tick)
     : s_begin_u(motion.s_begin_u),
       inverse_ds_per_u(1.0 / (motion.s_end_u - motion.s_begin_u)),
-      last_tick(static_cast<std::int32_t>(control_tick - 1)) {
-  const double tau = static_cast<double>(control_tick);
+      last_tick(static_cast<std::int32_t>(control_tick.value - 1)) {
+  const double tau = static_cast<double>(control_tick.value);
   const double sum = motion.ramp_begin_u_s + motion.ramp_end_u_s;
   if (sum > 0.0) p = std::clamp(motion.ramp_begin_u_s / sum, 0.0, 1.0);
   begin_ticks = std::clamp(motion.move_begin_ticks, 0.0, tau);

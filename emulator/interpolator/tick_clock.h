@@ -22,10 +22,10 @@ struct TickClock {
   double p = 0.5;               ///< share of the begin speed, in [0, 1]
   double begin_ticks = 0;       ///< t_b
   double span_ticks = 0;        ///< t_e - t_b
-  std::int32_t last_tick = 0;   ///< tau - 1, the largest offset
+  std::int32_t last_tick = 0;   ///< tau - 1, the largest offset; bare, for vector registers
 
   /// @pre motion.s_end_u > motion.s_begin_u
-  TickClock(const planner::TickMotion& motion, std::int64_t control_tick);
+  TickClock(const planner::TickMotion& motion, Ticks control_tick);
 
   /// Share of the tick's path that is done `ds_u` after its beginning, clamped to [0, 1]; not-a-number becomes 0.
   double share(double ds_u) const {

@@ -6,7 +6,7 @@ namespace kadr::log {
 
 BlockBuilder::BlockBuilder(const machine::MachineModel& machine)
     : machine_(machine), pulses_(machine.axis.size()), node_(machine.axis.size()) {
-  require(machine.log.block_ticks >= 1 && machine.log.block_ticks <= kMaxBlockTicks,
+  require(machine.log.block_ticks.value >= 1 && machine.log.block_ticks.value <= kMaxBlockTicks,
           "log.block_ticks is between 1 and 64");
   require(machine.clock.control_tick.value >= 1 && machine.clock.control_tick.value <= 65536,
           "offsets within a control tick fit 16 bits");
@@ -47,7 +47,7 @@ void BlockBuilder::clear() {
 /// position_steps may count from anywhere; in the log a step count is the lattice node from machine zero.
 void BlockBuilder::begin_lattice(const TickRecord& record, const StepBatch& batch) {
   for (std::size_t a = 0; a < node_.size(); ++a) {
-    const std::int64_t before = (*record.position_steps)[a] - batch.axis[a].net_steps().value;
+    const Steps before = (*record.position_steps)[a] - batch.axis[a].net_steps();
     const double start_u = batch.axis[a].command.position_begin_u;
     lattice_offset_.push_back(lattice_node(start_u, machine_.axis[a].step_u) - before);
   }
@@ -118,9 +118,9 @@ AxisSample BlockBuilder::axis_sample(const TickRecord& record, const StepBatch& 
   m.axis = static_cast<int>(a);
   m.tick = tick_end(record.tick);
   m.t_s = seconds(m.tick);
-  m.steps = node_[a];
+  m.steps = node_[a].value;
   m.ideal = command.position_end_u;
-  m.commanded = static_cast<double>(node_[a]) * machine_.axis[a].step_u;
+  m.commanded = static_cast<double>(node_[a].value) * machine_.axis[a].step_u;
   m.motor = command.position_end_u;
   m.load = command.position_end_u;
   m.load_rate = command.speed_end_u_s;

@@ -23,7 +23,7 @@ class BlockBuilder {
  public:
   explicit BlockBuilder(const machine::MachineModel& machine);
   bool empty() const { return ticks_ == 0; }
-  bool full() const { return ticks_ == machine_.log.block_ticks; }
+  bool full() const { return ControlTicks{ticks_} == machine_.log.block_ticks; }
   /// True if the tick can't join the block under way: ticks were skipped, or the plant came or went.
   bool breaks(const TickRecord& record) const;
   void add(const TickRecord& record, const StepBatch& batch);
@@ -50,11 +50,11 @@ class BlockBuilder {
   const machine::MachineModel& machine_;
   detail::TupleOf<TickChannels>::Type blocks_;
   PulseBlock pulse_block_;
-  std::vector<PulseEncoder> pulses_;          // [axes]
-  std::vector<std::int64_t> lattice_offset_;  // [axes] lattice node - position_steps; set by the first tick
-  std::vector<std::int64_t> node_;            // [axes] of the tick added last
-  ControlTicks first_;                        // of the block
-  std::int32_t ticks_ = 0;                    // in the block
+  std::vector<PulseEncoder> pulses_;   // [axes]
+  std::vector<Steps> lattice_offset_;  // [axes] lattice node - position_steps; set by the first tick
+  std::vector<Steps> node_;            // [axes] of the tick added last
+  ControlTicks first_;                 // of the block
+  std::int32_t ticks_ = 0;             // in the block
   bool has_plant_ = false, has_override_ = false;
   double accel_u_s2_ = 0, jerk_u_s3_ = 0;  // of the tick added last
 };

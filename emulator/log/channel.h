@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <tl/expected.hpp>
@@ -62,6 +63,15 @@ constexpr std::int64_t fingerprint(std::size_t count = Channel<R>::fields.size()
     }
   }
   return static_cast<std::int64_t>((v << 1) + (v >> 63));
+}
+
+/// Calls f.template operator()<index>(field) for each field of a channel's table.
+template <class R, class F>
+void for_each_field(F&& f) {
+  const auto call = [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
+    (f.template operator()<kIndex>(Channel<R>::fields[kIndex]), ...);
+  };
+  call(std::make_index_sequence<Channel<R>::fields.size()>());
 }
 
 /// Whether an array never is empty: of an appended field that a reader can tell by its bytes.

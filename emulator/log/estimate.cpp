@@ -86,7 +86,7 @@ class Messages {
   std::size_t axes_;
   LogHeader header_;
   BlockBuilder builder_;
-  std::vector<std::int64_t> position_steps_;
+  std::vector<Steps> position_steps_;
   std::vector<AxisState> states_;
   TickMotion motion_;
   StepBatch batch_;
@@ -100,7 +100,8 @@ std::int64_t estimate_log_bytes(const machine::MachineModel& machine, double pla
                                 std::size_t blocks, bool plant, std::size_t text_bytes) {
   Messages message(machine, plant);
   const double ticks = std::ceil(std::max(0.0, planned_s) / machine.clock.tau_s());
-  const double messages = std::ceil(ticks / std::max(1, machine.log.block_ticks));
+  const double messages =
+      std::ceil(ticks / static_cast<double>(std::max<std::int64_t>(1, machine.log.block_ticks.value)));
   double bytes = message.frame() + static_cast<double>(std::min(text_bytes, kEmbeddedTextLimit)) +
                  static_cast<double>(blocks) * message.block() +
                  // a block that ends within the control tick of its beginning has no KADR_BLOCK_END

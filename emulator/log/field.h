@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "emulator/log/wire.h"
 #include "machine/base/vocabulary.h"
@@ -112,6 +113,23 @@ class Counts {
 };
 bool allows(CountRule rule, std::int32_t count, const Counts& counts, const LogHeader& header);
 
+/// The signal of exports and pages that a column of exact data is, of the path or of an axis.
+struct SignalInfo {
+  bool shown = true;
+  /// "feed.commanded", of an axis "steps"; its unit is added. Empty: the channel's and the field's name
+  std::string_view name{};
+  FieldUnit unit = FieldUnit::none;
+  double factor = 1;          ///< from the column's unit to the signal's
+  std::string_view behind{};  ///< the column follows the signals of this one; empty: as on the wire
+  std::vector<std::string> (*words)() = nullptr;  ///< of a code: the meanings of its values 0, 1 ...
+};
+
+/// The words of a vocabulary, for SignalInfo::words.
+template <const auto& kWords>
+std::vector<std::string> strings_of() {
+  return kWords.strings();
+}
+
 /// The part of a field that does not depend on its record.
 struct FieldInfo {
   std::string_view name;  ///< as in kadr.lcm
@@ -124,7 +142,7 @@ struct FieldInfo {
   bool compared = true;                                     ///< by `kadr diff`
   ToleranceKey key = ToleranceKey::none;                    ///< of a plant state
   std::string_view (*word)(std::int64_t number) = nullptr;  ///< name of a coded number
-  bool shown = true;  ///< exact data: a signal of exports and pages by its own name
+  SignalInfo signal{};                                      ///< of exact data
 
   constexpr std::size_t dimensions() const { return extent[0].empty() ? 0 : extent[1].empty() ? 1 : 2; }
 };
@@ -154,6 +172,10 @@ struct Field : FieldInfo {
   void (*clear)(R& record) = nullptr;
   /// One value: [row] of an array, [row][column] of an array of arrays; null: it has no value of its own.
   FieldValue (*value)(const R& record, std::size_t row, std::size_t column) = nullptr;
+  /// The same as a number; null: it has none.
+  double (*number)(const R& record, std::size_t row, std::size_t column) = nullptr;
+  /// Whether the record's arrays reach that far.
+  bool (*has)(const R& record, std::size_t row, std::size_t column) = nullptr;
 
   /// An array: `x[outer]`, `x[outer][inner]`.
   constexpr Field by(std::string_view outer, std::string_view inner = {}) const {
@@ -171,10 +193,31 @@ struct Field : FieldInfo {
     f.word = words;
     return f;
   }
-  /// Exports and pages have what is made of it (signal_table.cpp).
+  /// A signal with a name of its own, in the field's unit.
+  constexpr Field shown_as(std::string_view as) const { return shown_as(as, unit, 1); }
+  /// The same in another unit.
+  constexpr Field shown_as(std::string_view as, FieldUnit in, double factor) const {
+    Field f = *this;
+    f.signal.name = as;
+    f.signal.unit = in;
+    f.signal.factor = factor;
+    return f;
+  }
+  constexpr Field shown_behind(std::string_view column) const {
+    Field f = *this;
+    f.signal.behind = column;
+    return f;
+  }
+  /// The signal is a code.
+  constexpr Field in_words(std::vector<std::string> (*words)()) const {
+    Field f = *this;
+    f.signal.words = words;
+    return f;
+  }
+  /// Exports and pages have what is made of it (signal_table.cpp), or nothing.
   constexpr Field not_shown() const {
     Field f = *this;
-    f.shown = false;
+    f.signal.shown = false;
     return f;
   }
   /// It follows from other fields, or is not the same in two runs that are.

@@ -94,6 +94,14 @@ FieldValue value_of(const T& v) {
     return as_integer(v);
 }
 
+template <Wire kWire, class T>
+double number_of(const T& v) {
+  if constexpr (kWire == Wire::real)
+    return v;
+  else
+    return static_cast<double>(as_integer(v));
+}
+
 // ---- paths of members
 
 template <class T>
@@ -172,6 +180,19 @@ const auto& value_at(const Object& object, std::size_t row, std::size_t column) 
   }
 }
 
+/// Whether there is a value at [row] or [row][column] of the path's end.
+template <auto kFirst, auto... kRest, class Object>
+bool has_value(const Object& object, std::size_t row, std::size_t column) {
+  const auto& member = object.*kFirst;
+  if constexpr (kIsVector<std::remove_cvref_t<decltype(member)>>) {
+    if (row >= member.size()) return false;
+    if constexpr (sizeof...(kRest) > 0) return has_value<kRest...>(member[row], column, 0);
+  } else if constexpr (sizeof...(kRest) > 0) {
+    return has_value<kRest...>(member, row, column);
+  }
+  return true;
+}
+
 /// Gives the arrays on the path their lengths. Columns of one vector of records have one length.
 /// @return false if they have not
 template <auto kFirst, auto... kRest, class Object>
@@ -231,6 +252,11 @@ constexpr auto make(std::string_view name, FieldUnit unit, std::string_view sent
   f.value = [](const R& r, std::size_t row, std::size_t column) {
     return value_of<kWire>(value_at<kPath...>(r, row, column));
   };
+  if constexpr (kWire != Wire::string)
+    f.number = [](const R& r, std::size_t row, std::size_t column) {
+      return number_of<kWire>(value_at<kPath...>(r, row, column));
+    };
+  f.has = [](const R& r, std::size_t row, std::size_t column) { return has_value<kPath...>(r, row, column); };
   return f;
 }
 

@@ -63,8 +63,8 @@ struct TickRecord {
   ControlTicks tick;        ///< the tick that ended
   std::uint32_t block = 0;  ///< running number of the block at the tick's end
   const TickMotion* motion = nullptr;
-  const std::vector<std::int64_t>* position_steps = nullptr;  ///< [axes]
-  const std::vector<AxisState>* axis = nullptr;               ///< [axes]; null without plant
+  const std::vector<Steps>* position_steps = nullptr;  ///< [axes]
+  const std::vector<AxisState>* axis = nullptr;        ///< [axes]; null without plant
   bool has_override = false;  ///< the run has steps of operator or spindle: their requests are kept
 };
 

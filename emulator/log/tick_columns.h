@@ -15,7 +15,7 @@ inline constexpr int kMaxBlockTicks = 64;
 struct TickSource {
   const TickRecord& record;
   const StepBatch& batch;
-  const std::vector<std::int64_t>& node;  ///< [axes] lattice node at the tick's end, from machine zero
+  const std::vector<Steps>& node;  ///< [axes] lattice node at the tick's end, from machine zero
 };
 
 /// Whether base tick and number of a block's first control tick agree.

@@ -17,13 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 using machine::file_diagnostic;
 using machine::Node;
+using machine::read_number;
 using machine::TableReader;
 
 constexpr machine::Bounds kVibration{0, 1e9};
-
-machine::Reading<double> number(TableReader& table, const NumberKey& key) {
-  return table.number(key.name, key.bounds);
-}
 
 /// Reads one scenario file; mistakes go to the context's diagnostics.
 class ScenarioReader {
@@ -34,7 +31,7 @@ class ScenarioReader {
 
   void read(const Node& root, std::uint32_t file) {
     TableReader table(&root, "", Span{file, 1, 1, 1}, context_);
-    const auto format = number(table, kScenarioFormat);
+    const auto format = read_number(table, kScenarioFormat);
     if (format.valid && format.value != 1)
       tell(Code::file_format, format.span,
            fmt::format("is edition {:.0f}, this kadr reads edition 1", format.value));
@@ -66,12 +63,12 @@ class ScenarioReader {
     ScenarioTechnology point;
     point.span = node.span;
     if (keys.has(kPointLine.name)) {
-      const auto line = number(keys, kPointLine);
+      const auto line = read_number(keys, kPointLine);
       point.line = static_cast<std::uint32_t>(line.value);
       point.span = line.span;
       point.rule.max_u_s = machine::read_technology_limit(keys);
     } else if (keys.has(kPointPath.name)) {
-      const auto at = number(keys, kPointPath);
+      const auto at = read_number(keys, kPointPath);
       point.path_u = at.value;
       point.span = at.span;
       point.rule.max_u_s = machine::read_technology_limit(keys);
@@ -169,27 +166,27 @@ class ScenarioReader {
   /// When or where a step is: one of kMomentKeys.
   void read_moment(TableReader& table, ScenarioStep& step) {
     const auto place = [&](const NumberKey& key, cycle::PathPlace::Kind kind) {
-      const auto at = number(table, key);
+      const auto at = read_number(table, key);
       step.place = cycle::PathPlace{kind, at.value};
       step.span = at.span;
     };
     if (table.has(kAtLine.name)) {
       place(kAtLine, cycle::PathPlace::Kind::line);
-      if (table.has(kPass.name)) step.place->pass = static_cast<int>(number(table, kPass).value);
+      if (table.has(kPass.name)) step.place->pass = static_cast<int>(read_number(table, kPass).value);
     } else if (table.has(kAtBlock.name)) {
       place(kAtBlock, cycle::PathPlace::Kind::block);
     } else if (table.has(kAtPath.name)) {
       place(kAtPath, cycle::PathPlace::Kind::length);
     } else if (table.has(kAtTick.name)) {
-      const auto tick = number(table, kAtTick);
+      const auto tick = read_number(table, kAtTick);
       step.at_tick = static_cast<std::int64_t>(tick.value);
       step.span = tick.span;
     } else {
-      const auto time = number(table, kAtS);
+      const auto time = read_number(table, kAtS);
       step.at_s = time.value;
       step.span = time.span;
     }
-    if (step.place && table.has(kAfter.name)) step.place->after_u = number(table, kAfter).value;
+    if (step.place && table.has(kAfter.name)) step.place->after_u = read_number(table, kAfter).value;
   }
 
   void read_action(TableReader& table, const ActionKey& key, ScenarioStep& step) {
@@ -205,7 +202,7 @@ class ScenarioReader {
       case ActionKey::Takes::input:
         step.analog = key.name == "analog_input";
         step.number = static_cast<int>(table.number(key.name, key.bounds).value);
-        step.value = number(table, step.analog ? kAnalogValue : kDigitalValue).value;
+        step.value = read_number(table, step.analog ? kAnalogValue : kDigitalValue).value;
         break;
     }
     step.action = key.action;
@@ -222,7 +219,7 @@ class ScenarioReader {
       if (table.has(key.name) && ++actions == 1) read_action(table, key, step);
     }
     if (step.action == cycle::OperatorAction::spindle_load && table.has(kForS.name))
-      step.for_s = number(table, kForS).value;
+      step.for_s = read_number(table, kForS).value;
     if (actions == 0) return tell(Code::scenario_step, node.span, "does nothing", "one of " + names);
     if (actions > 1)
       return tell(Code::scenario_step, node.span, fmt::format("does {} things at once", actions),
@@ -240,7 +237,7 @@ class ScenarioReader {
   /// The highest override that the run must be able to follow; no step goes beyond it.
   void read_most_override(TableReader& table) {
     if (!table.has(kMostOverride.name)) return;
-    const auto most = number(table, kMostOverride);
+    const auto most = read_number(table, kMostOverride);
     if (!most.valid) return;
     scenario_.most_override = most.value / 100;
     for (const ScenarioStep& step : scenario_.steps)
@@ -255,8 +252,8 @@ class ScenarioReader {
     TableReader table(&node, "expect", node.span, context_);
     Expectations& expect = scenario_.expect;
     if (table.has(kTimeS.name)) {
-      expect.time_s = number(table, kTimeS).value;
-      expect.within_s = number(table, kWithin).value;
+      expect.time_s = read_number(table, kTimeS).value;
+      expect.within_s = read_number(table, kWithin).value;
     }
     if (table.has(kStepsHash.name)) expect.steps_hash = read_hash(table.text(kStepsHash.name));
     if (const Node* alarms = table.table(kAlarms.name)) read_alarms(*alarms);
@@ -333,7 +330,7 @@ class ScenarioReader {
     if (std::string_view("UVW").find(axis.letter) != std::string_view::npos)
       for (const RangeKey& key : kAxisRanges) rotary = rotary || table.has(key.rotary);
     const auto count = [&](const NumberKey& key, std::optional<std::int64_t>& member) {
-      if (table.has(key.name)) member = static_cast<std::int64_t>(number(table, key).value);
+      if (table.has(key.name)) member = static_cast<std::int64_t>(read_number(table, key).value);
     };
     count(kPulses, axis.pulses);
     count(kEndSteps, axis.end_steps);

@@ -15,12 +15,7 @@ inline constexpr machine::Bounds kLength{0, 1e9};
 inline constexpr machine::Bounds kLine{1, 4e9, false, true};
 inline constexpr machine::Bounds kAny{-1e12, 1e12};
 
-/// A number that no plain member of a struct stands for.
-struct NumberKey {
-  std::string_view name;
-  machine::Bounds bounds;
-  std::string_view sentence;
-};
+using machine::NumberKey;
 
 inline constexpr machine::PlainKey kScenarioName{"name", "a text", "required", "name of the scenario"};
 inline constexpr machine::PlainKey kSummary{"summary", "a text", "", "what it shows, in a line"};

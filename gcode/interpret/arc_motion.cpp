@@ -129,20 +129,40 @@ ArcLimits Interpreter::limits_of_arc() const {
   return arc_limits(state_.inches, options_.arc_end_tolerance_mm, options_.arc_end_tolerance_relative);
 }
 
-bool Interpreter::refuse_arc(const ArcGeometry& arc, PlanePoint end) {
+std::string Interpreter::arc_point(PlanePoint point) const {
   const PlaneAxes axes = plane_axes(state_.plane);
-  const char first = kAxisLetters[static_cast<std::size_t>(axes.first)];
-  const char second = kAxisLetters[static_cast<std::size_t>(axes.second)];
+  const auto first = static_cast<std::size_t>(axes.first), second = static_cast<std::size_t>(axes.second);
   const double unit = state_.length_factor();
-  const auto point = [&](double a_mm, double b_mm) {
-    AxisValues at = arc_frame(state_.position);
-    at[static_cast<std::size_t>(axes.first)] = a_mm;
-    at[static_cast<std::size_t>(axes.second)] = b_mm;
-    at = state_.to_program(arc_frame_to_machine(at));
-    return fmt::format("{}{} {}{}", first, figure(at[static_cast<std::size_t>(axes.first)] / unit), second,
-                       figure(at[static_cast<std::size_t>(axes.second)] / unit));
-  };
-  const PlanePoint start = in_plane(arc_frame(state_.position), axes);
+  AxisValues at = arc_frame(state_.position);
+  at[first] = point.first_mm;
+  at[second] = point.second_mm;
+  at = state_.to_program(arc_frame_to_machine(at));
+  return fmt::format("{}{} {}{}", kAxisLetters[first], figure(at[first] / unit), kAxisLetters[second],
+                     figure(at[second] / unit));
+}
+
+void Interpreter::explain_off_circle(const ArcGeometry& arc, PlanePoint end, Diagnostic& d) const {
+  const double apart = std::fabs(arc.radius_start_mm - arc.radius_end_mm);
+  d.label = fmt::format("radius at start {:.3f} mm, at end {:.3f} mm, differ by {:.3f} mm",
+                        arc.radius_start_mm, arc.radius_end_mm, apart);
+  const ArcLimits limits = limits_of_arc();
+  d.notes.push_back(
+      fmt::format("allowed {} mm: the larger of {} mm (path.arc_end_tolerance_mm may widen it) and {} % "
+                  "of the radius, at most {} mm",
+                  figure(arc.allowed_mm), figure(limits.least_mm), figure(limits.relative * 100),
+                  figure(limits.ceiling_mm)));
+  // the second coordinate that would lie on the circle, on the side where the end is
+  const double across = end.first_mm - arc.center.first_mm;
+  const double square = (arc.radius_start_mm - across) * (arc.radius_start_mm + across);
+  d.help = "give R instead of I J K, or check the centre";
+  if (square < 0) return;
+  const double up = end.second_mm >= arc.center.second_mm ? 1 : -1;
+  const double fitting = arc.center.second_mm + up * std::sqrt(square);
+  d.help = fmt::format("with this centre the end is {}; or give R instead of I J K",
+                       arc_point({end.first_mm, fitting}));
+}
+
+bool Interpreter::refuse_arc(const ArcGeometry& arc, PlanePoint end) {
   const Span span = action_span();
   Diagnostic d = problem(Code::arc_end_off_circle, span, {});
   switch (arc.fault) {
@@ -163,32 +183,13 @@ bool Interpreter::refuse_arc(const ArcGeometry& arc, PlanePoint end) {
       d.notes.push_back(fmt::format("allowed above {} mm", figure(kRadiusTolerance_mm, 5)));
       break;
     case ArcFault::none:
-    case ArcFault::off_circle: {
-      const double apart = std::fabs(arc.radius_start_mm - arc.radius_end_mm);
-      d.label = fmt::format("radius at start {:.3f} mm, at end {:.3f} mm, differ by {:.3f} mm",
-                            arc.radius_start_mm, arc.radius_end_mm, apart);
-      const ArcLimits limits = limits_of_arc();
-      d.notes.push_back(
-          fmt::format("allowed {} mm: the larger of {} mm (path.arc_end_tolerance_mm may widen it) and {} % "
-                      "of the radius, at most {} mm",
-                      figure(arc.allowed_mm), figure(limits.least_mm), figure(limits.relative * 100),
-                      figure(limits.ceiling_mm)));
-      // the second coordinate that would lie on the circle, on the side where the end is
-      const double across = end.first_mm - arc.center.first_mm;
-      const double square = (arc.radius_start_mm - across) * (arc.radius_start_mm + across);
-      d.help = "give R instead of I J K, or check the centre";
-      if (square >= 0) {
-        const double up = end.second_mm >= arc.center.second_mm ? 1 : -1;
-        const double fitting = arc.center.second_mm + up * std::sqrt(square);
-        d.help = fmt::format("with this centre the end is {}; or give R instead of I J K",
-                             point(end.first_mm, fitting));
-      }
+    case ArcFault::off_circle:
+      explain_off_circle(arc, end, d);
       break;
-    }
   }
   if (arc.fault == ArcFault::off_circle || arc.fault == ArcFault::zero_radius) {
-    d.notes.push_back(fmt::format("start {}, centre {}", point(start.first_mm, start.second_mm),
-                                  point(arc.center.first_mm, arc.center.second_mm)));
+    const PlanePoint start = in_plane(arc_frame(state_.position), plane_axes(state_.plane));
+    d.notes.push_back(fmt::format("start {}, centre {}", arc_point(start), arc_point(arc.center)));
   }
   return error(std::move(d));
 }

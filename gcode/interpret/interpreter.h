@@ -159,6 +159,9 @@ class Interpreter {
   bool arc_center_words(PlanePoint& center);
   ArcLimits limits_of_arc() const;
   bool refuse_arc(const ArcGeometry& arc, PlanePoint end);
+  void explain_off_circle(const ArcGeometry& arc, PlanePoint end, Diagnostic& d) const;
+  /// "X30 Y12.5" of a point of the arc's plane, as the program would write it.
+  std::string arc_point(PlanePoint point) const;
   void warn_arc(const ArcGeometry& arc);
   bool feed_ready();
   void set_feed(Move& move);

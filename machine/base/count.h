@@ -25,6 +25,12 @@ struct Count {
   }
 };
 
+/// How many there are, whatever the sign.
+template <class Tag>
+constexpr std::int64_t magnitude(Count<Tag> count) {
+  return count.value < 0 ? -count.value : count.value;
+}
+
 using Ticks = Count<struct TicksTag>;                ///< base-clock ticks since program start
 using ControlTicks = Count<struct ControlTicksTag>;  ///< control ticks (tau) since program start
 using Steps = Count<struct StepsTag>;                ///< motor steps, signed

@@ -43,6 +43,7 @@ struct SheetAxis {
   SheetValue home_u, max_u_s, acceleration_u_s2, jerk_u_s3, steps_per_u;
   double junction_u_s2 = 0;  ///< always a default: default_junction_u_s2()
 
+  bool turns() const { return kind == AxisKind::rotary; }
   std::string_view unit() const { return kind == AxisKind::rotary ? "deg" : "mm"; }
 };
 
@@ -60,6 +61,7 @@ struct DataSheet {
 /// @return mm/s2 or deg/s2 at kSheetPeriod_s
 double default_junction_u_s2(double acceleration_u_s2);
 inline constexpr double kSheetPeriod_s = 1e-3;  ///< control period of the written file
+inline constexpr double kSheetClock_hz = 10e6;  ///< its base clock
 
 /// @return the sheet, or a sentence that names the option, the value given and the values allowed
 tl::expected<DataSheet, std::string> read_data_sheet(const DataSheetWords& words);

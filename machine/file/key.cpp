@@ -37,6 +37,10 @@ std::string documented_name(std::string_view name) {
   return linear == rotary ? linear : fmt::format("{}, {}", linear, rotary);
 }
 
+std::string documented_bounds(const Bounds& bounds, std::string_view name) {
+  return bounds_text(bounds, name.find('{') == std::string_view::npos ? name : "");
+}
+
 std::string need_text(Need need) {
   switch (need) {
     case Need::never:

@@ -30,29 +30,6 @@ static_assert(motor_keys_declared(std::make_index_sequence<std::variant_size_v<M
 static_assert(sizeof(TwoMassModel) == (1 + std::tuple_size_v<decltype(kPlantKeys)>)*sizeof(double),
               "each number of TwoMassModel has its key");
 
-/// A table of plain keys, of single keys, and of whole tuples of keys, in the order given.
-class Documents {
- public:
-  Documents& table(std::string header, std::string sentence) {
-    tables_.push_back({std::move(header), std::move(sentence), {}});
-    return *this;
-  }
-  template <class OneKey>
-  Documents& one(const OneKey& key) {
-    tables_.back().keys.push_back(document(key));
-    return *this;
-  }
-  template <class... Keys>
-  Documents& all(const std::tuple<Keys...>& keys) {
-    document_keys(tables_.back(), keys);
-    return *this;
-  }
-  std::vector<TableDocument> take() { return std::move(tables_); }
-
- private:
-  std::vector<TableDocument> tables_;
-};
-
 }  // namespace
 
 std::vector<TableDocument> machine_keys() {

@@ -67,8 +67,8 @@ void write_key(TomlWriter& w, const Model& model, const Key<Model, Value>& key,
   // a motor's number that is not given holds 0: left out where 0 is not allowed
   if constexpr (std::is_same_v<Value, bool>)
     w.line(name, value ? "true" : "false");
-  else if (key.need != Need::motor || value >= key.bounds.low)
-    w.line(name, default_text(static_cast<double>(value), key.bounds.whole));
+  else if (key.need != Need::motor || as_number(value) >= key.bounds.low)
+    w.line(name, default_text(as_number(value), key.bounds.whole));
 }
 template <class Model, class Enum, std::size_t kCount>
 void write_key(TomlWriter& w, const Model& model, const WordKey<Model, Enum, kCount>& key,

@@ -89,6 +89,8 @@ class InteriorPoint {
   void factor();
   void direction(double centre, bool corrected);
   double step_length() const;
+  void advance(double product);
+  double row_count() const { return static_cast<double>(std::max<std::size_t>(p_.rows.size(), 1)); }
 
   const BandProgram& p_;
   std::size_t n_;
@@ -184,15 +186,39 @@ double InteriorPoint::step_length() const {
   return length;
 }
 
+/// One step of predictor and corrector.
+/// @param product  sum of slack * multiplier
+void InteriorPoint::advance(double product) {
+  const std::size_t rows = p_.rows.size();
+  factor();
+  const double mean = product / row_count();
+  direction(0.0, false);
+  const double foreseen = step_length();
+  double left = 0;
+  for (std::size_t k = 0; k < rows; ++k)
+    left += (slack_[k] + foreseen * slack_step_[k]) * (multiplier_[k] + foreseen * multiplier_step_[k]);
+  const double ratio = left / product;
+  // a predictor that comes nowhere says nothing about the second order
+  if (foreseen < kShort)
+    direction(kRecentre * mean, false);
+  else
+    direction(ratio * ratio * ratio * mean, true);
+  const double length = step_length();
+  for (std::size_t i = 1; i + 1 < n_; ++i) x_[i] += length * step_[i];
+  for (std::size_t k = 0; k < rows; ++k) {
+    slack_[k] += length * slack_step_[k];
+    multiplier_[k] += length * multiplier_step_[k];
+  }
+}
+
 BandOptimum InteriorPoint::run(const BandOptions& options) {
   const std::size_t rows = p_.rows.size();
-  const double all = static_cast<double>(std::max<std::size_t>(rows, 1));
   BandOptimum out;
   out.bound_s = 0;
   double cost = cost_and_derivatives();
   for (std::size_t k = 0; k < rows; ++k) {
     slack_[k] = std::max(p_.rows[k].bound - row(k, x_), kLeastSlack);
-    multiplier_[k] = cost / all / slack_[k];
+    multiplier_[k] = cost / row_count() / slack_[k];
   }
   double least_gap = machine::kInfinity;
   std::uint32_t still = 0;  // steps without progress
@@ -214,25 +240,7 @@ BandOptimum InteriorPoint::run(const BandOptions& options) {
     const bool rounded = still >= kStill && gap <= kRoundedGap * cost;
     out.converged = worst <= options.broken && (gap <= options.relative_gap * cost || rounded);
     if (out.converged || out.steps == options.most_steps) break;
-    factor();
-    const double mean = product / all;
-    direction(0.0, false);
-    const double foreseen = step_length();
-    double left = 0;
-    for (std::size_t k = 0; k < rows; ++k)
-      left += (slack_[k] + foreseen * slack_step_[k]) * (multiplier_[k] + foreseen * multiplier_step_[k]);
-    const double ratio = left / product;
-    // a predictor that comes nowhere says nothing about the second order
-    if (foreseen < kShort)
-      direction(kRecentre * mean, false);
-    else
-      direction(ratio * ratio * ratio * mean, true);
-    const double length = step_length();
-    for (std::size_t i = 1; i + 1 < n_; ++i) x_[i] += length * step_[i];
-    for (std::size_t k = 0; k < rows; ++k) {
-      slack_[k] += length * slack_step_[k];
-      multiplier_[k] += length * multiplier_step_[k];
-    }
+    advance(product);
     cost = cost_and_derivatives();
   }
   out.cost_s = cost;

@@ -76,66 +76,103 @@ class Projection {
   Range y_;
 };
 
+/// One pass backward, one pass forward over squared speeds, in units of the highest.
+class Reachability {
+ public:
+  explicit Reachability(const LawProblem& p)
+      : p_(p),
+        caps_(node_caps(p)),
+        rows_(accel_rows(p)),
+        strips_{std::vector<double>(rows_.per_interval), std::vector<double>(rows_.per_interval)} {
+    double fastest = 0;
+    for (const NodeCap& c : caps_) fastest = std::max(fastest, c.speed_u_s);
+    unit_ = fastest * fastest;
+  }
+
+  /// @return [nodes] the squared speeds from which the end can be reached
+  tl::expected<std::vector<Range>, LawFailure> backward() {
+    const std::size_t n = p_.nodes();
+    std::vector<Range> reach(n);
+    reach[n - 1] = {squared(p_.end_u_s), squared(p_.end_u_s)};
+    for (std::size_t i = n - 1; i > 0; --i) {
+      fill(i);
+      const Projection projection(strips_, squared(caps_[i - 1].speed_u_s), reach[i]);
+      double low, high;
+      if (!projection.extreme(true, high) || !projection.extreme(false, low))
+        return tl::unexpected(
+            LawFailure{i - 1, p_.s_u[i - 1],
+                       fmt::format("at no speed up to {:.6g} mm/s can the path after it be followed",
+                                   caps_[i - 1].speed_u_s)});
+      reach[i - 1] = {std::max(low, 0.0), std::min(high, squared(caps_[i - 1].speed_u_s))};
+    }
+    return reach;
+  }
+
+  /// @return [nodes] the highest speeds within reach
+  tl::expected<std::vector<double>, LawFailure> forward(const std::vector<Range>& reach) {
+    double x = squared(p_.begin_u_s);
+    if (x < reach[0].low - kInside || x > reach[0].high + kInside)
+      return tl::unexpected(LawFailure{
+          0, p_.s_u[0],
+          fmt::format(
+              "the speed must be {:.6g} mm/s, but the path can only be followed at {:.6g} to {:.6g} mm/s",
+              p_.begin_u_s, std::sqrt(reach[0].low * unit_), std::sqrt(reach[0].high * unit_))});
+    std::vector<double> speed(reach.size());
+    speed.front() = p_.begin_u_s;
+    for (std::size_t i = 1; i < speed.size(); ++i) {
+      fill(i);
+      const Range next = within(x, reach[i]);
+      if (next.high < next.low - kMeets * (1.0 + next.low))
+        return tl::unexpected(LawFailure{
+            i, p_.s_u[i],
+            fmt::format("at least {:.6g} mm/s is needed, but only {:.6g} mm/s can be reached",
+                        std::sqrt(next.low * unit_), std::sqrt(std::max(next.high, 0.0) * unit_))});
+      x = std::max(next.high, 0.0);
+      speed[i] = std::sqrt(x * unit_);
+    }
+    speed.back() = p_.end_u_s;
+    return speed;
+  }
+
+ private:
+  double squared(double v) const { return v * v / unit_; }
+
+  /// The strips of the interval that ends at a node.
+  void fill(std::size_t i) {
+    for (std::size_t r = 0; r < rows_.per_interval; ++r) {
+      strips_.a[r] = rows_.before[i * rows_.per_interval + r] * unit_;
+      strips_.b[r] = rows_.after[i * rows_.per_interval + r] * unit_;
+    }
+  }
+
+  /// The part of a range that the strips allow after x.
+  Range within(double x, Range range) const {
+    for (std::size_t r = 0; r < rows_.per_interval; ++r) {
+      const double b = strips_.b[r];
+      if (std::fabs(b) < kParallel) continue;
+      const double one = (1.0 - strips_.a[r] * x) / b, other = (-1.0 - strips_.a[r] * x) / b;
+      range.high = std::min(range.high, std::max(one, other));
+      range.low = std::max(range.low, std::min(one, other));
+    }
+    return range;
+  }
+
+  const LawProblem& p_;
+  std::vector<NodeCap> caps_;
+  AccelRows rows_;
+  Strips strips_;
+  double unit_ = 0;  // highest squared speed
+};
+
 }  // namespace
 
 LawResult GreedyOptimum::solve(const LawProblem& p) {
-  const std::size_t n = p.nodes();
-  const std::vector<NodeCap> caps = node_caps(p);
-  const AccelRows rows = accel_rows(p);
-  double fastest = 0;
-  for (const NodeCap& c : caps) fastest = std::max(fastest, c.speed_u_s);
-  const double unit = fastest * fastest;
-  const auto squared = [&](double v) { return v * v / unit; };
-  Strips strips{std::vector<double>(rows.per_interval), std::vector<double>(rows.per_interval)};
-  const auto fill = [&](std::size_t i) {
-    for (std::size_t r = 0; r < rows.per_interval; ++r) {
-      strips.a[r] = rows.before[i * rows.per_interval + r] * unit;
-      strips.b[r] = rows.after[i * rows.per_interval + r] * unit;
-    }
-  };
-
-  std::vector<Range> reach(n);  // squared speeds from which the end can be reached
-  reach[n - 1] = {squared(p.end_u_s), squared(p.end_u_s)};
-  for (std::size_t i = n - 1; i > 0; --i) {
-    fill(i);
-    const Projection projection(strips, squared(caps[i - 1].speed_u_s), reach[i]);
-    double low, high;
-    if (!projection.extreme(true, high) || !projection.extreme(false, low))
-      return tl::unexpected(
-          LawFailure{i - 1, p.s_u[i - 1],
-                     fmt::format("at no speed up to {:.6g} mm/s can the path after it be followed",
-                                 caps[i - 1].speed_u_s)});
-    reach[i - 1] = {std::max(low, 0.0), std::min(high, squared(caps[i - 1].speed_u_s))};
-  }
-  double x = squared(p.begin_u_s);
-  if (x < reach[0].low - kInside || x > reach[0].high + kInside)
-    return tl::unexpected(LawFailure{
-        0, p.s_u[0],
-        fmt::format(
-            "the speed must be {:.6g} mm/s, but the path can only be followed at {:.6g} to {:.6g} mm/s",
-            p.begin_u_s, std::sqrt(reach[0].low * unit), std::sqrt(reach[0].high * unit))});
-  std::vector<double> speed(n);
-  speed[0] = p.begin_u_s;
-  for (std::size_t i = 1; i < n; ++i) {
-    fill(i);
-    double low = reach[i].low, high = reach[i].high;
-    for (std::size_t r = 0; r < rows.per_interval; ++r) {
-      const double b = strips.b[r];
-      if (std::fabs(b) < kParallel) continue;
-      const double one = (1.0 - strips.a[r] * x) / b, other = (-1.0 - strips.a[r] * x) / b;
-      high = std::min(high, std::max(one, other));
-      low = std::max(low, std::min(one, other));
-    }
-    if (high < low - kMeets * (1.0 + low))
-      return tl::unexpected(
-          LawFailure{i, p.s_u[i],
-                     fmt::format("at least {:.6g} mm/s is needed, but only {:.6g} mm/s can be reached",
-                                 std::sqrt(low * unit), std::sqrt(std::max(high, 0.0) * unit))});
-    x = std::max(high, 0.0);
-    speed[i] = std::sqrt(x * unit);
-  }
-  speed[n - 1] = p.end_u_s;
-  LawSolution out = summed(p, std::move(speed));
+  Reachability reachability(p);
+  const auto reach = reachability.backward();
+  if (!reach) return tl::unexpected(reach.error());
+  auto speed = reachability.forward(*reach);
+  if (!speed) return tl::unexpected(std::move(speed.error()));
+  LawSolution out = summed(p, std::move(*speed));
   out.iterations = 1;
   return out;
 }

@@ -107,7 +107,7 @@ void write_log(benchmark::State& state) {
   for (auto _ : state) {
     auto log = open_lcm_log({path, ""});
     bool good = log.has_value() && (*log)->begin(header).has_value();
-    std::vector<std::int64_t> position(3);
+    std::vector<Steps> position(3);
     TickMotion motion;
     TickRecord record;
     record.motion = &motion;
@@ -115,7 +115,7 @@ void write_log(benchmark::State& state) {
     record.axis = state.range(1) ? &states : nullptr;
     for (const StepBatch& batch : batches) {
       record.tick = motion.tick = batch.tick;
-      for (std::size_t a = 0; a < 3; ++a) position[a] += batch.axis[a].net_steps().value;
+      for (std::size_t a = 0; a < 3; ++a) position[a] += batch.axis[a].net_steps();
       good = good && (*log)->tick(record, batch).has_value();
     }
     RunSummary summary;

@@ -13,7 +13,7 @@ class RecordingLog final : public log::RunLog {
   struct Tick {
     log::TickRecord record;
     TickMotion motion;
-    std::vector<std::int64_t> steps;
+    std::vector<Steps> steps;
     std::vector<AxisState> axis;
     StepBatch batch;
   };

@@ -19,7 +19,8 @@ CommandedMotion::CommandedMotion(const planner::Path& path, const machine::Machi
 
 void CommandedMotion::tick(const TickView& view) {
   // the speeds at the ends of this tick belong to different segments: a corner may lie between them
-  ticks_since_joint_ = view.segment != segment_ ? 0 : std::min(ticks_since_joint_ + 1, kLongAgo);
+  since_joint_ =
+      view.segment != segment_ ? ControlTicks{0} : std::min(since_joint_ + ControlTicks{1}, kLongAgo);
   segment_ = view.segment;
   const double feed_u_s = view.motion.speed_end_u_s;
   if (path_.size() > 0 && feed_u_s > 0)

@@ -34,9 +34,9 @@ class CommandedMotion {
   std::size_t size() const { return axes_.size(); }
   const std::vector<double>& tangent() const { return tangent_; }  ///< [axes] dx/ds; 0 at rest
   /// The acceleration of this tick spans a joint between segments: a corner's step of speed is part of it.
-  bool accel_spans_joint() const { return ticks_since_joint_ == 0; }
+  bool accel_spans_joint() const { return since_joint_ == ControlTicks{0}; }
   /// The jerk of this tick spans one.
-  bool jerk_spans_joint() const { return ticks_since_joint_ <= 1; }
+  bool jerk_spans_joint() const { return since_joint_ <= ControlTicks{1}; }
 
  private:
   const planner::Path& path_;
@@ -45,8 +45,8 @@ class CommandedMotion {
   std::vector<CommandedAxis> axes_;
   std::vector<double> tangent_;
   std::size_t segment_ = 0;
-  static constexpr int kLongAgo = 2;  // a joint further back is in no difference
-  int ticks_since_joint_ = kLongAgo;
+  static constexpr ControlTicks kLongAgo{2};  // a joint further back is in no difference
+  ControlTicks since_joint_ = kLongAgo;
 };
 
 }  // namespace kadr::cycle

@@ -11,7 +11,9 @@ inline constexpr int kMostAxes = 9;
 /// Products that 64 bits don't hold.
 __extension__ typedef __int128 Wide;
 
-using Point = std::array<std::int64_t, kMostAxes>;  ///< a lattice node by axis; axes beyond the curve's are 0
+/// A lattice node by axis; axes beyond the curve's are 0. Bare integers: here and in the methods coordinates are
+/// multiplied and summed with each other, which no count of steps is.
+using Point = std::array<std::int64_t, kMostAxes>;
 
 /// A node of a plane curve.
 struct PlaneNode {

@@ -27,7 +27,7 @@ LogHeader log_header(const RunHeader& run) {
   h.machine_name = machine.name;
   h.logs_ticks = machine.log.ticks;
   h.logs_steps = machine.log.steps;
-  h.block_ticks = machine.log.block_ticks;
+  h.block_ticks = static_cast<std::int32_t>(machine.log.block_ticks.value);
   h.viewer_every_ticks = viewer_every_ticks(machine);
   for (const machine::AxisModel& axis : machine.axis)
     h.axis.push_back({std::string(1, axis.letter), axis.kind == machine::AxisKind::rotary ? "deg" : "mm",

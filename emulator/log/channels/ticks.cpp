@@ -28,7 +28,7 @@ void append_tick(TickBlock& b, const TickSource& tick) {
   b.has_plant = record.axis != nullptr;
   for (std::size_t a = 0; a < b.axis.size(); ++a) {
     AxisTicks& axis = b.axis[a];
-    axis.steps.push_back(tick.node[a]);
+    axis.steps.push_back(tick.node[a].value);
     axis.command_u.push_back(tick.batch.axis[a].command.position_end_u);
     if (!b.has_plant) continue;
     const AxisState& state = (*record.axis)[a];

@@ -16,7 +16,7 @@ struct AxisTicks {
   std::vector<double> base_u, base_u_s, link_u, link_u_s, motor_force_N;  ///< [ticks] x0, v0, x1, v1, force
 };
 
-/// KADR_TICKS; element i is the end of control tick first + i. Its signals have names of their own (signal_table.cpp).
+/// KADR_TICKS; element i is the end of control tick first + i.
 struct TickBlock {
   Ticks begin;
   ControlTicks first;
@@ -53,7 +53,7 @@ constexpr Field<TickBlock> steps_base() {
     b.axis.resize(static_cast<std::size_t>(axes));
     for (AxisTicks& axis : b.axis) axis.steps.assign(1, reading.in.i64());
   };
-  return f.by("n_axes");
+  return f.by("n_axes").not_shown();
 }
 
 constexpr Field<TickBlock> steps() {
@@ -75,7 +75,7 @@ constexpr Field<TickBlock> steps() {
       for (std::int64_t& node : axis.steps) node = base + reading.in.i32();
     }
   };
-  return f.by("n_axes", "n").not_shown();
+  return f.by("n_axes", "n").shown_as("steps");
 }
 
 }  // namespace field
@@ -94,6 +94,7 @@ struct Channel<R> {
   static constexpr std::size_t first_fields = 24;
   using Unit = FieldUnit;
   using Key = ToleranceKey;
+  static constexpr double kPercent = 100, kThousandths = 1000;
   static constexpr std::array fields{
       field::i64<&R::begin>("tick", "beginning of the first control tick").not_compared(),
       field::i64<&R::first>("first_control_tick", "").not_compared(),
@@ -104,26 +105,33 @@ struct Channel<R> {
       field::count<R, field::length<&R::override_requested>>(
           "n_override", CountRule::all_ticks,
           "n, or 0 in a run whose timeline has no operator and no spindle"),
-      field::real<&R::feed_u_s>("feed_u_s", Unit::path_speed, "feed").by("n").not_shown(),
-      field::real<&R::accel_u_s2>("accel_u_s2", Unit::path_accel, "along the path").by("n").not_shown(),
-      field::real<&R::path_u>("path_u", Unit::path, "along the whole program").by("n").not_shown(),
+      field::real<&R::feed_u_s>("feed_u_s", Unit::path_speed, "feed").by("n").shown_as("feed.commanded"),
+      field::real<&R::accel_u_s2>("accel_u_s2", Unit::path_accel, "along the path")
+          .by("n")
+          .shown_as("feed.acceleration"),
+      field::real<&R::path_u>("path_u", Unit::path, "along the whole program")
+          .by("n")
+          .shown_as("path.length"),
       field::real<&R::override_used>("override_used", Unit::none, "ratio in force, 1 is 100 %")
           .by("n")
-          .not_shown(),
+          .shown_as("feed.override_used", Unit::percent, kPercent),
       field::i8<&R::limited_by>(
           "limited_by",
           "0 program 1 rapid 2 path_feed 3 axis_speed 4 centripetal 5 junction 6 length 7 "
           "stop 8 override 9 hold 10 limiter")
           .by("n")
           .coded(field::limit_word)
-          .not_shown(),
+          .shown_as("feed.limited_by")
+          .in_words(strings_of<kLimitedBy>),
       field::i8<&R::limiting_axis>("limiting_axis", "index in run_t.axis_names, or -1").by("n").not_shown(),
-      field::i32<&R::block>("block", "running number of the block at the tick's end").by("n").not_shown(),
+      field::i32<&R::block>("block", "running number of the block at the tick's end")
+          .by("n")
+          .shown_as("feed.block"),
       field::steps_base(),
       field::steps(),
       field::real<&R::axis, &AxisTicks::command_u>("command_u", Unit::axis, "before the lattice")
           .by("n_axes", "n")
-          .not_shown(),
+          .shown_as("command"),
       field::real<&R::axis, &AxisTicks::base_u>("base_u", Unit::axis, "x0, motor and carriage")
           .by("n_plant_axes", "n")
           .within(Key::base)
@@ -136,7 +144,7 @@ struct Channel<R> {
                                                 "x1, flexible part relative to the base; tool = base + link")
           .by("n_plant_axes", "n")
           .within(Key::link)
-          .not_shown(),
+          .shown_as("vibration", Unit::axis_thousandth, kThousandths),
       field::real<&R::axis, &AxisTicks::link_u_s>("link_u_s", Unit::axis_speed, "v1")
           .by("n_plant_axes", "n")
           .within(Key::link_rate)
@@ -144,19 +152,23 @@ struct Channel<R> {
       field::real<&R::axis, &AxisTicks::motor_force_N>("motor_force", Unit::force, "of the motor")
           .by("n_plant_axes", "n")
           .within(Key::force)
-          .not_shown(),
+          .shown_as("motor_force"),
       field::real<&R::override_requested>(
           "override_requested", Unit::none,
           "ratio, 1 is 100 %; operator and spindle together, 0 in a feed hold")
           .by("n_override")
-          .not_shown(),
+          .shown_as("feed.override_requested", Unit::percent, kPercent)
+          .shown_behind("feed.override_used"),
       field::real<&R::limiter>("limiter", Unit::none, "K_max of the axis limiter, 1 where it does nothing")
           .by("n_override")
-          .not_shown(),
+          .shown_as("feed.limiter", Unit::percent, kPercent)
+          .shown_behind("feed.override_used"),
       field::i8<&R::override_note>(
           "override_note", "why requested is not used: 0 it is 1 deferred: braking 2 locked 3 axis limiter")
           .by("n_override")
-          .not_shown(),
+          .shown_as("feed.override_note")
+          .shown_behind("feed.override_used")
+          .in_words(strings_of<kOverrideNotes>),
   };
 };
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <utility>
 #include <vector>
 
 #include "emulator/text/units.h"
@@ -14,34 +13,16 @@
 namespace kadr::log_tools {
 namespace {
 
-/// Calls f.template operator()<index>(field) for each field of a channel's table.
-template <class R, class F>
-void each_field(F&& f) {
-  const auto call = [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
-    (f.template operator()<kIndex>(log::Channel<R>::fields[kIndex]), ...);
-  };
-  call(std::make_index_sequence<log::Channel<R>::fields.size()>());
-}
-
 template <class Record>
 LogField<Record> log_field(const log::FieldInfo& field, log::FieldValue (*get)(const Record&)) {
   return {std::string(field.name), field.unit, get, field.key, field.word};
-}
-
-/// "load.torque_Nm" of KADR_LOAD's torque_Nm
-std::string signal_name(std::string_view channel, const log::FieldInfo& field) {
-  constexpr std::string_view kPrefix = "KADR_";
-  std::string name;
-  for (const char c : channel.substr(channel.starts_with(kPrefix) ? kPrefix.size() : 0))
-    name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return fmt::format("{}.{}", name, field.name);
 }
 
 /// The values of a record; arrays are left out.
 template <class R>
 std::vector<LogField<R>> scalar_fields() {
   std::vector<LogField<R>> list;
-  each_field<R>([&]<std::size_t kIndex>(const log::Field<R>& field) {
+  log::for_each_field<R>([&]<std::size_t kIndex>(const log::Field<R>& field) {
     if (!field.compared || field.dimensions() != 0) return;
     list.push_back(
         log_field<R>(field, [](const R& r) { return log::Channel<R>::fields[kIndex].value(r, 0, 0); }));
@@ -55,7 +36,7 @@ std::vector<LogField<At>> column_fields() {
   constexpr bool kOfAxis = std::is_same_v<At, AxisAt>;
   std::vector<LogField<At>> list;
   log::for_each_channel(log::TickChannels{}, [&]<class R>() {
-    each_field<R>([&]<std::size_t kIndex>(const log::Field<R>& field) {
+    log::for_each_field<R>([&]<std::size_t kIndex>(const log::Field<R>& field) {
       if (!field.compared || field.dimensions() != (kOfAxis ? 2 : 1)) return;
       const auto get = [](const At& at) -> log::FieldValue {
         const R* block = at.exact.template of<R>();
@@ -68,7 +49,6 @@ std::vector<LogField<At>> column_fields() {
       constexpr std::string_view kChannel = log::Channel<R>::info.name;
       LogField<At> column = log_field<At>(field, get);
       if (!std::is_same_v<R, log::TickBlock>) column.name = fmt::format("{}/{}", kChannel, field.name);
-      if (field.shown) column.signal = signal_name(kChannel, field);
       list.push_back(std::move(column));
     });
   });
@@ -77,7 +57,7 @@ std::vector<LogField<At>> column_fields() {
 
 std::vector<LogField<AxisSummaryAt>> axis_values_of_summary() {
   std::vector<LogField<AxisSummaryAt>> list;
-  each_field<log::LogSummary>([&]<std::size_t kIndex>(const log::Field<log::LogSummary>& field) {
+  log::for_each_field<log::LogSummary>([&]<std::size_t kIndex>(const log::Field<log::LogSummary>& field) {
     if (!field.compared || field.dimensions() != 1) return;
     list.push_back(log_field<AxisSummaryAt>(field, [](const AxisSummaryAt& at) {
       return log::Channel<log::LogSummary>::fields[kIndex].value(at.summary, at.axis, 0);

@@ -35,7 +35,6 @@ struct LogField {
   log::FieldValue (*get)(const Record&) = nullptr;
   log::ToleranceKey key = log::ToleranceKey::none;          ///< of a plant state
   std::string_view (*word)(std::int64_t number) = nullptr;  ///< name of a coded number
-  std::string signal{};  ///< of exact data that is a signal as it stands: "load.torque_Nm"; else empty
 };
 
 /// One control tick of exact data, one axis of it, and one axis of the summary.

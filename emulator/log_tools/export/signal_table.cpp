@@ -25,48 +25,109 @@ std::string suffix(const std::string& unit) {
   return out;
 }
 
+/// Unit of a signal, as its name and its column have it.
+std::string signal_unit(log::FieldUnit unit, const std::string& of_path, const std::string& of_axis) {
+  if (unit == log::FieldUnit::path_speed) return of_path + "/s";
+  if (unit == log::FieldUnit::path_accel) return of_path + "/s2";
+  if (unit == log::FieldUnit::path_jerk) return of_path + "/s3";
+  return unit_text(unit, of_path, of_axis);
+}
+
+/// Signals in the order of exports: columns as they come, what is made of them behind them.
 class Table {
  public:
-  std::vector<SignalSource> sources;
+  /// @param name    "feed.commanded"; the unit is added
+  /// @param behind  the column that it belongs to; empty: it is one
+  void real(const std::string& name, const std::string& unit, std::string_view behind,
+            std::function<double(const TickContext&)> value) {
+    insert({{name + suffix(unit), unit, false, {}}, std::move(value)}, behind.empty() ? name : behind);
+  }
+  void whole(const std::string& name, std::string_view behind,
+             std::function<double(const TickContext&)> value) {
+    insert({{name, "", true, {}}, std::move(value)}, behind.empty() ? name : behind);
+  }
+  void code(const std::string& name, std::vector<std::string> words, std::string_view behind,
+            std::function<double(const TickContext&)> value) {
+    insert({{name, "", true, std::move(words)}, std::move(value)}, behind.empty() ? name : behind);
+  }
+  void append_to(std::vector<SignalSource>& list) {
+    for (Entry& entry : entries_) list.push_back(std::move(entry.source));
+  }
 
-  void real(const std::string& name, const std::string& unit,
-            std::function<double(const TickContext&)> value) {
-    sources.push_back({{name + suffix(unit), unit, false, {}}, std::move(value)});
+ private:
+  struct Entry {
+    SignalSource source;
+    std::string column;
+  };
+  void insert(SignalSource source, std::string_view column) {
+    const auto last = std::find_if(entries_.rbegin(), entries_.rend(),
+                                   [&](const Entry& entry) { return entry.column == column; });
+    entries_.insert(last == entries_.rend() ? entries_.end() : last.base(),
+                    {std::move(source), std::string(column)});
   }
-  void whole(const std::string& name, std::function<double(const TickContext&)> value) {
-    sources.push_back({{name, "", true, {}}, std::move(value)});
-  }
-  void code(const std::string& name, std::vector<std::string> words,
-            std::function<double(const TickContext&)> value) {
-    sources.push_back({{name, "", true, std::move(words)}, std::move(value)});
-  }
+
+  std::vector<Entry> entries_;
 };
 
-void add_feed(Table& table, const std::string& unit, bool has_override) {
-  table.real("feed.commanded", unit + "/s", [](const TickContext& c) { return c.ticks().feed_u_s[c.at()]; });
-  table.real("feed.programmed", unit + "/s", [](const TickContext& c) {
+/// A value of a column at a control tick; none in control ticks whose log does not have it.
+template <class R, std::size_t kIndex>
+double column_value(const ExactTicks& exact, std::size_t row, std::size_t column) {
+  static constexpr const log::Field<R>& kField = log::Channel<R>::fields[kIndex];
+  const R* block = exact.of<R>();
+  if (block == nullptr || !kField.has(*block, row, column)) return kNone;
+  return kField.signal.factor * kField.number(*block, row, column);
+}
+
+/// Whether a column is a signal of this log.
+template <class R>
+bool is_signal(const log::Field<R>& field, std::size_t dimensions, const ExactTicks& exact, std::size_t row,
+               std::size_t column) {
+  if (!field.signal.shown || field.number == nullptr || field.dimensions() != dimensions) return false;
+  const R* block = exact.of<R>();
+  return block != nullptr && field.has(*block, row, column);
+}
+
+/// Of a plant's column: an axis without plant has none, whatever the log holds for it.
+bool is_of_plant(const log::FieldInfo& field) {
+  const auto count =
+      std::find_if(log::Channel<log::TickBlock>::fields.begin(), log::Channel<log::TickBlock>::fields.end(),
+                   [&](const log::FieldInfo& each) { return each.name == field.extent[0]; });
+  return count != log::Channel<log::TickBlock>::fields.end() && count->count == log::CountRule::plant_axes;
+}
+
+bool is_whole(const log::FieldInfo& field) { return field.wire != log::Wire::real; }
+
+/// One column of KADR_TICKS under the name that its field gives it.
+void add_column(Table& table, const log::FieldInfo& field, const std::string& before_name,
+                const std::string& unit, std::function<double(const TickContext&)> value) {
+  const std::string name = before_name + std::string(field.signal.name);
+  const std::string behind =
+      field.signal.behind.empty() ? "" : before_name + std::string(field.signal.behind);
+  if (field.signal.words != nullptr)
+    table.code(name, field.signal.words(), behind, std::move(value));
+  else if (is_whole(field))
+    table.whole(name, behind, std::move(value));
+  else
+    table.real(name, unit, behind, std::move(value));
+}
+
+void add_feed(Table& table, const log::LogHeader& header, const LogFrame& first) {
+  const std::string unit = path_unit(header);
+  log::for_each_field<log::TickBlock>([&]<std::size_t kIndex>(const log::Field<log::TickBlock>& field) {
+    if (field.signal.name.empty() || !is_signal(field, 1, *first.ticks, first.tick_index, 0)) return;
+    add_column(table, field, "", signal_unit(field.signal.unit, unit, ""), [](const TickContext& c) {
+      return column_value<log::TickBlock, kIndex>(*c.frame->ticks, c.at(), 0);
+    });
+  });
+  table.real("feed.programmed", unit + "/s", "feed.commanded", [](const TickContext& c) {
     const log::BlockRecord* block = c.frame->block.get();
     return block != nullptr && block->programmed_u_s > 0 ? block->programmed_u_s : kNone;
   });
-  table.real("feed.acceleration", unit + "/s2",
-             [](const TickContext& c) { return c.ticks().accel_u_s2[c.at()]; });
-  table.real("feed.jerk", unit + "/s3", [](const TickContext& c) { return c.feed_jerk_u_s3; });
-  table.real("feed.override_used", "%",
-             [](const TickContext& c) { return 100 * c.ticks().override_used[c.at()]; });
-  if (has_override) {
-    table.real("feed.override_requested", "%",
-               [](const TickContext& c) { return 100 * c.ticks().override_requested[c.at()]; });
-    table.real("feed.limiter", "%", [](const TickContext& c) { return 100 * c.ticks().limiter[c.at()]; });
-    table.code("feed.override_note", kOverrideNotes.strings(),
-               [](const TickContext& c) { return double(c.ticks().override_note[c.at()]); });
-  }
-  table.code("feed.limited_by", kLimitedBy.strings(),
-             [](const TickContext& c) { return double(c.ticks().limited_by[c.at()]); });
-  table.whole("feed.block", [](const TickContext& c) { return double(c.ticks().block[c.at()]); });
-  table.whole("feed.line", [](const TickContext& c) {
+  table.real("feed.jerk", unit + "/s3", "feed.acceleration",
+             [](const TickContext& c) { return c.feed_jerk_u_s3; });
+  table.whole("feed.line", "feed.block", [](const TickContext& c) {
     return c.frame->block ? static_cast<double>(c.frame->block->span.line) : kNone;
   });
-  table.real("path.length", unit, [](const TickContext& c) { return c.ticks().path_u[c.at()]; });
 }
 
 /// Distance of the tool from the command over the axes X Y Z, across the motion of the control tick: what lies
@@ -78,7 +139,7 @@ void add_path_error(Table& table, const log::LogHeader& header) {
         (header.axis[a].name == "X" || header.axis[a].name == "Y" || header.axis[a].name == "Z"))
       axes.push_back(a);
   if (axes.empty()) return;
-  table.real("path.error", "um", [axes](const TickContext& c) {
+  table.real("path.error", "um", "path.length", [axes](const TickContext& c) {
     double sum = 0, along = 0, way = 0;
     for (const std::size_t a : axes) {
       const log::AxisTicks& axis = c.ticks().axis[a];
@@ -93,86 +154,105 @@ void add_path_error(Table& table, const log::LogHeader& header) {
   });
 }
 
-void add_axis(Table& table, const log::LogHeader& header, std::size_t a, bool plant, bool pulses) {
+/// What the positions of successive control ticks and the plant's states say together.
+void add_motion(Table& table, const log::LogHeader& header, std::size_t a) {
   const log::LogAxis& axis = header.axis[a];
-  const std::string name = "axis." + axis.name + ".", &unit = axis.unit;
-  const std::string small = unit == "deg" ? "mdeg" : "um";  // thousandths
-  table.whole(name + "steps",
-              [a](const TickContext& c) { return static_cast<double>(c.ticks().axis[a].steps[c.at()]); });
-  table.real(name + "command", unit, [a](const TickContext& c) { return c.axis[a].command_u; });
-  table.real(name + "speed", unit + "/s", [a](const TickContext& c) { return c.axis[a].speed_u_s; });
-  table.real(name + "acceleration", unit + "/s2", [a](const TickContext& c) { return c.axis[a].accel_u_s2; });
-  table.real(name + "jerk", unit + "/s3", [a](const TickContext& c) { return c.axis[a].jerk_u_s3; });
-  if (pulses)
-    table.real(name + "step_rate", "Hz", [a](const TickContext& c) {
-      const StepBatch* batch = c.frame->batch();
-      if (batch == nullptr || a >= batch->axis.size()) return kNone;
-      return static_cast<double>(batch->axis[a].count()) * static_cast<double>(c.header->base_hz) /
-             static_cast<double>(c.header->control_tick_ticks);
-    });
-  if (!plant || !axis.has_plant) return;
-  table.real(name + "load", unit, [a](const TickContext& c) {
+  const std::string name = "axis." + axis.name + ".", &unit = axis.unit, column = name + "command";
+  table.real(name + "speed", unit + "/s", column, [a](const TickContext& c) { return c.axis[a].speed_u_s; });
+  table.real(name + "acceleration", unit + "/s2", column,
+             [a](const TickContext& c) { return c.axis[a].accel_u_s2; });
+  table.real(name + "jerk", unit + "/s3", column, [a](const TickContext& c) { return c.axis[a].jerk_u_s3; });
+  if (!header.logs_steps) return;
+  table.real(name + "step_rate", "Hz", column, [a](const TickContext& c) {
+    const StepBatch* batch = c.frame->batch();
+    if (batch == nullptr || a >= batch->axis.size()) return kNone;
+    return static_cast<double>(batch->axis[a].count()) * static_cast<double>(c.header->base_hz) /
+           static_cast<double>(c.header->control_tick_ticks);
+  });
+}
+
+void add_load(Table& table, const log::LogAxis& axis, std::size_t a) {
+  const std::string name = "axis." + axis.name + ".", &unit = axis.unit, column = name + "command";
+  table.real(name + "load", unit, column, [a](const TickContext& c) {
     return c.ticks().axis[a].base_u[c.at()] + c.ticks().axis[a].link_u[c.at()];
   });
-  table.real(name + "load_rate", unit + "/s", [a](const TickContext& c) {
+  table.real(name + "load_rate", unit + "/s", column, [a](const TickContext& c) {
     return c.ticks().axis[a].base_u_s[c.at()] + c.ticks().axis[a].link_u_s[c.at()];
   });
-  table.real(name + "following", small, [a](const TickContext& c) {
-    const log::AxisTicks& x = c.ticks().axis[a];
-    return 1000 * (x.base_u[c.at()] + x.link_u[c.at()] - x.command_u[c.at()]);
+  table.real(name + "following", signal_unit(log::FieldUnit::axis_thousandth, "", unit), column,
+             [a](const TickContext& c) {
+               const log::AxisTicks& x = c.ticks().axis[a];
+               return 1000 * (x.base_u[c.at()] + x.link_u[c.at()] - x.command_u[c.at()]);
+             });
+}
+
+void add_axis(Table& table, const log::LogHeader& header, const LogFrame& first, std::size_t a) {
+  const log::LogAxis& axis = header.axis[a];
+  log::for_each_field<log::TickBlock>([&]<std::size_t kIndex>(const log::Field<log::TickBlock>& field) {
+    if (field.signal.name.empty() || !is_signal(field, 2, *first.ticks, a, first.tick_index)) return;
+    if (is_of_plant(field) && !axis.has_plant) return;
+    add_column(table, field, "axis." + axis.name + ".",
+               signal_unit(field.signal.unit, path_unit(header), axis.unit), [a](const TickContext& c) {
+                 return column_value<log::TickBlock, kIndex>(*c.frame->ticks, a, c.at());
+               });
   });
-  table.real(name + "vibration", small,
-             [a](const TickContext& c) { return 1000 * c.ticks().axis[a].link_u[c.at()]; });
-  table.real(name + "motor_force", unit == "deg" ? "N m" : "N",
-             [a](const TickContext& c) { return c.ticks().axis[a].motor_force_N[c.at()]; });
+  add_motion(table, header, a);
+  if (first.ticks->has_plant && axis.has_plant) add_load(table, axis, a);
 }
 
-/// A column of exact data as it stands in the log; no value in control ticks whose log does not have it.
-template <class At>
-std::function<double(const At&)> number_of(const LogField<At>& field) {
-  return [get = field.get](const At& at) {
-    const log::FieldValue value = get(at);
-    if (const auto* real = std::get_if<double>(&value)) return *real;
-    if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
-    return kNone;
-  };
+/// "load.torque_Nm" of KADR_LOAD's torque_Nm
+std::string own_name(std::string_view channel, const log::FieldInfo& field) {
+  constexpr std::string_view kPrefix = "KADR_";
+  std::string name;
+  for (const char c : channel.substr(channel.starts_with(kPrefix) ? kPrefix.size() : 0))
+    name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return fmt::format("{}.{}", name, field.name);
 }
 
-/// What has no signal above: the columns of other channels, and those appended to KADR_TICKS.
-void add_further(Table& table, const log::LogHeader& header, const LogFrame& first) {
-  const auto add = [&](std::string name, std::string unit, const log::FieldValue& sample,
-                       std::function<double(const TickContext&)> value) {
-    if (is_absent(sample)) return;
-    const bool whole = std::holds_alternative<std::int64_t>(sample);
-    table.sources.push_back({{std::move(name), std::move(unit), whole, {}, true}, std::move(value)});
+/// Columns without a name of their own: those of other channels, and those appended to KADR_TICKS.
+void add_further(std::vector<SignalSource>& list, const log::LogHeader& header, const LogFrame& first) {
+  const auto each = [&](std::size_t dimensions, std::size_t a) {
+    const bool of_axis = dimensions == 2;
+    const std::size_t row = of_axis ? a : first.tick_index, column = of_axis ? first.tick_index : 0;
+    log::for_each_channel(log::TickChannels{}, [&]<class R>() {
+      log::for_each_field<R>([&]<std::size_t kIndex>(const log::Field<R>& field) {
+        if (!field.signal.name.empty() || !is_signal(field, dimensions, *first.ticks, row, column)) return;
+        std::string name = own_name(log::Channel<R>::info.name, field);
+        if (of_axis) name = fmt::format("axis.{}.{}", header.axis[a].name, name);
+        list.push_back({{std::move(name),
+                         signal_unit(field.unit, path_unit(header), of_axis ? header.axis[a].unit : ""),
+                         is_whole(field),
+                         {},
+                         true},
+                        [of_axis, a](const TickContext& c) {
+                          return of_axis ? column_value<R, kIndex>(*c.frame->ticks, a, c.at())
+                                         : column_value<R, kIndex>(*c.frame->ticks, c.at(), 0);
+                        }});
+      });
+    });
   };
-  for (const auto& field : tick_fields())
-    if (!field.signal.empty())
-      add(field.signal, unit_text(field.unit, path_unit(header), ""),
-          field.get({*first.ticks, first.tick_index}), [number = number_of(field)](const TickContext& c) {
-            return number({*c.frame->ticks, c.at()});
-          });
-  for (std::size_t a = 0; a < header.axis.size(); ++a)
-    for (const auto& field : axis_fields())
-      if (!field.signal.empty())
-        add(fmt::format("axis.{}.{}", header.axis[a].name, field.signal),
-            unit_text(field.unit, path_unit(header), header.axis[a].unit),
-            field.get({*first.ticks, a, first.tick_index}),
-            [a, number = number_of(field)](const TickContext& c) {
-              return number({*c.frame->ticks, a, c.at()});
-            });
+  each(1, 0);
+  for (std::size_t a = 0; a < header.axis.size(); ++a) each(2, a);
 }
 
 }  // namespace
 
 std::vector<SignalSource> signal_table(const log::LogHeader& header, const LogFrame& first) {
-  Table table;
-  const bool plant = first.ticks->has_plant;
-  add_feed(table, path_unit(header), !first.ticks->override_requested.empty());
-  if (plant) add_path_error(table, header);
-  for (std::size_t a = 0; a < header.axis.size(); ++a) add_axis(table, header, a, plant, header.logs_steps);
-  add_further(table, header, first);
-  return std::move(table.sources);
+  Table path;
+  add_feed(path, header, first);
+  if (first.ticks->has_plant) add_path_error(path, header);
+  std::vector<SignalSource> list;
+  path.append_to(list);
+  // the feed comes before the way
+  std::stable_partition(list.begin(), list.end(),
+                        [](const SignalSource& each) { return each.signal.name.starts_with("feed."); });
+  for (std::size_t a = 0; a < header.axis.size(); ++a) {
+    Table axis;
+    add_axis(axis, header, first, a);
+    axis.append_to(list);
+  }
+  add_further(list, header, first);
+  return list;
 }
 
 void advance(TickContext& c, const LogFrame& frame, double tau_s) {

@@ -3,25 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
-#include "emulator/studies/time_law/problem_bounds.h"
+#include "emulator/studies/time_law/problem_keys.h"
 #include "emulator/studies/time_law/problem_machine.h"
 #include "machine/base/numbers.h"
 
 namespace kadr::studies {
 namespace {
 
-using machine::Bounds;
 using machine::Node;
+using machine::read_key;
 using machine::TableReader;
 
-constexpr Bounds kValue{-1e8, 1e8};
-constexpr Bounds kTurns{0, 1e5};
-constexpr Bounds kPhase{-1e3, 1e3};
 constexpr std::size_t kMostTerms = 64;  ///< waves, or steps, of an axis
 constexpr std::size_t kMostNameLength = 32;
-constexpr std::string_view kUnits[] = {"deg", "mm", "rad"};
 
 class AxisReader {
  public:
@@ -29,17 +26,17 @@ class AxisReader {
       : machine_(machine), out_(out), context_(context) {}
 
   void read(const Node& node, bool by_table) {
-    const machine::Entry* given = node.find("name");
+    const machine::Entry* given = node.find(kPathAxisName.name);
     const bool named = given && given->value.kind == Node::Kind::text;
     TableReader keys(&node, named ? "axis." + given->value.text : "axis", node.span, context_);
     const auto name = read_name(keys);
-    const std::string unit = read_limits(keys, name);
+    const PathUnit unit = read_limits(keys, name);
     if (by_table)
       refuse_formula(keys, unit);
     else
       read_formula(keys, unit);
     keys.finish();
-    out_.axes.push_back({name.value, unit});
+    out_.axes.push_back({name.value, std::string(kPathUnits.word(unit))});
     if (out_.axes.size() == kMostPathAxes + 1)
       tell(Code::problem_path, node.span,
            fmt::format("is axis {}, at most {} are allowed", out_.axes.size(), kMostPathAxes));
@@ -53,7 +50,7 @@ class AxisReader {
   }
 
   machine::Reading<std::string> read_name(TableReader& keys) {
-    auto name = keys.text("name");
+    auto name = keys.text(kPathAxisName.name);
     if (!name.valid) return {};
     const bool plain =
         !name.value.empty() && name.value.size() <= kMostNameLength && name.value != "s" &&
@@ -70,38 +67,37 @@ class AxisReader {
   }
 
   /// Speed and acceleration, of the machine if it is named and they are not given. @return the unit
-  std::string read_limits(TableReader& keys, const machine::Reading<std::string>& name) {
+  PathUnit read_limits(TableReader& keys, const machine::Reading<std::string>& name) {
     const machine::AxisModel* model = nullptr;
     if (machine_ && name.valid) model = find_problem_axis(*machine_, name, context_);
     const bool rotary = model && model->kind == machine::AxisKind::rotary;
-    std::optional<std::size_t> otherwise;
-    if (model) otherwise = rotary ? 0 : 1;
-    const auto chosen = keys.word("unit", kUnits, otherwise);
-    std::string unit(kUnits[chosen.value]);
-    if (model && rotary == (unit == "mm"))
+    AxisWords words{rotary ? PathUnit::deg : PathUnit::mm};
+    const auto chosen = read_key(keys, words, kPathAxisUnit, machine::AxisKind::linear, !model);
+    const PathUnit unit = chosen.value;
+    if (model && rotary == (unit == PathUnit::mm))
       tell(Code::problem_program, chosen.span,
-           fmt::format("is {}, axis {} of machine {} is {}", unit, model->letter, machine_->name,
-                       rotary ? "rotary" : "linear"));
-    const double per_unit = unit == "rad" ? kPi / 180 : 1;
-    const auto limit = [&](const std::string& key, const Bounds& bounds, double machine::AxisModel::*of) {
+           fmt::format("is {}, axis {} of machine {} is {}", kPathUnits.word(unit), model->letter,
+                       machine_->name, rotary ? "rotary" : "linear"));
+    const double per_unit = unit == PathUnit::rad ? kPi / 180 : 1;
+    const auto limit = [&](const machine::NumberKey& key, double machine::AxisModel::*of) {
       std::optional<double> given;
       if (model) given = model->*of * per_unit;
-      return keys.number(key, bounds, given).value;
+      return read_axis_key(keys, key, unit, given).value;
     };
-    out_.law.max_feed_u_s.push_back(
-        limit(fmt::format("max_{}_s", unit), kSpeed, &machine::AxisModel::max_feed_u_s));
-    out_.law.max_accel_u_s2.push_back(limit(fmt::format("max_acceleration_{}_s2", unit), kAcceleration,
-                                            &machine::AxisModel::max_accel_u_s2));
+    out_.law.max_feed_u_s.push_back(limit(kPathAxisSpeed, &machine::AxisModel::max_feed_u_s));
+    out_.law.max_accel_u_s2.push_back(limit(kPathAxisAcceleration, &machine::AxisModel::max_accel_u_s2));
     return unit;
   }
 
-  void refuse_formula(TableReader& keys, const std::string& unit) {
-    for (const std::string& key : {"offset_" + unit, "slope_" + unit}) {
-      if (!keys.has(key)) continue;
-      tell(Code::problem_path, keys.number(key, kValue).span, "the table already gives the axis's values",
-           "keep one of the table and the formula");
-    }
-    for (const char* key : {"waves", "steps"}) {
+  void refuse_formula(TableReader& keys, PathUnit unit) {
+    planner::FormulaAxis ignored;
+    const auto refuse = [&](const auto& key) {
+      if (!keys.has(in_unit(key.name, unit))) return;
+      tell(Code::problem_path, read_axis_key(keys, ignored, key, unit).span,
+           "the table already gives the axis's values", "keep one of the table and the formula");
+    };
+    std::apply([&](const auto&... key) { (refuse(key), ...); }, kFormulaKeys);
+    for (const std::string_view key : {kAxisWaves.name, kAxisSteps.name}) {
       if (!keys.has(key)) continue;
       const std::vector<Node>& terms = keys.tables(key);
       tell(Code::problem_path, terms.empty() ? keys.header() : terms.front().span,
@@ -109,32 +105,27 @@ class AxisReader {
     }
   }
 
-  void read_formula(TableReader& keys, const std::string& unit) {
+  void read_formula(TableReader& keys, PathUnit unit) {
     planner::FormulaAxis axis;
-    axis.offset = keys.number("offset_" + unit, kValue, 0.0).value;
-    axis.slope = keys.number("slope_" + unit, kValue, 0.0).value;
-    const auto each = [&](const char* key, auto&& read) {
-      const std::vector<Node>& terms = keys.tables(key);
-      if (terms.size() > kMostTerms)
-        tell(Code::problem_path, terms[kMostTerms].span,
-             fmt::format("{} {}, at most {} are allowed", terms.size(), key, kMostTerms));
-      for (const Node& term : terms) {
-        TableReader of_term(&term, keys.path_of(key), term.span, context_);
-        read(of_term);
-        of_term.finish();
-      }
-    };
-    each("waves", [&](TableReader& wave) {
-      const double amplitude = wave.number("amplitude_" + unit, kValue).value;
-      const double turns = wave.number("turns", kTurns).value;
-      axis.waves.push_back({amplitude, turns, wave.number("phase_rad", kPhase, 0.0).value});
-    });
-    each("steps", [&](TableReader& step) {
-      const double height = step.number("height_" + unit, kValue).value;
-      const double at = step.number("at_mm", kPlace).value;
-      axis.steps.push_back({height, at, step.number("width_mm", kLength).value});
-    });
+    read_axis_keys(keys, axis, kFormulaKeys, unit);
+    read_terms(keys, kAxisWaves.name, kWaveKeys, unit, axis.waves);
+    read_terms(keys, kAxisSteps.name, kStepKeys, unit, axis.steps);
     out_.formulas.push_back(std::move(axis));
+  }
+
+  /// The tables of one kind of term.
+  template <class Term, class Keys>
+  void read_terms(TableReader& keys, std::string_view name, const Keys& of_term, PathUnit unit,
+                  std::vector<Term>& out) {
+    const std::vector<Node>& terms = keys.tables(name);
+    if (terms.size() > kMostTerms)
+      tell(Code::problem_path, terms[kMostTerms].span,
+           fmt::format("{} {}, at most {} are allowed", terms.size(), name, kMostTerms));
+    for (const Node& term : terms) {
+      TableReader table(&term, keys.path_of(name), term.span, context_);
+      read_axis_keys(table, out.emplace_back(), of_term, unit);
+      table.finish();
+    }
   }
 
   machine::MachineModel* machine_;

@@ -5,7 +5,7 @@
 
 #include "emulator/studies/time_law/path_table.h"
 #include "emulator/studies/time_law/problem_axis.h"
-#include "emulator/studies/time_law/problem_bounds.h"
+#include "emulator/studies/time_law/problem_keys.h"
 #include "emulator/studies/time_law/problem_machine.h"
 #include "emulator/studies/time_law/program_problem.h"
 #include "machine/file/table_reader.h"
@@ -14,16 +14,13 @@ namespace kadr::studies {
 namespace {
 
 namespace fs = std::filesystem;
-using machine::Bounds;
 using machine::kInfinity;
 using machine::Node;
+using machine::read_key;
+using machine::read_number;
 using machine::Reading;
 using machine::TableReader;
 
-constexpr Bounds kEndSpeed{0, 1e9};
-constexpr Bounds kPathAcceleration{1e-6, 1e12, true};
-constexpr Bounds kJerk{1e-6, 1e15};
-constexpr Bounds kNodes{3, kMostNodes, false, true};
 constexpr double kMostDerivatives = 2e7;  ///< nodes times axes
 
 class ProblemReader {
@@ -33,11 +30,11 @@ class ProblemReader {
 
   void read(const Node& root) {
     TableReader table(&root, "", Span{file_, 1, 1, 1}, context_);
-    const auto format = table.number("format", {1, 1e6, false, true});
+    const auto format = read_number(table, kProblemFormat);
     if (format.valid && format.value != 1)
       tell(Code::file_format, format.span,
            fmt::format("is edition {:.0f}, this kadr reads edition 1", format.value));
-    out_.name = table.text("name", fs::path(sources_[file_].name()).stem().string()).value;
+    out_.name = table.text(kProblemName.name, fs::path(sources_[file_].name()).stem().string()).value;
     read_path(table.table("path"), Span{file_, 1, 1, 1});
     for (const Node& axis : table.tables("axis")) read_axis(axis);
     for (const Node& zone : table.tables("zone")) read_zone(zone);
@@ -46,7 +43,7 @@ class ProblemReader {
     read_classical(table.table("classical"));
     if (const Node* jerk = table.table("jerk")) {
       TableReader keys(jerk, "jerk", jerk->span, context_);
-      out_.jerk_mm_s3 = keys.number("max_mm_s3", kJerk).value;
+      out_.jerk_mm_s3 = read_number(keys, kJerkLimit).value;
       keys.finish();
     }
     table.finish();
@@ -64,27 +61,35 @@ class ProblemReader {
     context_.diagnostics.add(std::move(d));
   }
 
-  /// Length and nodes, or a table; limits along the path.
+  /// Length and nodes, or a table, or a program; limits along the path.
   void read_path(const Node* node, const Span& missing) {
     TableReader keys(node, "path", missing, context_);
-    by_program_ = keys.has("program");
-    by_table_ = !by_program_ && keys.has("table");
-    table_ = keys.text("table", "");
-    if (by_program_ && keys.has("table"))
+    read_source(keys);
+    read_size(keys, node);
+    read_limits(keys);
+    keys.finish();
+    path_span_ = keys.header();
+  }
+
+  /// Which of table, program and formula states the path.
+  void read_source(TableReader& keys) {
+    by_program_ = keys.has(kPathProgram.name);
+    by_table_ = !by_program_ && keys.has(kPathTable.name);
+    table_ = keys.text(kPathTable.name, "");
+    if (by_program_ && keys.has(kPathTable.name))
       tell(Code::problem_path, table_.span, "the program already gives the path",
            "keep one of table and program");
     if (by_program_)
       program_.read_path(keys);
-    else if (keys.has("machine"))
-      machine_ = open_problem_machine(sources_, file_, keys.text("machine"), context_);
-    const auto of_machine = [&](double machine::PathLimits::*limit) {
-      return by_program_ ? std::optional<double>(kInfinity)
-             : machine_ && machine_->model.path.*limit < kInfinity
-                 ? std::optional<double>(machine_->model.path.*limit)
-                 : std::nullopt;
-    };
-    if (by_table_) ends_ = read_spline_ends(keys);
-    const bool has_length = keys.has("length_mm"), has_nodes = keys.has("nodes");
+    else if (keys.has(kPathMachine.name))
+      machine_ = open_problem_machine(sources_, file_, keys.text(kPathMachine.name), context_);
+    PathWords words;
+    if (by_table_) read_key(keys, words, kPathEnds);
+    ends_ = words.ends;
+  }
+
+  void read_size(TableReader& keys, const Node* node) {
+    const bool has_length = keys.has(kPathLength.name), has_nodes = keys.has(kPathNodes.name);
     if (node && !by_table_ && !by_program_ && !has_length && !has_nodes)
       tell(Code::problem_path, node->span, "has neither length_mm and nodes nor a table or program",
            "write table = \"FILE.csv\", program = \"FILE.ngc\", or length_mm and nodes and the axes' "
@@ -92,8 +97,8 @@ class ProblemReader {
     // values that are not needed are read anyway, so that their keys are known
     const bool needed = !by_table_ && !by_program_ && (has_length || has_nodes);
     const auto otherwise = [&](double value) { return needed ? std::optional<double>() : value; };
-    const auto length = keys.number("length_mm", kLength, otherwise(1));
-    const auto nodes = keys.number("nodes", kNodes, otherwise(3));
+    const auto length = read_number(keys, kPathLength, otherwise(1));
+    const auto nodes = read_number(keys, kPathNodes, otherwise(3));
     if ((by_table_ || by_program_) && has_length) {
       const char* other = by_table_ ? "table" : "program";
       tell(Code::problem_path, length.span, fmt::format("the {} already gives the length", other),
@@ -105,20 +110,24 @@ class ProblemReader {
     length_mm_ = length.value;
     if (needed || has_nodes) nodes_ = nodes;
     out_.size_span = nodes_ ? nodes_->span : by_program_ ? program_.program_span() : table_.span;
+  }
+
+  /// A program sets the speed, with its feeds and its machine.
+  void read_limits(TableReader& keys) {
+    const auto of_machine = [&](double machine::PathLimits::*limit) {
+      return by_program_ ? std::optional<double>(kInfinity)
+             : machine_ && machine_->model.path.*limit < kInfinity
+                 ? std::optional<double>(machine_->model.path.*limit)
+                 : std::nullopt;
+    };
     planner::LawProblem& law = out_.law;
-    // a program sets the speed, with its feeds and its machine
-    law.path_feed_u_s =
-        keys.number("max_mm_s", kSpeed, of_machine(&machine::PathLimits::max_feed_mm_s)).value;
-    law.path_accel_u_s2 = keys.number("max_acceleration_mm_s2", kPathAcceleration,
+    law.path_feed_u_s = read_number(keys, kPathSpeed, of_machine(&machine::PathLimits::max_feed_mm_s)).value;
+    law.path_accel_u_s2 = read_number(keys, kPathAcceleration,
                                       of_machine(&machine::PathLimits::max_accel_mm_s2).value_or(kInfinity))
                               .value;
-    begin_ = keys.number("begin_mm_s", kEndSpeed, 0.0);
-    end_ = keys.number("end_mm_s", kEndSpeed, 0.0);
-    law.begin_u_s = begin_.value;
-    law.end_u_s = end_.value;
-    law.accel_test = keys.choice("accel_test", planner::kAccelTests, planner::AccelTest::both_nodes).value;
-    keys.finish();
-    path_span_ = keys.header();
+    begin_ = read_key(keys, law, kPathBegin);
+    end_ = read_key(keys, law, kPathEnd);
+    read_key(keys, law, kPathAccelTest);
   }
 
   void read_axis(const Node& node) {
@@ -129,24 +138,24 @@ class ProblemReader {
   void read_zone(const Node& node) {
     TableReader keys(&node, "zone", node.span, context_);
     planner::SpeedZone zone;
-    zone.speed_u_s = keys.number("max_mm_s", kSpeed).value;
+    read_key(keys, zone, kZoneSpeed);
     Span begin, end;
     std::optional<std::uint32_t> line;
-    if (by_program_ && keys.has("at_line")) {
-      const auto at = keys.number("at_line", {1, 4e9, false, true});
+    if (by_program_ && keys.has(kZoneLine.name)) {
+      const auto at = read_number(keys, kZoneLine);
       line = static_cast<std::uint32_t>(at.value);
       begin = end = at.span;
-    } else if (keys.one_of("at_mm", "from_mm") == "at_mm") {
-      const auto at = keys.number("at_mm", kPlace);
+    } else if (keys.one_of(kZoneAt.name, kZoneFrom.name) == kZoneAt.name) {
+      const auto at = read_number(keys, kZoneAt);
       zone.begin_u = zone.end_u = at.value;
       begin = end = at.span;
-      if (keys.has("to_mm")) {
-        const auto to = keys.number("to_mm", kPlace);
+      if (keys.has(kZoneTo.name)) {
+        const auto to = read_number(keys, kZoneTo);
         tell(Code::problem_zone, to.span, "a zone at one position has no end",
              "write from_mm instead of at_mm");
       }
     } else {
-      const auto from = keys.number("from_mm", kPlace), to = keys.number("to_mm", kPlace);
+      const auto from = read_number(keys, kZoneFrom), to = read_number(keys, kZoneTo);
       zone.begin_u = from.value;
       zone.end_u = to.value;
       begin = from.span;
@@ -166,11 +175,11 @@ class ProblemReader {
     if (!node) return;
     TableReader keys(node, "penalty", node->span, context_);
     // a value that is not given comes from the path: for a program, as in a run of it
-    const planner::Penalty otherwise;
-    const double weight = keys.number("weight_s5_per_mm2", {0, 1e6}, otherwise.weight_s5_u2).value;
-    const bool per_length = keys.flag("per_length", otherwise.per_length).value;
-    if (!by_program_ || keys.has("weight_s5_per_mm2")) weight_s5_u2_ = weight;
-    if (!by_program_ || keys.has("per_length")) per_length_ = per_length;
+    planner::Penalty written;
+    read_key(keys, written, kPenaltyWeight);
+    read_key(keys, written, kPenaltyPerLength);
+    if (!by_program_ || keys.has(kPenaltyWeight.name)) weight_s5_u2_ = written.weight_s5_u2;
+    if (!by_program_ || keys.has(kPenaltyPerLength.name)) per_length_ = written.per_length;
     keys.finish();
   }
 
@@ -178,24 +187,19 @@ class ProblemReader {
     if (!node) return;
     TableReader keys(node, "tube", node->span, context_);
     planner::TubeOptions& tube = out_.tube;
-    tube.grid = keys.choice("grid", planner::kTubeGrids, planner::TubeGrid::uniform).value;
+    read_key(keys, tube, kTubeGrid);
+    auto levels = kTubeLevels;
     // two pieces that meet at a level have three
-    const double least = tube.grid == planner::TubeGrid::nominal_kept ? 3 : 2;
-    tube.levels =
-        static_cast<std::int32_t>(keys.number("levels", {least, 65'535, false, true}, tube.levels).value);
-    tube.relative_half_width = keys.number("relative_half_width", {1e-6, 1}, tube.relative_half_width).value;
-    tube.stop_percent = keys.number("stop_pct", {0, 100}, tube.stop_percent).value;
-    tube.least_half_width_u_s = keys.number("least_half_width_mm_s", {0, 1e9}, 0.0).value;
-    tube.most_passes = static_cast<std::uint32_t>(
-        keys.number("most_passes", {2, 1000, false, true}, tube.most_passes).value);
+    if (tube.grid == planner::TubeGrid::nominal_kept) levels.bounds.low = 3;
+    read_key(keys, tube, levels);
+    machine::read_keys(keys, tube, kTubeKeys);
     keys.finish();
   }
 
   void read_classical(const Node* node) {
     if (!node) return;
     TableReader keys(node, "classical", node->span, context_);
-    out_.classical_levels = static_cast<std::int32_t>(
-        keys.number("levels", {2, 65'535, false, true}, out_.classical_levels).value);
+    read_key(keys, out_, kClassicalLevels);
     keys.finish();
   }
 

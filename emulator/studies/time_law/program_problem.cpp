@@ -7,20 +7,18 @@
 #include <utility>
 
 #include "emulator/emulator.h"
-#include "emulator/studies/time_law/problem_bounds.h"
+#include "emulator/studies/time_law/problem_keys.h"
 #include "emulator/studies/time_law/problem_machine.h"
 
 namespace kadr::studies {
 namespace {
 
 namespace fs = std::filesystem;
-using machine::Bounds;
 using machine::Node;
+using machine::read_key;
+using machine::read_number;
 using machine::TableReader;
 
-constexpr Bounds kLine{1, 4e9, false, true};
-constexpr Bounds kNodeStep{1e-6, 1e6};
-constexpr Bounds kTolerance{1e-9, 1e6};
 constexpr std::size_t kMostListed = 8;  ///< motions that a message names
 
 std::string lines_text(std::uint32_t first, std::uint32_t last) {
@@ -42,33 +40,33 @@ void ProgramProblem::tell(Code code, const Span& span, std::string label, const 
 }
 
 void ProgramProblem::read_path(TableReader& keys) {
-  program_ = keys.text("program");
-  machine_name_ = keys.text("machine");
-  if (keys.has("tools")) tools_ = keys.text("tools");
-  if (keys.has("from_line")) from_line_ = keys.number("from_line", kLine);
-  if (keys.has("to_line")) to_line_ = keys.number("to_line", kLine);
+  program_ = keys.text(kPathProgram.name);
+  machine_name_ = keys.text(kPathMachine.name);
+  if (keys.has(kPathTools.name)) tools_ = keys.text(kPathTools.name);
+  if (keys.has(kPathFromLine.name)) from_line_ = read_number(keys, kPathFromLine);
+  if (keys.has(kPathToLine.name)) to_line_ = read_number(keys, kPathToLine);
   if (from_line_ && to_line_ && to_line_->value < from_line_->value)
     tell(Code::problem_program, to_line_->span, fmt::format("is line {:.0f}", to_line_->value),
          fmt::format("{:.0f} and more, the path.from_line", from_line_->value));
-  constexpr std::string_view kFits[] = {"exact", "spline"};
-  spline_ = kFits[keys.word("fit", kFits, 0).value] == "spline";
+  PathWords words;
+  spline_ = read_key(keys, words, kPathFit).value == PathFit::spline;
   if (spline_) {
-    tolerance_ = keys.number("tolerance_mm", kTolerance);
-    ends_ = read_spline_ends(keys);
-  } else if (keys.has("node_mm")) {
-    node_mm_ = keys.number("node_mm", kNodeStep).value;
+    tolerance_ = read_number(keys, kPathTolerance);
+    ends_ = read_key(keys, words, kPathEnds).value;
+  } else if (keys.has(kPathNodeStep.name)) {
+    node_mm_ = read_number(keys, kPathNodeStep).value;
   }
 }
 
 void ProgramProblem::read_axis(const Node& node) {
-  const machine::Entry* given = node.find("name");
+  const machine::Entry* given = node.find(kPathAxisName.name);
   const bool named = given && given->value.kind == Node::Kind::text;
   if (named) {
     axes_.push_back({{given->value.text, true, given->value.span}, &node});
     return;
   }
   TableReader keys(&node, "axis", node.span, context_);
-  keys.text("name");
+  keys.text(kPathAxisName.name);
   keys.finish();
 }
 
@@ -78,11 +76,10 @@ bool ProgramProblem::override_axes(machine::MachineModel& machine) {
     machine::AxisModel* model = find_problem_axis(machine, axis.name, context_);
     if (!model) continue;
     TableReader keys(axis.node, "axis." + axis.name.value, axis.node->span, context_);
-    keys.text("name");
-    const char* unit = model->kind == machine::AxisKind::rotary ? "deg" : "mm";
-    model->max_feed_u_s = keys.number(fmt::format("max_{}_s", unit), kSpeed, model->max_feed_u_s).value;
-    model->max_accel_u_s2 =
-        keys.number(fmt::format("max_acceleration_{}_s2", unit), kAcceleration, model->max_accel_u_s2).value;
+    keys.text(kPathAxisName.name);
+    const PathUnit unit = model->kind == machine::AxisKind::rotary ? PathUnit::deg : PathUnit::mm;
+    model->max_feed_u_s = read_axis_key(keys, kPathAxisSpeed, unit, model->max_feed_u_s).value;
+    model->max_accel_u_s2 = read_axis_key(keys, kPathAxisAcceleration, unit, model->max_accel_u_s2).value;
     keys.finish();
   }
   return context_.diagnostics.errors() == errors;

@@ -14,8 +14,8 @@ namespace {
 void check_ends(const planner::Path& path, const machine::MachineModel& machine, const Run& run) {
   for (std::size_t k = 0; k < machine.axis.size(); ++k) {
     const double step = machine.axis[k].step_u;
-    const std::int64_t begin = lattice_node(path.node(0)[k], step);
-    const std::int64_t end = lattice_node(path.node(path.size())[k], step);
+    const std::int64_t begin = lattice_node(path.node(0)[k], step).value;
+    const std::int64_t end = lattice_node(path.node(path.size())[k], step).value;
     CHECK(run.nodes[k] == end);
     CHECK(run.net[k] == end - begin);
     CHECK(run.worst_steps[k] <= 0.5 + 1e-9);
@@ -101,7 +101,7 @@ TEST_CASE("a million turns cost no memory and count exactly") {
     pulses += static_cast<std::int64_t>(batch.axis[0].count());
   }
   CHECK(pulses == 8'000'000);
-  CHECK(interpolator.position_steps() == std::vector<std::int64_t>{2, 0});
+  CHECK(interpolator.position_steps() == std::vector<Steps>{{2}, {0}});
 }
 
 TEST_CASE("random arcs end on their exact node") {
@@ -145,8 +145,8 @@ TEST_CASE("spirals from rounding to a doubled radius cross exactly, from 0.3 to 
     const Run run =
         run_path(maker.path, machine, drive(maker.path.length_u(), 100.0, machine, Feed::wild, 5));
     check_ends(maker.path, machine, run);
-    std::vector<std::int64_t> node{lattice_node(maker.path.node(0)[0], 0.01),
-                                   lattice_node(maker.path.node(0)[1], 0.01)};
+    std::vector<std::int64_t> node{lattice_node(maker.path.node(0)[0], 0.01).value,
+                                   lattice_node(maker.path.node(0)[1], 0.01).value};
     for (const auto& e : run.events) {
       auto& n = node[static_cast<std::size_t>(e.axis)];
       const long double level = static_cast<long double>(n) + 0.5L * e.sign;

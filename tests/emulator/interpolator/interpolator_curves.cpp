@@ -58,7 +58,8 @@ TEST_CASE("curves of degree 2 to 5 in 2 to 6 axes keep every node within half a 
     const Run steady = run_path(path, machine, drive(path.length_u(), 25.0, machine, Feed::constant, i));
     for (std::size_t k = 0; k < static_cast<std::size_t>(axes); ++k) {
       const double step = machine.axis[k].step_u;
-      CHECK(wild.net[k] == lattice_node(path.node(1)[k], step) - lattice_node(path.node(0)[k], step));
+      CHECK(wild.net[k] ==
+            lattice_node(path.node(1)[k], step).value - lattice_node(path.node(0)[k], step).value);
       CHECK(wild.worst_steps[k] <= 0.5 + 1e-9);
       CHECK(steady.worst_steps[k] <= 0.5 + 1e-9);
     }
@@ -141,7 +142,7 @@ TEST_CASE("rounded corners and dense lines run from the program to the last step
   while (!source.finished()) motions.push_back(source.advance({}));
   const Run run = run_path(path, machine, motions);
   for (std::size_t k = 0; k < 3; ++k) {
-    CHECK(run.net[k] == lattice_node(block.end[k], machine.axis[k].step_u));
+    CHECK(run.net[k] == lattice_node(block.end[k], machine.axis[k].step_u).value);
     CHECK(run.worst_steps[k] <= 0.5 + 1e-9);
   }
 }

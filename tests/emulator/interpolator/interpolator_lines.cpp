@@ -38,12 +38,12 @@ std::string order(const Run& run) {
 }  // namespace
 
 TEST_CASE("a lattice node is the half-open cell [node - 1/2, node + 1/2) on both sides of zero") {
-  CHECK(lattice_node(0.0, 0.25) == 0);
-  CHECK(lattice_node(0.125, 0.25) == 1);
-  CHECK(lattice_node(0.1249, 0.25) == 0);
-  CHECK(lattice_node(-0.125, 0.25) == 0);
-  CHECK(lattice_node(-0.1251, 0.25) == -1);
-  CHECK(lattice_node(-0.375, 0.25) == -1);
+  CHECK(lattice_node(0.0, 0.25).value == 0);
+  CHECK(lattice_node(0.125, 0.25).value == 1);
+  CHECK(lattice_node(0.1249, 0.25).value == 0);
+  CHECK(lattice_node(-0.125, 0.25).value == 0);
+  CHECK(lattice_node(-0.1251, 0.25).value == -1);
+  CHECK(lattice_node(-0.375, 0.25).value == -1);
   CHECK_THROWS_AS(lattice_node(1e300, 0.001), BrokenPromise);
   CHECK_THROWS_AS(lattice_node(std::nan(""), 0.001), BrokenPromise);
 }
@@ -139,7 +139,7 @@ TEST_CASE("ticks at rest give no pulses, no speed and the same position") {
     CHECK(batch.axis[0].command.position_end_u == 1.0);
     CHECK(batch.axis[0].command.speed_end_u_s == 0.0);
   }
-  CHECK(interpolator.position_steps() == std::vector<std::int64_t>{1000, 2000});
+  CHECK(interpolator.position_steps() == std::vector<Steps>{{1000}, {2000}});
   // the path parameter may not run back, nor be no number
   CHECK_THROWS_AS(interpolator.advance(motion(3, 0.5, 0.4, 1.0, 1.0), batch), BrokenPromise);
   CHECK_THROWS_AS(interpolator.advance(motion(3, 0.0, std::nan(""), 1.0, 1.0), batch), BrokenPromise);
@@ -152,7 +152,7 @@ TEST_CASE("a path without segments answers every tick at rest") {
   StepBatch batch;
   interpolator.advance(motion(0, 0.0, 0.0, 0.0, 0.0), batch);
   CHECK(batch.axis[0].count() == 0);
-  CHECK(interpolator.position_steps() == std::vector<std::int64_t>{500});
+  CHECK(interpolator.position_steps() == std::vector<Steps>{{500}});
 }
 
 TEST_CASE(
@@ -240,7 +240,7 @@ TEST_CASE("at constant feed every axis of a straight line pulses evenly, to one 
       for (const StepBatch& batch : run.batches)
         for (const int o : offsets(batch.axis[k]))
           moments.push_back(static_cast<double>(batch.tick.value) * 1e4 + o);
-      REQUIRE(static_cast<std::int64_t>(moments.size()) == std::llabs(lattice_node(end[k], 0.001)));
+      REQUIRE(static_cast<std::int64_t>(moments.size()) == std::llabs(lattice_node(end[k], 0.001).value));
       for (std::size_t i = 1; i < moments.size(); ++i)
         CHECK(std::fabs(moments[i] - moments[i - 1] - spacing) <= 1.0 + 1e-6);
     }
@@ -263,7 +263,7 @@ TEST_CASE("a line of 100 million steps needs no table and counts exactly") {
     s = to;
   }
   CHECK(net == 100'000'000);
-  CHECK(interpolator.position_steps() == std::vector<std::int64_t>{50'000'000, 3000});
+  CHECK(interpolator.position_steps() == std::vector<Steps>{{50'000'000}, {3000}});
 }
 
 TEST_CASE("the moment of a place solves the tick's linear feed to 1e-11 of its span") {
@@ -284,7 +284,7 @@ TEST_CASE("the moment of a place solves the tick's linear feed to 1e-11 of its s
     if (way <= 0) continue;
     m.s_begin_u = 0;
     m.s_end_u = static_cast<double>(way);
-    const interpolator::TickClock clock(m, 10'000);
+    const interpolator::TickClock clock(m, Ticks{10'000});
     CHECK(clock.moment_ticks(0.0) == m.move_begin_ticks);
     // before a stop the moment itself is only known to the root of the rounding of s: 1e-8 of the span
     CHECK(clock.moment_ticks(m.s_end_u) ==

@@ -179,7 +179,7 @@ inline Run run_path(const planner::Path& path, const machine::MachineModel& mach
     run.events.insert(run.events.end(), events.begin(), events.end());
     if (keep_batches) run.batches.push_back(batch);
   }
-  run.nodes = interpolator.position_steps();
+  for (const Steps node : interpolator.position_steps()) run.nodes.push_back(node.value);
   run.worst_steps = interpolator.worst_node_error_steps();
   run.hash = hash.digest();
   return run;

@@ -54,7 +54,7 @@ TEST_CASE(
     const planner::Path path = builder.take();
     const Run run = run_path(path, machine, drive(path.length_u(), 40.0, machine, Feed::wild, i));
     for (std::size_t k = 0; k < 3; ++k) {
-      CHECK(run.net[k] == lattice_node(at[k], machine.axis[k].step_u));
+      CHECK(run.net[k] == lattice_node(at[k], machine.axis[k].step_u).value);
       CHECK(run.nodes[k] == run.net[k]);
       CHECK(run.worst_steps[k] <= 0.5 + 1e-9);
     }
@@ -95,7 +95,7 @@ TEST_CASE(
       while (!source.finished() && motions.size() < 100'000) motions.push_back(source.advance({}));
       const Run run = run_path(path, machine, motions);
       for (std::size_t k = 0; k < 3; ++k) {
-        CHECK(run.net[k] == lattice_node(at[k], machine.axis[k].step_u));
+        CHECK(run.net[k] == lattice_node(at[k], machine.axis[k].step_u).value);
         CHECK(run.worst_steps[k] <= 0.5 + 1e-9);
       }
       REQUIRE(run.events.size() == any.events.size());

@@ -17,9 +17,9 @@ double coordinate(Dice& dice, double from, double step_u, double reach_u) {
     case 0:
       return from;
     case 1:
-      return static_cast<double>(lattice_node(from + dice.between(-reach_u, reach_u), step_u)) * step_u;
+      return static_cast<double>(lattice_node(from + dice.between(-reach_u, reach_u), step_u).value) * step_u;
     case 2:
-      return (static_cast<double>(lattice_node(from + dice.between(-reach_u, reach_u), step_u)) + 0.5) *
+      return (static_cast<double>(lattice_node(from + dice.between(-reach_u, reach_u), step_u).value) + 0.5) *
              step_u;
     case 3:
       return from + dice.between(-1e-6, 1e-6);
@@ -87,7 +87,8 @@ double blur_steps(const Case& c, std::size_t axis) {
 void check_against_exact_path(const Case& c, const Run& run) {
   const std::size_t axes = c.machine.axis.size();
   std::vector<std::int64_t> node(axes);
-  for (std::size_t k = 0; k < axes; ++k) node[k] = lattice_node(c.path.node(0)[k], c.machine.axis[k].step_u);
+  for (std::size_t k = 0; k < axes; ++k)
+    node[k] = lattice_node(c.path.node(0)[k], c.machine.axis[k].step_u).value;
   std::size_t next = 0;
   for (std::size_t segment = 0; segment < c.path.size(); ++segment) {
     const double length = c.path.segments[segment].length_u;
@@ -128,8 +129,8 @@ TEST_CASE(
     const Run run = run_path(c.path, c.machine, drive(length, speed, c.machine, Feed::linear, i), true);
     for (std::size_t k = 0; k < c.machine.axis.size(); ++k) {
       const double step = c.machine.axis[k].step_u;
-      CHECK(run.nodes[k] == lattice_node(c.path.node(c.path.size())[k], step));
-      CHECK(run.net[k] == run.nodes[k] - lattice_node(c.path.node(0)[k], step));
+      CHECK(run.nodes[k] == lattice_node(c.path.node(c.path.size())[k], step).value);
+      CHECK(run.net[k] == run.nodes[k] - lattice_node(c.path.node(0)[k], step).value);
       CHECK(run.worst_steps[k] <= 0.5 + 1e-9);
     }
     check_against_exact_path(c, run);
@@ -160,7 +161,7 @@ TEST_CASE("commands chain from tick to tick and are exact on the nodes at rest")
         run_path(c.path, c.machine, drive(c.path.length_u(), 30.0, c.machine, Feed::wild, i), true);
     for (std::size_t k = 0; k < c.machine.axis.size(); ++k) {
       double position = c.path.node(0)[k];
-      std::int64_t node = lattice_node(position, c.machine.axis[k].step_u);
+      std::int64_t node = lattice_node(position, c.machine.axis[k].step_u).value;
       for (const StepBatch& batch : run.batches) {
         const AxisCommand& command = batch.axis[k].command;
         CHECK(command.position_begin_u == position);

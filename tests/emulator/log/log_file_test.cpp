@@ -95,7 +95,7 @@ TEST_CASE("every control tick comes back from a log bit by bit: 1000 ticks, 3 ax
       for (std::size_t a = 0; a < 3; ++a) {
         const AxisTicks& x = b->axis[a];
         const AxisState& s = run.states()[a];
-        same = same && x.steps[i] == run.nodes()[a] &&
+        same = same && x.steps[i] == run.nodes()[a].value &&
                x.command_u[i] == run.batch().axis[a].command.position_end_u && x.base_u[i] == s.base_u &&
                x.base_u_s[i] == s.base_u_s && x.link_u[i] == s.link_u && x.link_u_s[i] == s.link_u_s &&
                x.motor_force_N[i] == s.motor_force_N;
@@ -245,8 +245,8 @@ TEST_CASE("viewer messages carry the numbers of their control tick, ten to a hun
                                                                               : 0));
     const AxisSample& y = *axes[static_cast<std::size_t>(3 * (k / 10) + 1)];
     REQUIRE(y.axis == 1);
-    REQUIRE(y.steps == run.nodes()[1]);
-    REQUIRE(y.commanded == static_cast<double>(run.nodes()[1]) * 0.001);
+    REQUIRE(y.steps == run.nodes()[1].value);
+    REQUIRE(y.commanded == static_cast<double>(run.nodes()[1].value) * 0.001);
     REQUIRE(y.load == run.states()[1].base_u + run.states()[1].link_u);
     REQUIRE(y.load_minus_ideal_um == 1000 * (y.load - y.ideal));
     // the node is never further than half a step from the command

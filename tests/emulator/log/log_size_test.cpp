@@ -66,19 +66,19 @@ TEST_CASE("the size estimated before a run is within 15 % of the log") {
     double rate;
     bool plant;
     double viewer_rate_hz;
-    int block_ticks;
+    ControlTicks block_ticks;
     bool log_ticks, log_steps;
   };
   const Case cases[] = {
-      {"defaults at 50 kHz", 3, 10'000, 50e3, true, 100, 32, true, true},
-      {"at rest", 3, 10'000, 0, true, 100, 32, true, true},
-      {"without plant", 3, 10'000, 50e3, false, 100, 32, true, true},
-      {"four axes, slow", 4, 5'000, 2e3, true, 100, 32, true, true},
-      {"nine axes at 100 kHz", 9, 3'000, 100e3, true, 100, 64, true, true},
-      {"viewers only", 3, 10'000, 50e3, true, 1000, 32, false, false},
-      {"pulses only", 3, 10'000, 50e3, true, 0, 16, false, true},
-      {"ticks only", 1, 10'000, 50e3, true, 0, 16, true, false},
-      {"a short run", 3, 50, 50e3, true, 100, 32, true, true},
+      {"defaults at 50 kHz", 3, 10'000, 50e3, true, 100, {32}, true, true},
+      {"at rest", 3, 10'000, 0, true, 100, {32}, true, true},
+      {"without plant", 3, 10'000, 50e3, false, 100, {32}, true, true},
+      {"four axes, slow", 4, 5'000, 2e3, true, 100, {32}, true, true},
+      {"nine axes at 100 kHz", 9, 3'000, 100e3, true, 100, {64}, true, true},
+      {"viewers only", 3, 10'000, 50e3, true, 1000, {32}, false, false},
+      {"pulses only", 3, 10'000, 50e3, true, 0, {16}, false, true},
+      {"ticks only", 1, 10'000, 50e3, true, 0, {16}, true, false},
+      {"a short run", 3, 50, 50e3, true, 100, {32}, true, true},
   };
   for (const Case& c : cases) {
     auto machine = test::log_machine(c.axes);

@@ -69,7 +69,7 @@ void FakeRun::make_pulses(std::size_t axis, double begin_steps, double end_steps
   const double span = end_steps - begin_steps;
   pulses.first_sign = span < 0 ? -1 : 1;
   const double tau = static_cast<double>(machine_.clock.control_tick.value);
-  std::int64_t& node = steps_[axis];
+  std::int64_t& node = steps_[axis].value;
   std::int64_t last = 0;
   while (std::abs(end_steps - static_cast<double>(node)) > 0.5) {
     const double crossing = static_cast<double>(node) + 0.5 * pulses.first_sign;
@@ -133,7 +133,7 @@ bool holds_fake_run(const std::string& path, const machine::MachineModel& machin
         same = b->first.value + static_cast<std::int64_t>(i) == r.tick.value &&
                b->path_u[i] == r.motion->s_end_u;
         for (std::size_t a = 0; same && a < machine.axis.size(); ++a)
-          same = b->axis[a].steps[i] == of_ticks.nodes()[a] &&
+          same = b->axis[a].steps[i] == of_ticks.nodes()[a].value &&
                  b->axis[a].link_u[i] == of_ticks.states()[a].link_u;
       }
     if (const auto* b = std::get_if<log::StepBlock>(&m))

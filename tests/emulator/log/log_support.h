@@ -48,7 +48,7 @@ class FakeRun {
   const log::TickRecord& advance();
   const StepBatch& batch() const { return batch_; }
   const std::vector<AxisState>& states() const { return states_; }
-  const std::vector<std::int64_t>& nodes() const { return steps_; }
+  const std::vector<Steps>& nodes() const { return steps_; }
   std::int64_t pulses() const { return pulses_; }
 
  private:
@@ -63,7 +63,7 @@ class FakeRun {
   TickMotion motion_;
   StepBatch batch_;
   std::vector<double> position_steps_;  // of the motion, before the lattice
-  std::vector<std::int64_t> steps_;     // lattice node
+  std::vector<Steps> steps_;            // lattice node
   std::vector<AxisState> states_;
   log::TickRecord record_;
 };

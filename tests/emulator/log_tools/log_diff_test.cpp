@@ -315,7 +315,7 @@ TEST_CASE("how a log is cut into messages makes no difference") {
   const TestFolder folder;
   machine::MachineModel machine = log_machine(2);
   write_changed(folder / "a", log_header(machine), kTicks);
-  machine.log.block_ticks = 7;
+  machine.log.block_ticks = ControlTicks{7};
   machine.log.viewer_rate_hz = 0;
   write_changed(folder / "b", log_header(machine), kTicks);
   CHECK(!compare(folder / "a", folder / "b").differ());
