@@ -29,7 +29,7 @@ double jerk_factor(const machine::MachineModel& machine) {
   const auto table = planner::limit_table(path, machine);
   REQUIRE(table);
   std::vector<JerkPiece> pieces;
-  const auto k = planner::plan_jerk_law({path, *table, machine}, {0, 2}, pieces);
+  const auto k = planner::plan_jerk_law({planner::DirectJoints(path), *table, machine}, {0, 2}, pieces);
   REQUIRE(k);
   return *k;
 }

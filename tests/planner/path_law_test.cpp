@@ -63,7 +63,8 @@ TEST_CASE("a run that has no time law is K4008 with its place") {
   REQUIRE(table);
   table->accel_u_s2[0] = 0.0;
   planner::PlannedRun out;
-  const auto planned = planner::law_method(machine.planner.method).plan({path, *table, machine}, {0, 0}, out);
+  const auto planned = planner::law_method(machine.planner.method)
+                           .plan({planner::DirectJoints(path), *table, machine}, {0, 0}, out);
   REQUIRE(!planned);
   CHECK(planned.error().diagnostic.code == Code::law_not_found);
   CHECK(planned.error().diagnostic.label.find("acceleration limit of 0") != std::string::npos);
