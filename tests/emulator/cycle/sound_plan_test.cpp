@@ -75,7 +75,7 @@ cycle::PlanFunction too_fast_on(std::size_t first, std::size_t last) {
 }  // namespace
 
 TEST_CASE("prepare() takes the planner's plan and refuses it run a millionth too fast") {
-  CHECK(said_of(kFourBlocks, planner::plan).empty());
+  CHECK(said_of(kFourBlocks, {}).empty());
   CHECK(said_of_damage([](auto&) {}).empty());
   const std::string said = said_of_damage([](auto& p) { hurry(p, 1 + 1e-6); });
   CHECK_MESSAGE(has(said, "a plan keeps path and machine: test.ngc:3: "), said);
@@ -124,7 +124,7 @@ TEST_CASE("prepare() refuses a pause that is too short, elsewhere, missing, or t
     const std::string said = said_of_damage(damage, program);
     CHECK_MESSAGE(has(said, what), said);
   };
-  CHECK(said_of(dwells, planner::plan).empty());
+  CHECK(said_of(dwells, {}).empty());
   const auto delay = [](auto& plan, auto from, double time_s) {
     for (auto p = from; p != plan.law.pieces.end(); ++p) p->begin_s += time_s;
     for (std::size_t i = 1; i < plan.segments.size(); ++i)
@@ -170,7 +170,7 @@ TEST_CASE(
   // last 16. The law needs some blocks to get fast, so blocks 480 to 560 are planned at 75
   // mm/s where 50 are programmed.
   const std::string program = dense_program();
-  CHECK(said_of(program, planner::plan).empty());
+  CHECK(said_of(program, {}).empty());
   const std::string said = said_of(program, too_fast_on(480, 560));
   CHECK_MESSAGE(has(said, ": programmed feed is 74.95"), said);
   CHECK_MESSAGE(has(said, " mm/s, allowed 50 mm/s, at "), said);
@@ -197,12 +197,12 @@ TEST_CASE(
 
 TEST_CASE("curves are verified but for acceleration and jerk of those that turn back") {
   const char* const bend = "G21 G90 G94 G17 G64\nF6000\nG5 X20 Y10 I10 J0 P0 Q-8\nM2\n";
-  CHECK(said_of(bend, planner::plan).empty());
+  CHECK(said_of(bend, {}).empty());
   CHECK(has(said_of_damage([](auto& p) { hurry(p, 1.01); }, bend), "test.ngc:3: "));
   // the known fault: the tip of this one, 1.6 um wide, is passed far above the axis jerk. When the planner is
   // mended, the exception goes (VerifyOptions::curves_that_turn_back), and the last line of this test with it.
   const char* const tip = "G21 G90 G94 G17 G64\nF1200\nG5 X10 Y0 I30 J0.05 P20 Q0.05\nM2\n";
-  CHECK(said_of(tip, planner::plan).empty());
+  CHECK(said_of(tip, {}).empty());
   // not exempt there: feed and the law itself
   CHECK(has(said_of_damage([](auto& p) { p.law.pieces[2].speed_u_s += 1e-3; }, tip), "continuity of speed"));
   TestInputs in = make_inputs(tip, test_machine());
