@@ -90,7 +90,7 @@ void write_path_log(const std::string& path, const machine::MachineModel& machin
                tau_s = machine.clock.tau_s();
   double s_mm = 0, speed_mm_s = 0;
   std::vector<std::size_t> next(3, 0);
-  std::vector<std::int64_t> steps(3, 0);
+  std::vector<Steps> steps(3);
   StepBatch batch;
   batch.axis.resize(3);
   std::int64_t k = 0;
@@ -123,7 +123,7 @@ void write_path_log(const std::string& path, const machine::MachineModel& machin
         sign = pulse.sign;
         const std::int64_t offset = std::max<std::int64_t>(tick_of(s_mm, to_mm, pulse.s_mm), 0);
         axis.offset_ticks.push_back(static_cast<std::uint16_t>(offset));
-        steps[a] += pulse.sign;
+        steps[a] += Steps{pulse.sign};
       }
     }
     log::TickRecord record{ControlTicks{k}, block == 0 ? 0 : block - 1, &motion, &steps, nullptr};
