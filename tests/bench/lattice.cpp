@@ -11,7 +11,6 @@
 namespace {
 
 using namespace kadr::interpolator::lattice;
-ce;
 
 constexpr std::int64_t kA = 1'000'003, kB = 618'035;
 
