@@ -120,15 +120,15 @@ bool names(const std::vector<planner::Violation>& found, const std::string& what
                      [&](const auto& v) { return v.what == what && v.axis == joint; });
 }
 
-/// A line across both belts, a corner, arcs, a helix, a rounded corner and a climb.
+/// A line for each belt alone, arcs, a helix, a climb and a rapid.
 Path program(const machine::MachineModel& machine) {
   ProgramWriter w(machine);
   w.line(xyz(40, 40), 200);
-  w.line(xyz(80, 40), 200);
-  w.arc(gcode::Plane::xy, 80, 60, 1, xyz(100, 60), 200);
-  w.arc(gcode::Plane::xy, 60, 60, 2, xyz(60, 100, 20), 200);
-  w.arc(gcode::Plane::zx, 30, 60, 1, xyz(70, 100, 30), 200);
-  w.line(xyz(70, 100, 0), 200);
+  w.line(xyz(80, 0), 200);
+  w.arc(gcode::Plane::xy, 80, 20, 1, xyz(100, 20), 200);
+  w.arc(gcode::Plane::xy, 60, 20, 2, xyz(60, 60, 20), 200);
+  w.arc(gcode::Plane::zx, 30, 60, 1, xyz(70, 60, 30), 200);
+  w.line(xyz(70, 60, 0), 200);
   w.rapid(xyz(0, 0));
   return w.take();
 }
@@ -180,10 +180,10 @@ TEST_CASE("a plan for belts keeps their limits, and one for the axes breaks them
   CHECK(planner::verify(path, *of_axes, machine).empty());
   const auto found = all_found(belts, *of_axes, machine);
   for (const int belt : {0, 1}) {
+    CHECK(names(found, "axis speed", belt));
     CHECK(names(found, "axis acceleration", belt));
     CHECK(names(found, "axis jerk", belt));
   }
-  CHECK(names(found, "axis speed", 0));
   CHECK(names(found, "axis speed", 2));
   CHECK(names(found, "junction", 2));
 }
@@ -202,7 +202,7 @@ TEST_CASE("verify() does not believe the bounds by which a plan was made") {
 
 TEST_CASE("plans for belts keep every limit on random paths, by every method that a machine may choose") {
   Random random(environment("KADR_SEED", 1));
-  const std::uint64_t count = environment("KADR_COUNT", 12);
+  const std::uint64_t count = environment("KADR_COUNT", 4);
   for (std::uint64_t run = 0; run < count; ++run) {
     CAPTURE(run);
     auto machine = plain_machine();
