@@ -57,7 +57,7 @@ struct TickChannelsOf {
 template <class R, class... Left, class... Found>
 struct TickChannelsOf<Records<R, Left...>, Records<Found...>> {
   using More = std::conditional_t<TickChannel<R>, Records<Found..., R>, Records<Found...>>;
-  using Type = TickChannelsOf<Records<Left...>, More>::Type;
+  using Type = typename TickChannelsOf<Records<Left...>, More>::Type;
 };
 
 template <class List>
