@@ -212,7 +212,9 @@ std::string render_summary(const RunSummary& s, const SummaryContext& c) {
   out += render_losses(s);
   out += alarm_lines(s, c);
   out += head("steps hash", hash_text(s.steps_hash));
-  if (!c.log_path.empty()) out += head("log", fmt::format("{}   {}", c.log_path, bytes_text(c.log_bytes)));
+  if (!c.log_path.empty())
+    out +=
+        head("log", c.log_bytes ? fmt::format("{}   {}", c.log_path, bytes_text(*c.log_bytes)) : c.log_path);
   if (c.wall_s >= 0) {
     const double factor = c.wall_s > 0 ? time_s / c.wall_s : 0;
     out += head("wall",
