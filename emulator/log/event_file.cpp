@@ -11,7 +11,7 @@
 #include "emulator/log/wire.h"
 #include "machine/base/input_files.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 tl::expected<EventFile, std::string> EventFile::open(const std::string& path) {
   EventFile events;
@@ -85,4 +85,4 @@ EventFile::Next EventFile::next(LogEventView& view) {
   return Next::event;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

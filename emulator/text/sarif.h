@@ -8,7 +8,7 @@
 #include "emulator/text/json.h"
 #include "machine/base/diagnostic.h"
 
-namespace kadr::emulator {
+namespace kadr::text {
 
 /// The diagnostics of a command as one document of SARIF 2.1.0, the form in which code hosts and editors take
 /// the findings of a checker: a rule for each code used, a result for each diagnostic, errors first. A pure
@@ -39,4 +39,4 @@ class SarifLog {
   std::map<std::string, int> seen_;  ///< file and fingerprint: how often
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::text
