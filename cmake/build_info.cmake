@@ -28,6 +28,8 @@ string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}}" flags)
 string(STRIP "${CMAKE_BUILD_TYPE}, ${flags}" flags)
 if(KADR_SANITIZE OR KADR_FUZZ)
   string(APPEND flags ", sanitizers")
+elseif(KADR_HARDEN AND NOT CMAKE_CXX_FLAGS MATCHES "fsanitize")
+  string(APPEND flags ", hardened")
 endif()
 
 set(build_info ${PROJECT_BINARY_DIR}/generated/build_info.cpp)

@@ -28,6 +28,19 @@ if(KADR_SANITIZE OR KADR_FUZZ)
   target_link_options(kadr_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
+# the tables of called functions are filled in before main() and read-only from then on
+target_link_options(kadr_flags INTERFACE -Wl,-z,relro,-z,now)
+# What a fault of ours meets before it does harm. A target that is compiled without optimisation can't have fortified calls:
+# it sets its property KADR_UNOPTIMIZED.
+if(KADR_HARDEN AND NOT KADR_SANITIZE AND NOT KADR_FUZZ AND NOT CMAKE_CXX_FLAGS MATCHES "fsanitize")
+  target_compile_options(kadr_flags INTERFACE -fstack-protector-strong)
+  target_compile_definitions(kadr_flags INTERFACE _GLIBCXX_ASSERTIONS)
+  if(NOT KADR_OPTIMIZE MATCHES "-O0")
+    target_compile_options(kadr_flags INTERFACE
+      $<$<NOT:$<BOOL:$<TARGET_PROPERTY:KADR_UNOPTIMIZED>>>:-U_FORTIFY_SOURCE$<SEMICOLON>-D_FORTIFY_SOURCE=2>)
+  endif()
+endif()
+
 # A precompiled header is known to ccache by its content alone, with these allowances
 find_program(CCACHE ccache)
 if(KADR_CCACHE AND CCACHE)

@@ -116,7 +116,9 @@ Json json_of(const log::RunSummary& s, const SummaryContext& c) {
   Json alarms = Json::array();
   for (const log::EventRecord& e : c.alarms) alarms.push_back(alarm_json(e, model));
   j["alarm_list"] = std::move(alarms);
-  j["log"] = c.log_path.empty() ? Json(nullptr) : Json({{"path", c.log_path}, {"bytes", c.log_bytes}});
+  j["log"] = c.log_path.empty()
+                 ? Json(nullptr)
+                 : Json({{"path", c.log_path}, {"bytes", c.log_bytes ? Json(*c.log_bytes) : Json(nullptr)}});
   return j;
 }
 

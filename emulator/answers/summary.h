@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,9 @@ struct SummaryContext {
   std::size_t program_warnings = 0;      ///< reported before the run
   std::vector<log::EventRecord> alarms;  ///< in time order, perhaps only the first
   std::map<Code, std::size_t> alarm_counts;
-  std::string log_path;  ///< empty: no log
-  std::int64_t log_bytes = 0;
-  double wall_s = -1;  ///< < 0: leave the last line out
+  std::string log_path;                   ///< empty: no log
+  std::optional<std::int64_t> log_bytes;  ///< of a log in a file; a pipe or device has no size
+  double wall_s = -1;                     ///< < 0: leave the last line out
 };
 
 /// The table after a run, for people. The wall-clock line is the last one; all others depend only on the inputs.

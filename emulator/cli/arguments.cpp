@@ -8,6 +8,7 @@
 
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/options.h"
+#include "emulator/cli/standard_streams.h"
 #include "emulator/cli/usage.h"
 
 namespace kadr::cli {
@@ -41,7 +42,7 @@ class Reader {
     if (help) words.erase(words.begin());
     if (const std::string mistake = help ? unknown_command(app_, words) : usage_mistake(app_, words);
         !mistake.empty()) {
-      fmt::print(stderr, "{0}\nsee {1} --help\n", mistake, mistake.substr(0, mistake.find(':')));
+      tell(fmt::format("{0}\nsee {1} --help\n", mistake, mistake.substr(0, mistake.find(':'))));
       return kNotStarted;
     }
     try {
@@ -55,10 +56,10 @@ class Reader {
         before += (before.empty() ? "" : " ") + asked->get_name();
         asked = asked->get_subcommands().front();
       }
-      fmt::print("{}", asked->help(before));
+      print_result(asked->help(before));
       return kYes;
     } catch (const CLI::Success& e) {
-      fmt::print("{}\n", e.what());
+      print_result(fmt::format("{}\n", e.what()));
       return kYes;
     } catch (const CLI::ParseError& e) {
       const CLI::App* asked = &app_;
@@ -70,7 +71,7 @@ class Reader {
       std::string complaint = e.what();
       if (const std::string names = command_names(*asked); !names.empty())
         complaint = "which command? " + names;
-      fmt::print(stderr, "{}: {}\nsee {} --help\n", name, complaint, name);
+      tell(fmt::format("{}: {}\nsee {} --help\n", name, complaint, name));
       return kNotStarted;
     }
     return arguments_;

@@ -12,7 +12,7 @@ struct LibraryVersion {
 };
 
 std::string_view build_compiler();  ///< "gcc 12.2.0"
-std::string_view build_flags();     ///< "Release, -O3"
+std::string_view build_flags();     ///< "Release, -O3"; "Release, -O3, hardened"
 std::span<const LibraryVersion> build_libraries();
 /// "a659377", "v0.1.0-5-ga659377-dirty": the output of `git describe` for the sources; "unknown" without git.
 std::string_view build_commit();

@@ -5,7 +5,7 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/log_notes.h"
-#include "emulator/cli/output_file.h"
+#include "emulator/cli/result_file.h"
 #include "emulator/text/text.h"
 
 namespace kadr::cli {
@@ -32,9 +32,7 @@ int compare_logs(const Arguments& arguments, Console& console) {
   if (!name.empty()) {
     const std::string page = log_tools::render_compare_page(
         std::move(runs), static_cast<std::size_t>(arguments.exported.max_size_mb * 1e6));
-    OutputFile file(name);
-    file.write(page);
-    file.close();
+    write_file(name, page);
     console.note(fmt::format("wrote {}: {}", name, text::bytes_text(static_cast<std::int64_t>(page.size()))));
   }
   return kYes;

@@ -4,32 +4,20 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <system_error>
 #include <tuple>
 
+#include "emulator/cli/standard_streams.h"
 #include "emulator/text/text.h"
+#include "machine/base/write_all.h"
 
 namespace kadr::cli {
 namespace {
 
 constexpr std::size_t kMaxErrors = 20;
 constexpr std::size_t kBuffer_bytes = std::size_t{1} << 18;
-
-/// Writes all of a text to a file descriptor; false with errno if that fails.
-bool write_all(int fd, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(fd, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
 
 bool set(const char* variable) {
   const char* value = std::getenv(variable);
@@ -59,16 +47,14 @@ void Console::data(std::string_view text) {
 }
 
 void Console::flush() {
-  const bool written = write_all(STDOUT_FILENO, buffer_);
-  const int reason = errno;
-  buffer_.clear();
-  if (written) return;
-  if (reason == EPIPE) {
-    // the reader has closed the pipe: end as every filter does
-    std::signal(SIGPIPE, SIG_DFL);
-    std::raise(SIGPIPE);
+  try {
+    print_result(buffer_);
+  } catch (...) {
+    // what can't be written is not tried again
+    buffer_.clear();
+    throw;
   }
-  throw WorldError(fmt::format("standard output: {}", std::strerror(reason)));
+  buffer_.clear();
 }
 
 void Console::finish(int exit_code) {
@@ -84,7 +70,7 @@ void Console::finish(int exit_code) {
 
 void Console::message(std::string_view text) {
   flush();
-  write_all(STDERR_FILENO, text);
+  tell(text);
 }
 
 void Console::note(std::string_view text) {

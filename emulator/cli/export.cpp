@@ -5,7 +5,7 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/log_notes.h"
-#include "emulator/cli/output_file.h"
+#include "emulator/cli/result_file.h"
 #include "emulator/log_tools/export/export.h"
 #include "emulator/text/text.h"
 
@@ -112,7 +112,7 @@ int export_log(const Arguments& arguments, Console& console) {
     console.data(signal_list(*log));
     return kYes;
   }
-  std::optional<OutputFile> file;
+  std::optional<ResultFile> file;
   if (!out.output_path.empty() && out.output_path != "-") file.emplace(out.output_path);
   std::int64_t bytes = 0;
   write(*log, out.form, [&](std::string_view text) {

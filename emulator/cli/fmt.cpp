@@ -1,52 +1,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <string>
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
+#include "emulator/cli/result_file.h"
 #include "gcode/gcode.h"
 
 /// `kadr fmt`: programs in normal form.
 namespace kadr::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using text::Json;
-
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-  throw WorldError(fmt::format("{}: {}", path.string(), reason));
-}
-
-/// Replaces the text of a file atomically: a reader sees the old text or the new one.
-void replace_file(const std::string& path, const std::string& text) {
-  std::error_code error;
-  // a symbolic link stays a link
-  const fs::path file = fs::canonical(path, error);
-  if (error) fail(path, error.message());
-  fs::path part = file;
-  part += ".part";
-  std::FILE* out = std::fopen(part.c_str(), "wx");
-  if (!out) fail(part, std::strerror(errno));
-  const bool written = std::fwrite(text.data(), 1, text.size(), out) == text.size();
-  const int reason = errno;
-  if (std::fclose(out) != 0 || !written) {
-    const std::string why = std::strerror(written ? errno : reason);
-    fs::remove(part, error);
-    fail(part, why);
-  }
-  fs::permissions(part, fs::status(file).permissions(), error);
-  fs::rename(part, file, error);
-  if (!error) return;
-  const std::string why = error.message();
-  fs::remove(part, error);
-  fail(file, why);
-}
 
 struct Formatted {
   bool readable = false;
@@ -68,7 +35,8 @@ int act(const Formatted& formatted, const std::string& path, const Arguments& ar
     console.error(fmt::format("{}: left unchanged; fix its errors first", path));
     return code;
   }
-  if (formatted.differs) replace_file(path, formatted.text);
+  // a reader sees the old text or the new one
+  if (formatted.differs) write_file(path, formatted.text, {.own_input = true});
   return code;
 }
 

@@ -9,18 +9,19 @@
 
 #include "emulator/cli/console.h"
 #include "emulator/cli/exit_codes.h"
+#include "emulator/cli/standard_streams.h"
 #include "machine/base/require.h"
 
 namespace kadr::cli {
 namespace {
 
 int report_fault(const char* what, int argc, const char* const* argv) {
-  fmt::print(stderr,
-             "kadr: this is a fault of kadr, not of your files; please report it\n"
-             "  promise:   {}\n"
-             "  version:   {}\n"
-             "  reproduce: {}\n",
-             what, KADR_VERSION, shell_line(argc, argv));
+  tell(
+      fmt::format("kadr: this is a fault of kadr, not of your files; please report it\n"
+                  "  promise:   {}\n"
+                  "  version:   {}\n"
+                  "  reproduce: {}\n",
+                  what, KADR_VERSION, shell_line(argc, argv)));
   return kInternal;
 }
 
@@ -48,15 +49,15 @@ int guarded(int argc, const char* const* argv, const std::function<int()>& work)
   try {
     return work();
   } catch (const WorldError& e) {
-    fmt::print(stderr, "kadr: {}\n", e.what());
+    tell(fmt::format("kadr: {}\n", e.what()));
     return kNotStarted;
   } catch (const BrokenPromise& e) {
     return report_fault(e.what(), argc, argv);
   } catch (const std::system_error& e) {
-    fmt::print(stderr, "kadr: {}\n", e.what());
+    tell(fmt::format("kadr: {}\n", e.what()));
     return kNotStarted;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "kadr: out of memory\n");
+    tell("kadr: out of memory\n");
     return kNotStarted;
   } catch (const std::exception& e) {
     return report_fault(e.what(), argc, argv);

@@ -2,7 +2,7 @@
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
-#include "emulator/cli/output_file.h"
+#include "emulator/cli/result_file.h"
 #include "emulator/studies/point_to_point/point_page.h"
 #include "emulator/studies/point_to_point/point_report.h"
 
@@ -37,13 +37,6 @@ int print_table2(Console& console) {
   return kYes;
 }
 
-void write_whole(const std::string& path, const std::string& text) {
-  if (path.empty()) return;
-  OutputFile file(path);
-  file.write(text);
-  file.close();
-}
-
 }  // namespace
 
 int compare_laws(const Arguments& arguments, Console& console) {
@@ -51,9 +44,9 @@ int compare_laws(const Arguments& arguments, Console& console) {
   const studies::PointQuestion& question = arguments.point;
   const auto study = studies::study_point_laws(question);
   if (!study) return refuse(study.error(), console);
-  write_whole(arguments.csv_path, studies::point_csv(*study));
+  if (!arguments.csv_path.empty()) write_file(arguments.csv_path, studies::point_csv(*study));
   if (!arguments.page_path.empty())
-    write_whole(arguments.page_path, studies::render_point_page(question, *study));
+    write_file(arguments.page_path, studies::render_point_page(question, *study));
   if (console.options().json) {
     Json j = document_head(kYes);
     j.update(studies::json_of(question, *study));

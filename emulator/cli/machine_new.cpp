@@ -8,7 +8,8 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
-#include "emulator/cli/write_file.h"
+#include "emulator/cli/result_file.h"
+#include "emulator/cli/standard_streams.h"
 #include "emulator/text/text.h"
 #include "machine/base/parse_number.h"
 #include "machine/base/require.h"
@@ -157,7 +158,7 @@ int write_sheet(const Arguments& arguments, const DataSheetWords& words, const s
   const std::string path = name + ".toml";
   const std::string text = machine::render_data_sheet(*sheet, name);
   check_text(text, path);
-  write_file(path, text, arguments.force);
+  write_file(path, text, {.overwrite = arguments.force});
   if (console.options().json) {
     Json j({{"file", path}, {"name", name}, {"copied_from", nullptr}});
     j["axes"] = Json::array();
@@ -230,8 +231,7 @@ std::string given_wrong(DataSheetWords words) {
 }
 
 std::string answer(const Question& question) {
-  fmt::print("{}: ", question.text);
-  std::fflush(stdout);
+  print_result(fmt::format("{}: ", question.text));
   std::string line;
   if (!std::getline(std::cin, line)) throw WorldError("--ask: no answer, nothing is written");
   return line.empty() ? std::string(question.otherwise) : line;
@@ -255,7 +255,7 @@ void ask(DataSheetWords& words) {
       if (word.empty() && question.must) continue;
       const std::string wrong = complaint(words, question);
       if (wrong.empty()) break;
-      fmt::print("{}\n", wrong);
+      print_result(wrong + '\n');
     }
     if (question.word == &DataSheetWords::axes) check_given();  // the lists among them
   }
@@ -270,7 +270,7 @@ int copy_machine(const Arguments& arguments, const std::string& name, Console& c
     return kNotStarted;
   }
   const std::string path = name + ".toml";
-  write_file(path, renamed(machine.text, name), arguments.force);
+  write_file(path, renamed(machine.text, name), {.overwrite = arguments.force});
   if (console.options().json)
     console.document(Json({{"file", path}, {"name", name}, {"copied_from", machine.model.name}}));
   else if (!console.options().quiet)

@@ -4,6 +4,8 @@
 #include "emulator/cli/console.h"
 #include "emulator/cli/guard.h"
 #include "emulator/cli/signals.h"
+#include "emulator/cli/standard_streams.h"
+#include "machine/base/input_files.h"
 
 namespace kadr::cli {
 namespace {
@@ -22,6 +24,8 @@ int work(int argc, const char* const* argv) {
 }  // namespace kadr::cli
 
 int main(int argc, char** argv) {
+  kadr::cli::open_missing_streams();
   kadr::cli::ignore_write_signals();
+  const kadr::InputMemory inputs;
   return kadr::cli::guarded(argc, argv, [&] { return kadr::cli::work(argc, argv); });
 }

@@ -9,6 +9,15 @@ std::vector<std::string> names_with_equals(std::vector<std::string> names) {
   return names;
 }
 
+constexpr std::string_view kLogBytes = "log_bytes";
+
+/// The names that --limit takes; `log`: of a command that writes a log.
+std::vector<std::string> limit_names(bool log) {
+  std::vector<std::string> names = gcode::bound_names();
+  if (log) names.emplace_back(kLogBytes);
+  return names;
+}
+
 }  // namespace
 
 CLI::App* Options::command(CLI::App& parent, const std::string& name, Run value,
@@ -59,7 +68,8 @@ void Options::machine(CLI::App* sub) {
       ->take_all();
 }
 
-void Options::reading(CLI::App* sub) {
+void Options::reading(CLI::App* sub, Writes writes) {
+  const bool log = writes == Writes::log;
   sub->add_flag("--block-delete", arguments.block_delete, "Skip lines that begin with / (block delete)");
   sub->add_option("--subs", arguments.sub_folders,
                   "Folder to search for called files, after the program's own; repeatable")
@@ -68,11 +78,12 @@ void Options::reading(CLI::App* sub) {
       ->take_all();
   sub->add_option_function<std::vector<std::string>>(
          "--limit",
-         [this](const std::vector<std::string>& texts) {
-           for (const std::string& text : texts) limit(text);
+         [this, log](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) limit(text, log);
          },
-         "Set a bound on programs: blocks, call_depth, loop_passes, file_bytes or line_bytes; 0: no bound;\n"
-         "repeatable")
+         fmt::format("Set a bound on programs: blocks, call_depth, loop_passes, file_bytes or line_bytes{}"
+                     "0: no bound; repeatable",
+                     log ? ", or on\nthe log: log_bytes; " : ";\n"))
       ->type_name("NAME=N")
       ->allow_extra_args(false)
       ->take_all();
@@ -91,18 +102,22 @@ void Options::reading(CLI::App* sub) {
              "Where controllers read codes differently, read them as this one does: {} (default linuxcnc)",
              gcode::kDialects.list("|")))
       ->type_name("WORD");
-  words(sub->get_option("--limit"), names_with_equals(gcode::bound_names()));
+  words(sub->get_option("--limit"), names_with_equals(limit_names(log)));
   words(sub->get_option("--dialect"), gcode::kDialects.strings());
 }
 
-void Options::limit(const std::string& text) {
+void Options::limit(const std::string& text, bool log) {
   const auto equals = text.find('=');
   const std::string name = text.substr(0, equals);
   std::uint64_t value = 0;
   const bool number = equals != std::string::npos && read_number(text.substr(equals + 1), value);
+  if (number && log && name == kLogBytes) {
+    arguments.log_bytes = value;
+    return;
+  }
   if (!number || !gcode::set_bound(arguments.bounds, name, value))
     throw CLI::ValidationError(fmt::format("--limit takes NAME=N with NAME one of {} (0: no bound); got '{}'",
-                                           fmt::join(gcode::bound_names(), " "), text));
+                                           fmt::join(limit_names(log), " "), text));
 }
 
 void Options::strict(CLI::App* sub) {

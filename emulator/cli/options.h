@@ -39,7 +39,8 @@ class Options {
   void diagnostics(CLI::App* sub);
   void progress(CLI::App* sub);
   void machine(CLI::App* sub);
-  void reading(CLI::App* sub);
+  enum class Writes : std::uint8_t { nothing, log };
+  void reading(CLI::App* sub, Writes writes = Writes::nothing);
   void strict(CLI::App* sub);
   CLI::Option* programs(CLI::App* sub, const std::string& name, bool several);
 
@@ -73,7 +74,7 @@ class Options {
   }
 
  private:
-  void limit(const std::string& text);
+  void limit(const std::string& text, bool log);
 };
 
 /// The commands, by subject.

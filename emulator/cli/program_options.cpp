@@ -20,7 +20,7 @@ void add_run(Options& o) {
           "--no-log writes no log, --log writes '{}': give only one of them", o.arguments.log_path));
   });
   o.machine(sub);
-  o.reading(sub);
+  o.reading(sub, Options::Writes::log);
   sub->add_option("-s,--scenario", o.arguments.scenario,
                   "Take PROG, machine and settings from this scenario where the command line gives none "
                   "(`kadr scenario\n"

@@ -4,9 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <string_view>
+
+#include "emulator/cli/standard_streams.h"
 
 namespace kadr::cli {
 namespace {
@@ -73,17 +74,17 @@ double ProgressLine::wall_s() const {
 void ProgressLine::show(const std::string& text) {
   const double now_s = wall_s();
   if (kind_ == Kind::bar) {
-    fmt::print(stderr, "\r{}\x1b[K", text);
+    tell(fmt::format("\r{}\x1b[K", text));
     drawn_ = true;
     next_s_ = now_s + kRedraw_s;
   } else {
-    fmt::print(stderr, "{}\n", text);
+    tell(text + '\n');
     next_s_ = now_s + kPlainEvery_s;
   }
 }
 
 void ProgressLine::erase() {
-  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+  if (drawn_) tell("\r\x1b[K");
   drawn_ = false;
 }
 

@@ -3,7 +3,7 @@
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/log_notes.h"
-#include "emulator/cli/output_file.h"
+#include "emulator/cli/result_file.h"
 #include "emulator/log_tools/report/report_page.h"
 #include "emulator/text/text.h"
 
@@ -48,9 +48,7 @@ int report_log(const Arguments& arguments, Console& console) {
   if (name == "-") {
     console.data(page);
   } else {
-    OutputFile file(name);
-    file.write(page);
-    file.close();
+    write_file(name, page);
     console.note(fmt::format("wrote {}: {}", name, text::bytes_text(static_cast<std::int64_t>(page.size()))));
   }
   if (!whole) console.error(fmt::format("{}: the log breaks off; the page says where", path));

@@ -16,6 +16,7 @@
 #include "emulator/log/alarm_list.h"
 #include "emulator/scenario/scenario.h"
 #include "emulator/text/text.h"
+#include "machine/base/output_file.h"
 
 namespace kadr::cli {
 namespace {
@@ -29,22 +30,20 @@ std::string default_log_path(const std::string& program) {
   return (stem.empty() ? "program" : stem) + ".lcmlog";
 }
 
-bool same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  return fs::equivalent(a, b, ignored);
-}
-
-/// Refuses a log path that would overwrite one of the inputs.
-void refuse_bad_log_path(const std::string& log, const Arguments& arguments, const std::string& program) {
+/// Refuses a log path before anything is said of it: one that can't be written, or where the summary goes too.
+void refuse_bad_log_path(const std::string& log, const OutputOptions& output) {
   if (log == "-")
-    throw WorldError("a log can't go to standard output: it is written beside and renamed at the end");
-  for (const std::string* input : {&program, &arguments.machine, &arguments.tools, &arguments.scenario})
-    if (!input->empty() && (same_file(log, *input) || same_file(log + ".part", *input)))
-      throw WorldError(fmt::format("{}: -o would overwrite this input", *input));
-  if (fs::is_directory(log)) throw WorldError(fmt::format("{}: is a folder; -o names the log itself", log));
+    throw WorldError(
+        "a log and the summary can't both go to standard output: -q -o /dev/stdout writes the log there");
+  if (const auto refused = output_refusal(log))
+    throw WorldError(fmt::format("{}: {}", refused->path, refused->reason));
+  const bool has_bytes = fs::status(log).type() != fs::file_type::character;
+  if (has_bytes && is_standard_output(log) && (output.json || !output.quiet))
+    throw WorldError(fmt::format("{}: the summary goes there, too; -q leaves it out", log));
 }
 
 /// Prints the expected size of the log before the run, and the free space if that is too little.
+/// @throws WorldError if it is more than --limit log_bytes allows
 void tell_expected_size(const cycle::Job& job, const Arguments& arguments, const std::string& log,
                         const log::RunHeader& header, Console& console) {
   const machine::MachineModel& model = job.given.machine.model;
@@ -58,6 +57,11 @@ void tell_expected_size(const cycle::Job& job, const Arguments& arguments, const
   const std::int64_t bytes = log::estimate_log_bytes(
       model, run_s, static_cast<std::int64_t>(pulses * part),
       static_cast<std::size_t>(static_cast<double>(job.read.blocks) * part), arguments.plant, text_bytes);
+  if (arguments.log_bytes > 0 && static_cast<std::uint64_t>(bytes) > arguments.log_bytes)
+    throw WorldError(fmt::format(
+        "{}: the log would be about {}, more than log_bytes allows ({}); --limit log_bytes=N allows "
+        "more, 0 any length; --no-log, --until, log.steps=false or log.viewer_rate_hz=0 write less",
+        log, text::bytes_text(bytes), text::bytes_text(static_cast<std::int64_t>(arguments.log_bytes))));
   console.note(fmt::format("log {}, about {} for {} of machine time", log, text::bytes_text(bytes),
                            text::duration_text(run_s)));
   std::error_code error;
@@ -162,7 +166,7 @@ std::unique_ptr<log::RunLog> open_log(const RunInputs& in, const log::RunHeader&
                                       const std::string& path) {
   const Arguments& arguments = in.arguments;
   if (path.empty() && arguments.publish_url.empty()) return nullptr;
-  auto log = log::open_lcm_log({path, arguments.publish_url});
+  auto log = log::open_lcm_log({path, arguments.publish_url, arguments.log_bytes});
   if (!log) fail(log.error());
   if (auto begun = (*log)->begin(header); !begun) fail(begun.error());
   for (const Diagnostic* d : by_place(in.diagnostics))
@@ -233,7 +237,7 @@ int move(const RunInputs& in, const cycle::Job& job, Console& console) {
   cycle::RunOptions options = run_options(in, signals);
   const log::RunHeader header = run_header(job, options, in.scenario_toml);
   if (!log_path.empty()) {
-    refuse_bad_log_path(log_path, arguments, in.sources[in.given.program].name());
+    refuse_bad_log_path(log_path, arguments.output);
     tell_expected_size(job, arguments, log_path, header, console);
   }
   const auto log = open_log(in, header, log_path);
@@ -251,10 +255,10 @@ int move(const RunInputs& in, const cycle::Job& job, Console& console) {
   answers::SummaryContext context = summary_context(in, job, alarms);
   context.wall_s = wall_s;
   if (!log_path.empty()) {
-    context.log_path = result->outcome == log::Outcome::interrupted ? log_path + ".part" : log_path;
+    context.log_path = result->outcome == log::Outcome::interrupted ? written_as(log_path) : log_path;
     std::error_code error;
     const auto size = fs::file_size(context.log_path, error);
-    context.log_bytes = error ? 0 : static_cast<std::int64_t>(size);
+    if (!error) context.log_bytes = static_cast<std::int64_t>(size);
   }
   tell_summary(in, *result, context, console);
   return result->exit_code;

@@ -2,7 +2,7 @@
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
-#include "emulator/cli/output_file.h"
+#include "emulator/cli/result_file.h"
 #include "emulator/log_tools/report/built_pages.h"
 #include "emulator/studies/teach/bezier_report.h"
 #include "emulator/studies/teach/sweep.h"
@@ -49,9 +49,7 @@ int teach_table(const Arguments& arguments, Console& console) {
   studies::PulseTrain train;
   if (timed) train = must(studies::pulse_train(table, teach.timing, teach.feed_steps_s, kClock_hz));
   if (!teach.vcd_path.empty()) {
-    OutputFile vcd(teach.vcd_path);
-    vcd.write(studies::render_vcd(train, kHigh_ticks));
-    vcd.close();
+    write_file(teach.vcd_path, studies::render_vcd(train, kHigh_ticks));
     console.note(fmt::format("wrote {}: {} in {} us", teach.vcd_path, text::counted(table.pulses, "pulse"),
                              text::fixed(static_cast<double>(train.duration.value) / 10, 1)));
   }
@@ -117,9 +115,7 @@ int teach_page(const Arguments& arguments, Console& console) {
     console.data(page);
     return kYes;
   }
-  OutputFile file(path);
-  file.write(page);
-  file.close();
+  write_file(path, page);
   console.note(fmt::format("wrote {}: {}", path, text::bytes_text(static_cast<std::int64_t>(page.size()))));
   return kYes;
 }

@@ -7,8 +7,8 @@
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
 #include "emulator/cli/key_list.h"
-#include "emulator/cli/output_file.h"
 #include "emulator/cli/progress.h"
+#include "emulator/cli/result_file.h"
 #include "emulator/studies/time_law/law_report.h"
 #include "emulator/studies/time_law/problem_keys.h"
 #include "emulator/studies/time_law/sweep_report.h"
@@ -38,15 +38,12 @@ std::vector<PlanMethod> chosen_methods(const Arguments& arguments, const TimeLaw
 void write_files(const Arguments& arguments, const LawStudy& study, const TimeLawProblem& problem,
                  const std::string& name) {
   if (!arguments.csv_path.empty()) {
-    OutputFile csv(arguments.csv_path);
+    ResultFile csv(arguments.csv_path);
     studies::write_law_csv(study, problem, [&](std::string_view text) { csv.write(text); });
     csv.close();
   }
-  if (!arguments.page_path.empty()) {
-    OutputFile page(arguments.page_path);
-    page.write(studies::render_tube_page(study, problem, name));
-    page.close();
-  }
+  if (!arguments.page_path.empty())
+    write_file(arguments.page_path, studies::render_tube_page(study, problem, name));
 }
 
 std::string tables(const Arguments& arguments, const LawStudy& study, const TimeLawProblem& problem,
@@ -86,16 +83,9 @@ int sweep_tube(const Arguments& arguments, const TimeLawProblem& problem, const 
          static_cast<double>(levels - first) / (last - first + 1));
   });
   progress.erase();
-  if (!arguments.csv_path.empty()) {
-    OutputFile csv(arguments.csv_path);
-    csv.write(studies::sweep_csv(sweep));
-    csv.close();
-  }
-  if (!arguments.page_path.empty()) {
-    OutputFile page(arguments.page_path);
-    page.write(studies::render_sweep_page(sweep, problem, name));
-    page.close();
-  }
+  if (!arguments.csv_path.empty()) write_file(arguments.csv_path, studies::sweep_csv(sweep));
+  if (!arguments.page_path.empty())
+    write_file(arguments.page_path, studies::render_sweep_page(sweep, problem, name));
   const int code = sweep.good() ? kYes : kNo;
   if (console.options().json) {
     Json j = {{"kadr", KADR_VERSION}, {"command", "tube"}, {"file", name}, {"exit_code", code}};

@@ -2,7 +2,7 @@
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
-#include "emulator/cli/write_file.h"
+#include "emulator/cli/result_file.h"
 #include "emulator/text/text.h"
 
 /// `kadr wind`: winding programs.

@@ -1,24 +1,34 @@
 #include "emulator/log/event_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 
 #include "emulator/log/wire.h"
+#include "machine/base/input_files.h"
 
 namespace kadr::log {
 
 tl::expected<EventFile, std::string> EventFile::open(const std::string& path) {
   EventFile events;
-  errno = 0;
-  events.file_.reset(std::fopen(path.c_str(), "rb"));
-  if (!events.file_) return tl::unexpected(std::string(std::strerror(errno)));
+  const auto because = [](int number) { return tl::unexpected(std::string(std::strerror(number))); };
+  // a FIFO would wait for a writer, and a tape would move
+  const int fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  if (fd < 0) return because(errno);
+  events.file_.reset(::fdopen(fd, "rb"));
+  if (!events.file_) {
+    const int reason = errno;
+    ::close(fd);
+    return because(reason);
+  }
   struct stat status {};
-  if (::fstat(::fileno(events.file_.get()), &status) != 0)
-    return tl::unexpected(std::string(std::strerror(errno)));
+  if (::fstat(fd, &status) != 0) return because(errno);
   if (!S_ISREG(status.st_mode)) return tl::unexpected(std::string("not a regular file"));
+  note_input_file(status);
   events.size_ = status.st_size;
   constexpr std::size_t kBuffer = std::size_t{1} << 18;
   std::setvbuf(events.file_.get(), nullptr, _IOFBF, kBuffer);

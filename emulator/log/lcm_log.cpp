@@ -1,7 +1,6 @@
-#include <unistd.h>
+#include <fmt/format.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <lcm/lcm-cpp.hpp>
 #include <optional>
@@ -9,7 +8,9 @@
 #include "emulator/log/block_builder.h"
 #include "emulator/log/log_types.h"
 #include "emulator/log/run_log.h"
+#include "emulator/log/wire.h"
 #include "machine/base/hash.h"
+#include "machine/base/output_file.h"
 #include "machine/base/require.h"
 #include "machine/machine.h"
 
@@ -17,9 +18,6 @@ namespace kadr::log {
 namespace {
 
 using Done = tl::expected<void, LogError>;
-
-/// Whole blocks reach the kernel together, so that a kill leaves them readable.
-constexpr std::size_t kFileBuffer = std::size_t{1} << 18;
 
 std::string error_text(int number) { return number == 0 ? "unknown error" : std::strerror(number); }
 
@@ -29,28 +27,25 @@ std::string with_local_ttl(const std::string& url) {
   return url + (url.find('?') == std::string::npos ? "?ttl=0" : "&ttl=0");
 }
 
-/// The event file (PATH.part until it is whole) and the live channel; every write is checked.
+/// The event file and the live channel; every write is checked.
 class Sink {
  public:
   explicit Sink(const LcmLogOptions& options)
-      : path_(options.path), url_(with_local_ttl(options.publish_url)) {}
+      : path_(options.path), url_(with_local_ttl(options.publish_url)), most_bytes_(options.most_bytes) {}
 
   Done open() {
-    if (!path_.empty()) {
-      errno = 0;
-      file_.emplace(part(), "w");
-      if (!file_->good()) {
-        const int reason = errno;
-        file_.reset();
-        return fail(part(), reason);
-      }
-      std::setvbuf(file_->getFilePtr(), nullptr, _IOFBF, kFileBuffer);
-    }
+    // LCM would open it over whatever is there, and stamp it with the time of the day
+    if (url_.starts_with("file:"))
+      return fail(url_, "a live channel is not a file (udpm://, tcpq://, memq://); -o writes the log");
     if (!url_.empty()) {
       errno = 0;
       live_.emplace(url_);
-      if (!live_->good())
-        return fail(url_, "cannot open this LCM provider (udpm://, tcpq://, file://, memq://)");
+      if (!live_->good()) return fail(url_, "cannot open this LCM provider (udpm://, tcpq://, memq://)");
+    }
+    if (!path_.empty()) {
+      auto file = OutputFile::open(path_, {.keeps_part = true});
+      if (!file) return fail(file.error().path, file.error().reason);
+      file_.emplace(std::move(*file));
     }
     return {};
   }
@@ -65,7 +60,8 @@ class Sink {
   /// Hands everything to the kernel; from then on the file is valid up to `tick`.
   Done flush(Ticks tick) {
     if (error_) return tl::unexpected(*error_);
-    if (file_ && std::fflush(file_->getFilePtr()) != 0) return fail(part(), errno);
+    if (file_)
+      if (auto done = file_->flush(); !done) return fail(done.error().path, done.error().reason);
     valid_until_ = tick;
     return {};
   }
@@ -74,33 +70,35 @@ class Sink {
   Done close(bool whole) {
     live_.reset();
     if (!file_) return {};
-    // some file systems report a failed write only at close(), and LogFile does not look: ask a copy
-    const int copy = ::dup(::fileno(file_->getFilePtr()));
-    if (copy < 0 || ::close(copy) != 0) return fail(part(), errno);
-    file_.reset();
-    if (whole && std::rename(part().c_str(), path_.c_str()) != 0) return fail(path_, errno);
-    return {};
+    const auto done = whole ? file_->finish() : file_->leave();
+    return done ? Done{} : fail(done.error().path, done.error().reason);
   }
 
   std::uint64_t content_hash() const { return content_.digest(); }
 
  private:
-  std::string part() const { return path_ + ".part"; }
-
   Done write_bytes(const std::string& channel, std::int64_t time_us) {
     const auto size = static_cast<std::int32_t>(bytes_.size());
+    const auto channel_size = static_cast<std::int32_t>(channel.size());
     content_.integer(time_us);
-    content_.integer(static_cast<std::int64_t>(channel.size()));
+    content_.integer(channel_size);
     content_.bytes(channel.data(), channel.size());
     content_.integer(size);
     content_.bytes(bytes_.data(), bytes_.size());
     if (file_) {
-      event_.channel = channel;
-      event_.timestamp = time_us;
-      event_.datalen = size;
-      event_.data = bytes_.data();
-      errno = 0;
-      if (file_->writeEvent(&event_) != 0) return fail(part(), errno);
+      WireWriter head(head_);
+      head.i32(static_cast<std::int32_t>(kEventSync));
+      head.i64(events_++);
+      head.i64(time_us);
+      head.i32(channel_size);
+      head.i32(size);
+      file_bytes_ += head_.size() + channel.size() + bytes_.size();
+      if (most_bytes_ > 0 && file_bytes_ > most_bytes_)
+        return fail(written_as(path_), fmt::format("the log is longer than {} bytes; --limit log_bytes=N "
+                                                   "allows more, 0 any length",
+                                                   most_bytes_));
+      for (const std::string_view piece : {text_of(head_), std::string_view(channel), text_of(bytes_)})
+        if (auto done = file_->write(piece); !done) return fail(done.error().path, done.error().reason);
     }
     if (live_) {
       errno = 0;
@@ -109,6 +107,9 @@ class Sink {
     return {};
   }
 
+  static std::string_view text_of(const std::vector<std::uint8_t>& bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  }
   Done fail(const std::string& where, int number) { return fail(where, error_text(number)); }
   Done fail(const std::string& where, const std::string& reason) {
     error_ = LogError{where, reason, valid_until_};
@@ -116,10 +117,12 @@ class Sink {
   }
 
   std::string path_, url_;
-  std::optional<lcm::LogFile> file_;
+  std::optional<OutputFile> file_;
   std::optional<lcm::LCM> live_;
-  lcm::LogEvent event_{};
-  std::vector<std::uint8_t> bytes_;
+  std::uint64_t most_bytes_;
+  std::uint64_t file_bytes_ = 0;
+  std::int64_t events_ = 0;
+  std::vector<std::uint8_t> head_, bytes_;
   Hash64 content_;
   Ticks valid_until_;
   std::optional<LogError> error_;  // the first one stays: nothing is written after a gap

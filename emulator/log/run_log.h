@@ -37,15 +37,16 @@ std::int64_t estimate_log_bytes(const machine::MachineModel& machine, double pla
                                 std::size_t blocks, bool plant = true, std::size_t text_bytes = 0);
 
 struct LcmLogOptions {
-  std::string path;  ///< event log to write ("" : none). Written as path + ".part", renamed by end() unless
-                     ///< the outcome is "interrupted"
+  std::string path;  ///< event log to write ("" : none), by the rules of OutputFile: as path + ".part", which
+                     ///< stays if the run ends early; end() renames it unless the outcome is "interrupted"
   std::string publish_url;  ///< LCM provider to publish to as well ("" : none); "ttl=0" is added to a udpm
-                            ///< URL without a ttl
+                            ///< URL without a ttl; file:// is refused
+  std::uint64_t most_bytes = 0;  ///< a longer log is an error, at the first event beyond it; 0: no bound
 };
 
 /// LCM event log with simulated time stamps (docs/log_format.md). Encodes and writes on the calling thread;
 /// each whole block of log.block_ticks control ticks is handed to the kernel at once, so that a kill loses no
-/// more than the block under way. After an error every call gives that error again and nothing more is written.
+/// more than the block under way. A log of a finished run is handed to the disk before end() returns. After an error every call gives that error again and nothing more is written.
 tl::expected<std::unique_ptr<RunLog>, LogError> open_lcm_log(const LcmLogOptions& options);
 
 }  // namespace kadr::log

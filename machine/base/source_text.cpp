@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "machine/base/diagnostic.h"
+#include "machine/base/input_files.h"
 #include "machine/base/require.h"
 
 namespace kadr {
@@ -74,6 +75,7 @@ SourceText SourceText::open(const std::string& path) {
   if (file.fd < 0) fail(path);
   struct stat status {};
   if (::fstat(file.fd, &status) != 0) fail(path);
+  note_input_file(status);
   const auto size = static_cast<std::size_t>(status.st_size);
   const bool whole_file = S_ISREG(status.st_mode) && (!input || ::lseek(file.fd, 0, SEEK_CUR) == 0);
   if (!whole_file || size < kMapFrom_bytes) return {path, read_all(file.fd, path, whole_file ? size : 0)};

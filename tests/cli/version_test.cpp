@@ -70,3 +70,18 @@ TEST_CASE("the commit is in no log: builds of two commits write the same bytes")
   for (const std::string& text : {scratch.read("square.lcmlog"), run.out, run.err})
     CHECK_FALSE(contains(text, commit));
 }
+
+TEST_CASE("the program is at any address and has read-only relocations; a hardened build has what it says") {
+  if (!test::has_program("readelf")) return;
+  const std::string program = KADR_BINARY_DIR "/kadr";
+  const std::string head = test::shell("readelf -W --file-header --segments --dynamic " + program).out;
+  CHECK(contains(head, "DYN ("));
+  CHECK(contains(head, "GNU_RELRO"));
+  CHECK(contains(head, "BIND_NOW"));
+  const std::string build = Json::parse(call({"version", "--json"}).out)["build"];
+  if (!contains(build, ", hardened")) return;
+  const std::string symbols = test::shell("readelf -W --dyn-syms " + program).out;
+  CHECK(contains(symbols, " __stack_chk_fail"));
+  CHECK(contains(symbols, "__glibcxx_assert_fail"));
+  if (!contains(build, "-O0")) CHECK(contains(symbols, "_chk@GLIBC"));
+}

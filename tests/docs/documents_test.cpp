@@ -108,6 +108,10 @@ TEST_CASE("docs/programs.md: every command gives the output that stands below it
   check_document("docs/programs.md");
 }
 
+TEST_CASE("docs/output.md: every command gives the output that stands below it") {
+  check_document("docs/output.md");
+}
+
 TEST_CASE("an output that differs from the document is seen") {
   const auto document = split_lines(
       "text\n```console\n$ echo one\n> echo two\none\ntwo\n$ false\n(exit 1)\n```\n```\n$ no\n```\n");
