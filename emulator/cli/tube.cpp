@@ -127,7 +127,7 @@ int solve_tube(const Arguments& arguments, Console& console) {
   if (arguments.list) return list_keys(studies::problem_keys(), console);
   if (arguments.files.empty()) {
     console.error(
-        "which problem? e.g. kadr tube docs/tube/laying.toml; kadr tube --keys lists the keys of one");
+        "PROBLEM is required, e.g. kadr tube docs/tube/laying.toml; kadr tube --keys lists the keys of one");
     return kNotStarted;
   }
   const std::string& path = arguments.files.front();
