@@ -71,8 +71,8 @@ void Options::reading(CLI::App* sub) {
          [this](const std::vector<std::string>& texts) {
            for (const std::string& text : texts) limit(text);
          },
-         "Set a bound on programs: blocks, call_depth, loop_passes, file_bytes or line_bytes; 0: no bound;\n"
-         "repeatable")
+         fmt::format("Set a bound on programs; 0: no bound; repeatable; one of\n{}",
+                     fmt::join(gcode::bound_names(), ", ")))
       ->type_name("NAME=N")
       ->allow_extra_args(false)
       ->take_all();
