@@ -17,7 +17,7 @@
 #include "planner/path/path.h"
 
 /// The cycle: program -> path -> law -> step pulses -> plant -> log, event to event.
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// How a wait ends (M66).
 struct WaitOutcome {
@@ -175,7 +175,8 @@ struct BlockSummary {
 BlockSummary block_summary(const planner::Path& path, const planner::FeedPlan& plan, std::size_t segment);
 
 /// Planned time by what held the feed, longest first; dwells count as "dwell".
-std::vector<LimitShare> limit_shares(const planner::MotionLaw& law, const machine::MachineModel& machine);
+std::vector<log::LimitShare> limit_shares(const planner::MotionLaw& law,
+                                          const machine::MachineModel& machine);
 /// "program", "junction", "axis X speed", ...
 std::string limited_by_text(planner::LimitedBy reason, int axis, const machine::MachineModel& machine);
 
@@ -185,7 +186,7 @@ struct SessionOptions {
   bool live_operator = false;  ///< Session::operate() may come: a hold does not end the run
   std::size_t warnings = 0;    ///< of the program: RunSummary::warnings
   /// What the run's command will answer to the shell: RunSummary::exit_code. None: 0.
-  std::function<int(const RunSummary&)> exit_code;
+  std::function<int(const log::RunSummary&)> exit_code;
 };
 
 /// How a program is run to its end.
@@ -203,6 +204,6 @@ struct RunFailure {
 };
 
 /// Runs a prepared job to its end: a loop over a Session. Records go to `log` (may be null).
-tl::expected<RunSummary, RunFailure> run(const Job& job, RunLog* log, const RunOptions& options);
+tl::expected<log::RunSummary, RunFailure> run(const Job& job, log::RunLog* log, const RunOptions& options);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

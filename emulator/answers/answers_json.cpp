@@ -5,8 +5,10 @@
 #include "emulator/text/units.h"
 #include "machine/base/hash.h"
 
-namespace kadr::emulator {
+namespace kadr::answers {
 namespace {
+
+using text::Json;
 
 double at_seconds(Ticks ticks, const machine::MachineModel& model) {
   return static_cast<double>(ticks.value) / static_cast<double>(model.clock.base_hz);
@@ -18,11 +20,11 @@ Json limit(double value) {
   return value;
 }
 
-Json axis_json(const AxisSummary& x, const machine::AxisModel& axis, const machine::MachineModel& model,
+Json axis_json(const log::AxisSummary& x, const machine::AxisModel& axis, const machine::MachineModel& model,
                bool plant) {
   Json j;
   j["axis"] = std::string(1, axis.letter);
-  j["unit"] = axis_unit(axis);
+  j["unit"] = text::axis_unit(axis);
   j["pulses"] = x.pulses;
   j["net_steps"] = x.net_steps.value;
   j["end_steps"] = x.end_steps.value;
@@ -57,7 +59,7 @@ Json axis_json(const AxisSummary& x, const machine::AxisModel& axis, const machi
   return j;
 }
 
-Json alarm_json(const EventRecord& e, const machine::MachineModel& model) {
+Json alarm_json(const log::EventRecord& e, const machine::MachineModel& model) {
   Json j;
   j["code"] = code_name(e.code);
   j["tick"] = e.tick.value;
@@ -73,14 +75,14 @@ Json alarm_json(const EventRecord& e, const machine::MachineModel& model) {
 
 }  // namespace
 
-Json json_of(const std::vector<LimitShare>& shares) {
+Json json_of(const std::vector<log::LimitShare>& shares) {
   Json list = Json::array();
-  for (const LimitShare& share : shares)
+  for (const log::LimitShare& share : shares)
     list.push_back({{"limited_by", share.limited_by}, {"time_s", share.time_s}});
   return list;
 }
 
-Json json_of(const RunSummary& s, const SummaryContext& c) {
+Json json_of(const log::RunSummary& s, const SummaryContext& c) {
   const machine::MachineModel& model = *c.model;
   Json j;
   j["outcome"] = s.outcome.text();
@@ -112,7 +114,7 @@ Json json_of(const RunSummary& s, const SummaryContext& c) {
   for (const auto& [code, count] : c.alarm_counts) counts[code_name(code)] = count;
   j["alarm_counts"] = std::move(counts);
   Json alarms = Json::array();
-  for (const EventRecord& e : c.alarms) alarms.push_back(alarm_json(e, model));
+  for (const log::EventRecord& e : c.alarms) alarms.push_back(alarm_json(e, model));
   j["alarm_list"] = std::move(alarms);
   j["log"] = c.log_path.empty() ? Json(nullptr) : Json({{"path", c.log_path}, {"bytes", c.log_bytes}});
   return j;
@@ -134,7 +136,7 @@ Json json_of(const CheckResult& r, const machine::MachineModel& model) {
   for (std::size_t a = 0; a < r.travel.size(); ++a) {
     Json x;
     x["axis"] = std::string(1, model.axis[a].letter);
-    x["unit"] = axis_unit(model.axis[a]);
+    x["unit"] = text::axis_unit(model.axis[a]);
     x["min_u"] = r.travel[a].min_u;
     x["max_u"] = r.travel[a].max_u;
     x["soft_min_u"] = limit(model.axis[a].soft_min_u);
@@ -178,4 +180,4 @@ Json json_of(const PlanRow& row) {
   return j;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::answers

@@ -8,11 +8,11 @@
 
 /// The tables of a check, a plan and a run, for programs. `_u` is the unit that the field "unit" next to it
 /// names (mm or deg).
-namespace kadr::emulator {
+namespace kadr::answers {
 
-Json json_of(const std::vector<LimitShare>& shares);
-Json json_of(const RunSummary& summary, const SummaryContext& context);
-Json json_of(const CheckResult& result, const machine::MachineModel& model);
-Json json_of(const PlanRow& row);
+text::Json json_of(const std::vector<log::LimitShare>& shares);
+text::Json json_of(const log::RunSummary& summary, const SummaryContext& context);
+text::Json json_of(const CheckResult& result, const machine::MachineModel& model);
+text::Json json_of(const PlanRow& row);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::answers

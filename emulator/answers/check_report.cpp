@@ -6,16 +6,16 @@
 #include "emulator/text/text.h"
 #include "emulator/text/units.h"
 
-namespace kadr::emulator {
+namespace kadr::answers {
 namespace {
 
 std::string limits_text(const machine::AxisModel& axis) {
   const auto limit = [](double value_u) {
     return value_u == machine::kInfinity || value_u == -machine::kInfinity ? std::string("none")
-                                                                           : fixed(value_u, 3);
+                                                                           : text::fixed(value_u, 3);
   };
   if (axis.soft_min_u == -machine::kInfinity && axis.soft_max_u == machine::kInfinity) return "none";
-  return fmt::format("{} .. {} {}", limit(axis.soft_min_u), limit(axis.soft_max_u), axis_unit(axis));
+  return fmt::format("{} .. {} {}", limit(axis.soft_min_u), limit(axis.soft_max_u), text::axis_unit(axis));
 }
 
 bool outside(const AxisTravel& travel, const machine::AxisModel& axis) {
@@ -25,7 +25,7 @@ bool outside(const AxisTravel& travel, const machine::AxisModel& axis) {
 
 }  // namespace
 
-CheckResult check_result(const Job& job) {
+CheckResult check_result(const cycle::Job& job) {
   CheckResult r;
   r.motion_s = job.planned.plan.motion_s;
   r.dwell_s = job.planned.plan.pause_s;
@@ -33,7 +33,7 @@ CheckResult check_result(const Job& job) {
   r.blocks = job.read.blocks;
   r.travel = axis_travel(job.read.path);
   r.path_unit = path_unit(job.read.path, job.given.machine.model);
-  r.limited_by = limit_shares(job.planned.plan.law, job.given.machine.model);
+  r.limited_by = cycle::limit_shares(job.planned.plan.law, job.given.machine.model);
   for (std::size_t i = 0; i < job.read.path.size(); ++i) {
     const planner::PathSegment& segment = job.read.path.segments[i];
     const planner::SegmentPlan& plan = job.planned.plan.segments[i];
@@ -53,25 +53,26 @@ CheckResult check_result(const Job& job) {
 
 std::string render_check(const CheckResult& r, const std::string& program, const std::string& machine_text,
                          const machine::MachineModel& model) {
-  std::string out = fmt::format("{} on {}\n", one_line(program, 60), one_line(machine_text, 60));
+  std::string out = fmt::format("{} on {}\n", text::one_line(program, 60), text::one_line(machine_text, 60));
   out += fmt::format("  time         {}   ({} cutting, {} rapid, {} standing)   {}\n",
-                     duration_text(r.time_s), duration_text(r.motion_s - r.rapid_s), duration_text(r.rapid_s),
-                     duration_text(r.dwell_s), counted(r.blocks, "block"));
-  out += fmt::format("  path         {} {}   ({} rapid)", fixed(r.path_u, 3), r.path_unit,
-                     fixed(r.rapid_path_u, 3));
+                     text::duration_text(r.time_s), text::duration_text(r.motion_s - r.rapid_s),
+                     text::duration_text(r.rapid_s), text::duration_text(r.dwell_s),
+                     text::counted(r.blocks, "block"));
+  out += fmt::format("  path         {} {}   ({} rapid)", text::fixed(r.path_u, 3), r.path_unit,
+                     text::fixed(r.rapid_path_u, 3));
   if (r.peak_u_s > 0)
-    out += fmt::format("   peak feed {} {} (line {})", fixed(r.peak_u_s, 3), speed_unit(r.path_unit),
-                       r.peak_line);
+    out += fmt::format("   peak feed {} {} (line {})", text::fixed(r.peak_u_s, 3),
+                       text::speed_unit(r.path_unit), r.peak_line);
   out += '\n';
 
-  using Align = TextTable::Align;
-  TextTable table(
+  using Align = text::TextTable::Align;
+  text::TextTable table(
       {{"axis", Align::left}, {"from"}, {"to"}, {"", Align::left}, {"soft limits"}, {"", Align::left}});
   for (std::size_t a = 0; a < r.travel.size(); ++a) {
     const machine::AxisModel& axis = model.axis[a];
     const AxisTravel& t = r.travel[a];
-    table.add({std::string("  ") + axis.letter, fixed(t.min_u, 3), fixed(t.max_u, 3), axis_unit(axis),
-               limits_text(axis),
+    table.add({std::string("  ") + axis.letter, text::fixed(t.min_u, 3), text::fixed(t.max_u, 3),
+               text::axis_unit(axis), limits_text(axis),
                outside(t, axis) ? "OUTSIDE"
                : t.travel_u > 0 ? ""
                                 : "not moved"});
@@ -81,4 +82,4 @@ std::string render_check(const CheckResult& r, const std::string& program, const
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::answers

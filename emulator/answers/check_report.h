@@ -5,7 +5,7 @@
 #include "emulator/answers/travel.h"
 #include "emulator/emulator.h"
 
-namespace kadr::emulator {
+namespace kadr::answers {
 
 /// The result of `kadr check` for a program that could be planned.
 struct CheckResult {
@@ -20,12 +20,12 @@ struct CheckResult {
   double peak_u_s = 0;  ///< highest planned feed
   std::uint32_t peak_line = 0;
   std::vector<AxisTravel> travel;  ///< [axes]
-  std::vector<LimitShare> limited_by;
+  std::vector<log::LimitShare> limited_by;
 };
 
-CheckResult check_result(const Job& job);
+CheckResult check_result(const cycle::Job& job);
 /// The table for people.
 std::string render_check(const CheckResult& result, const std::string& program,
                          const std::string& machine_text, const machine::MachineModel& model);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::answers

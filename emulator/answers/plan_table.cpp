@@ -11,21 +11,21 @@
 #include "machine/words.h"
 #include "planner/positioning/positioning.h"
 
-namespace kadr::emulator {
+namespace kadr::answers {
 namespace {
 
 constexpr std::size_t kTextWidth = 34;
 
 std::size_t width_of(double largest, int decimals, std::size_t least) {
-  return std::max(least, fixed(largest, decimals).size());
+  return std::max(least, text::fixed(largest, decimals).size());
 }
 
-bool is_blockwise(const Job& job) {
+bool is_blockwise(const cycle::Job& job) {
   return job.given.machine.model.planner.scheduler == machine::SchedulerKind::blockwise;
 }
 
 /// Rule, kl and jump of a block of one or more segments: those furthest from none, 1 and 0.
-void add_ticks(const Job& job, std::size_t first, std::size_t end, PlanRow& row) {
+void add_ticks(const cycle::Job& job, std::size_t first, std::size_t end, PlanRow& row) {
   row.blockwise = true;
   auto rule = planner::TickRule::none;
   for (std::size_t i = first; i < end; ++i) {
@@ -39,8 +39,8 @@ void add_ticks(const Job& job, std::size_t first, std::size_t end, PlanRow& row)
   row.rule = planner::kTickRules.word(rule);
 }
 
-void add_rapid(const Job& job, const planner::PositionedSegment& rapid, planner::PositioningPlanner& planner,
-               PlanRow& row) {
+void add_rapid(const cycle::Job& job, const planner::PositionedSegment& rapid,
+               planner::PositioningPlanner& planner, PlanRow& row) {
   row.positioned = true;
   row.rapid_law = machine::kRapidShapes.word(rapid.shape);
   row.rapid_reason = rapid.reason;
@@ -56,18 +56,19 @@ void add_rapid(const Job& job, const planner::PositionedSegment& rapid, planner:
 /// "zv +0.025 s for X 45.00 Hz", and the remaining vibration unless it is zero.
 std::string rapid_text(const PlanRow& row) {
   constexpr double kNothing_u = 5e-7;
-  std::string out = fmt::format("; {} +{} s", row.rapid_law, fixed(row.rapid_loss_s, 3));
+  std::string out = fmt::format("; {} +{} s", row.rapid_law, text::fixed(row.rapid_loss_s, 3));
   for (std::size_t i = 0; i < row.vibrations.size(); ++i)
     out += fmt::format("{} {} {} Hz", i == 0 ? " for" : ",", row.vibrations[i].axis,
-                       fixed(row.vibrations[i].hz, 2));
+                       text::fixed(row.vibrations[i].hz, 2));
   for (const auto& [axis, residual_u] : row.residual_u)
-    if (residual_u > kNothing_u) out += fmt::format(", {} swings {} um", axis, fixed(1e3 * residual_u, 1));
+    if (residual_u > kNothing_u)
+      out += fmt::format(", {} swings {} um", axis, text::fixed(1e3 * residual_u, 1));
   return out;
 }
 
 }  // namespace
 
-void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>& sink) {
+void for_each_plan_row(const cycle::Job& job, const std::function<void(const PlanRow&)>& sink) {
   const machine::MachineModel& machine = job.given.machine.model;
   std::size_t next_event = 0;
   double time_s = 0;
@@ -78,7 +79,7 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
          ++next_event) {
       const gcode::Block& block = job.read.events[next_event].block;
       PlanRow row;
-      row.time_s = hold_time_s(job.read.events[next_event], machine);
+      row.time_s = cycle::hold_time_s(job.read.events[next_event], machine);
       if (!(row.time_s > 0)) continue;
       row.line = block.span.line;
       row.text = job.sources[block.span.file].line(row.line);
@@ -92,7 +93,7 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
   for (std::size_t i = 0; i < job.read.path.size();) {
     pauses_before(i);
     const planner::PathSegment& segment = job.read.path.segments[i];
-    const BlockSummary block = block_summary(job.read.path, job.planned.plan, i);
+    const cycle::BlockSummary block = cycle::block_summary(job.read.path, job.planned.plan, i);
     PlanRow row;
     row.line = segment.span.line;
     row.text = job.sources[segment.span.file].line(row.line);
@@ -104,7 +105,7 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
     row.programmed_u_s = block.programmed_u_s;
     row.peak_u_s = block.peak_u_s;
     row.end_u_s = block.end_u_s;
-    row.limited_by = limited_by_text(block.limited_by, block.limiting_axis, machine);
+    row.limited_by = cycle::limited_by_text(block.limited_by, block.limiting_axis, machine);
     if (is_blockwise(job)) add_ticks(job, i, block.end_segment, row);
     if (rapid != job.planned.plan.positioned.end() && rapid->segment == i)
       add_rapid(job, *rapid++, rapids, row);
@@ -115,7 +116,7 @@ void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>
   pauses_before(job.read.path.size());
 }
 
-PlanTable::PlanTable(const Job& job)
+PlanTable::PlanTable(const cycle::Job& job)
     : blockwise_(is_blockwise(job)), unit_(path_unit(job.read.path, job.given.machine.model)) {
   double longest_u = 0, fastest_u_s = 0, slowest_s = 0;
   std::uint32_t last_line = 1;
@@ -136,27 +137,28 @@ std::string PlanTable::head(std::string_view name, std::string_view per) const {
 }
 
 std::string PlanTable::title() const {
-  return fmt::format("{}  {}  {}  {}  {}  {}  {}{}{}  limited by\n", pad_left("line", line_width_),
-                     pad_right("text", kTextWidth), pad_left(head("length"), length_width_),
-                     pad_left("time s", time_width_), pad_left(head("F", "/s"), speed_width_),
-                     pad_left(head("peak", "/s"), speed_width_), pad_left(head("end", "/s"), speed_width_),
-                     blockwise_ ? "  rule      kl  " + pad_left(head("jump", "/s"), speed_width_) : "",
+  return fmt::format("{}  {}  {}  {}  {}  {}  {}{}{}  limited by\n", text::pad_left("line", line_width_),
+                     text::pad_right("text", kTextWidth), text::pad_left(head("length"), length_width_),
+                     text::pad_left("time s", time_width_), text::pad_left(head("F", "/s"), speed_width_),
+                     text::pad_left(head("peak", "/s"), speed_width_),
+                     text::pad_left(head("end", "/s"), speed_width_),
+                     blockwise_ ? "  rule      kl  " + text::pad_left(head("jump", "/s"), speed_width_) : "",
                      mixed() ? "  unit    " : "");
 }
 
 std::string PlanTable::row(const PlanRow& r) const {
   const bool pause = r.limited_by.empty();
   const auto number = [&](double value, std::size_t width) {
-    return pause ? std::string(width, ' ') : pad_left(fixed(value, 3), width);
+    return pause ? std::string(width, ' ') : text::pad_left(text::fixed(value, 3), width);
   };
   std::string out = fmt::format(
-      "{}  {}  {}  {}  {}  {}  {}", pad_left(std::to_string(r.line), line_width_),
-      pad_right(one_line(r.text, kTextWidth), kTextWidth), number(r.length_u, length_width_),
-      pad_left(fixed(r.time_s, 3), time_width_),
-      r.motion == "rapid" ? pad_left("rapid", speed_width_) : number(r.programmed_u_s, speed_width_),
+      "{}  {}  {}  {}  {}  {}  {}", text::pad_left(std::to_string(r.line), line_width_),
+      text::pad_right(text::one_line(r.text, kTextWidth), kTextWidth), number(r.length_u, length_width_),
+      text::pad_left(text::fixed(r.time_s, 3), time_width_),
+      r.motion == "rapid" ? text::pad_left("rapid", speed_width_) : number(r.programmed_u_s, speed_width_),
       number(r.peak_u_s, speed_width_), number(r.end_u_s, speed_width_));
   if (blockwise_)
-    out += fmt::format("  {:<4}  {:>6}  {}", r.rule, pause ? "" : fixed(r.kl, 4),
+    out += fmt::format("  {:<4}  {:>6}  {}", r.rule, pause ? "" : text::fixed(r.kl, 4),
                        number(r.end_jump_u_s, speed_width_));
   if (mixed()) out += pause ? "          " : fmt::format("  {:<8}", fmt::format("{0} {0}/s", r.unit));
   out += "  " + (pause ? r.motion : r.limited_by);
@@ -164,20 +166,20 @@ std::string PlanTable::row(const PlanRow& r) const {
   return out + '\n';
 }
 
-std::string PlanTable::footer(const Job& job, std::size_t rows) const {
+std::string PlanTable::footer(const cycle::Job& job, std::size_t rows) const {
   const planner::Smoothing& smoothing = job.read.path.smoothing;
-  std::string out =
-      fmt::format("{}, {}: {} in motion, {} standing\n", counted(static_cast<std::int64_t>(rows), "row"),
-                  duration_text(job.planned.plan.motion_s + job.planned.plan.pause_s),
-                  duration_text(job.planned.plan.motion_s), duration_text(job.planned.plan.pause_s));
+  std::string out = fmt::format(
+      "{}, {}: {} in motion, {} standing\n", text::counted(static_cast<std::int64_t>(rows), "row"),
+      text::duration_text(job.planned.plan.motion_s + job.planned.plan.pause_s),
+      text::duration_text(job.planned.plan.motion_s), text::duration_text(job.planned.plan.pause_s));
   if (smoothing.corners > 0)
     out += fmt::format("G64 P: {} rounded, at most {} {} from the program\n",
-                       counted(static_cast<std::int64_t>(smoothing.corners), "corner"),
-                       fixed(smoothing.corner_deviation_u, 4), unit_);
+                       text::counted(static_cast<std::int64_t>(smoothing.corners), "corner"),
+                       text::fixed(smoothing.corner_deviation_u, 4), unit_);
   if (smoothing.curves > 0)
     out += fmt::format("G64 P: {} lines became curves through their points, at most {} {} from the program\n",
-                       grouped(static_cast<std::int64_t>(smoothing.curves)),
-                       fixed(smoothing.curve_deviation_u, 4), unit_);
+                       text::grouped(static_cast<std::int64_t>(smoothing.curves)),
+                       text::fixed(smoothing.curve_deviation_u, 4), unit_);
   return out;
 }
 
@@ -205,4 +207,4 @@ std::string plan_csv_row(const PlanRow& row, const machine::MachineModel& machin
                      row.limited_by, ticks, rapid, quoted);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::answers

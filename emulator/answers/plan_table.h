@@ -8,7 +8,7 @@
 
 #include "emulator/emulator.h"
 
-namespace kadr::emulator {
+namespace kadr::answers {
 
 /// One motion block of a planned program, or a pause between motions (dwell, tool change).
 struct PlanRow {
@@ -43,16 +43,16 @@ struct PlanRow {
 };
 
 /// Calls `sink` for each row in program order. Nothing is kept, so a program of a million lines costs no memory.
-void for_each_plan_row(const Job& job, const std::function<void(const PlanRow&)>& sink);
+void for_each_plan_row(const cycle::Job& job, const std::function<void(const PlanRow&)>& sink);
 
 /// Column titles and rows of the table for people; widths are fixed by the whole plan, so that rows can be streamed.
 class PlanTable {
  public:
-  explicit PlanTable(const Job& job);
+  explicit PlanTable(const cycle::Job& job);
   std::string title() const;
   std::string row(const PlanRow& row) const;
   /// "17 rows, 38.412 s: 36.212 s in motion, 2.200 s standing"
-  std::string footer(const Job& job, std::size_t rows) const;
+  std::string footer(const cycle::Job& job, std::size_t rows) const;
 
  private:
   bool mixed() const { return unit_ == "mm+deg"; }
@@ -69,4 +69,4 @@ std::string plan_csv_title(const machine::MachineModel& machine);
 /// Dot, comma, LF; shortest digits that read back to the same number; text in quotes.
 std::string plan_csv_row(const PlanRow& row, const machine::MachineModel& machine);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::answers

@@ -10,24 +10,24 @@
 #include "machine/base/hash.h"
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::answers {
 namespace {
 
 constexpr std::size_t kSummaryWidth = 90;
 constexpr std::size_t kHeadWidth = 15;
 constexpr std::size_t kAlarmsShown = 10;
 
-using Align = TextTable::Align;
+using Align = text::TextTable::Align;
 
 std::string head(std::string_view name, const std::string& text) {
-  return pad_right(name, kHeadWidth) + ' ' + text + '\n';
+  return text::pad_right(name, kHeadWidth) + ' ' + text + '\n';
 }
 
 /// A small length: um for a linear, thousandths of a degree for a rotary axis.
 std::string error_number(double value_u) {
   const double value = value_u * 1000;
   const double size = std::fabs(value);
-  return fixed(value, size >= 99.95 ? 1 : size >= 9.995 ? 2 : 3);
+  return text::fixed(value, size >= 99.95 ? 1 : size >= 9.995 ? 2 : 3);
 }
 const char* error_unit(const machine::AxisModel& axis) {
   return axis.kind == machine::AxisKind::rotary ? "mdeg" : "um";
@@ -40,60 +40,62 @@ double seconds(Ticks ticks, const machine::MachineModel& model) {
   return static_cast<double>(ticks.value) / static_cast<double>(model.clock.base_hz);
 }
 
-std::string title(const RunSummary& s, const SummaryContext& c) {
-  std::string left = fmt::format("{} on {}", one_line(c.program, 60), one_line(c.machine, 60));
-  if (!c.scenario.empty()) left += ", scenario " + one_line(c.scenario, 60);
+std::string title(const log::RunSummary& s, const SummaryContext& c) {
+  std::string left = fmt::format("{} on {}", text::one_line(c.program, 60), text::one_line(c.machine, 60));
+  if (!c.scenario.empty()) left += ", scenario " + text::one_line(c.scenario, 60);
   std::string right = s.outcome.text();
   if (c.program_warnings > 0)
-    right += ", " + counted(static_cast<std::int64_t>(c.program_warnings), "warning");
-  if (s.alarms > 0) right += ", " + counted(static_cast<std::int64_t>(s.alarms), "alarm");
-  const std::size_t used = display_width(left) + display_width(right);
+    right += ", " + text::counted(static_cast<std::int64_t>(c.program_warnings), "warning");
+  if (s.alarms > 0) right += ", " + text::counted(static_cast<std::int64_t>(s.alarms), "alarm");
+  const std::size_t used = text::display_width(left) + text::display_width(right);
   return left + std::string(used + 2 < kSummaryWidth ? kSummaryWidth - used : 2, ' ') + right + '\n' +
          std::string(kSummaryWidth, '-') + '\n';
 }
 
-std::string motion_table(const RunSummary& s, const SummaryContext& c) {
-  TextTable table({{"axis", Align::left}, {"steps"}, {"net"}, {"end"}, {"range"}, {"peak feed"}, {"at"}});
+std::string motion_table(const log::RunSummary& s, const SummaryContext& c) {
+  text::TextTable table(
+      {{"axis", Align::left}, {"steps"}, {"net"}, {"end"}, {"range"}, {"peak feed"}, {"at"}});
   for (std::size_t a = 0; a < s.axis.size(); ++a) {
-    const AxisSummary& x = s.axis[a];
+    const log::AxisSummary& x = s.axis[a];
     const machine::AxisModel& axis = c.model->axis[a];
-    const char* unit = axis_unit(axis);
+    const char* unit = text::axis_unit(axis);
     std::vector<std::string> row = {std::string("  ") + axis.letter,
-                                    grouped(x.pulses),
-                                    grouped_signed(x.net_steps.value),
-                                    fmt::format("{} {}", fixed(x.end_u, 3), unit),
-                                    fmt::format("{} .. {}", fixed(x.min_u, 3), fixed(x.max_u, 3)),
-                                    fmt::format("{} {}/s", fixed(x.peak_feed_u_s, 3), unit)};
-    if (x.peak_feed_u_s > 0) row.push_back(fixed(seconds(x.peak_feed_tick, *c.model), 3) + " s");
+                                    text::grouped(x.pulses),
+                                    text::grouped_signed(x.net_steps.value),
+                                    fmt::format("{} {}", text::fixed(x.end_u, 3), unit),
+                                    fmt::format("{} .. {}", text::fixed(x.min_u, 3), text::fixed(x.max_u, 3)),
+                                    fmt::format("{} {}/s", text::fixed(x.peak_feed_u_s, 3), unit)};
+    if (x.peak_feed_u_s > 0) row.push_back(text::fixed(seconds(x.peak_feed_tick, *c.model), 3) + " s");
     while (row.size() < 7) row.emplace_back();
     table.add(std::move(row));
   }
   return table.render();
 }
 
-std::string acceleration_table(const RunSummary& s, const SummaryContext& c) {
-  TextTable table({{"axis", Align::left}, {"acceleration"}, {"of"}, {"jerk"}, {"of"}, {"", Align::left}});
+std::string acceleration_table(const log::RunSummary& s, const SummaryContext& c) {
+  text::TextTable table(
+      {{"axis", Align::left}, {"acceleration"}, {"of"}, {"jerk"}, {"of"}, {"", Align::left}});
   for (std::size_t a = 0; a < s.axis.size(); ++a) {
-    const AxisSummary& x = s.axis[a];
+    const log::AxisSummary& x = s.axis[a];
     const machine::AxisModel& axis = c.model->axis[a];
-    const char* unit = axis_unit(axis);
-    table.add({std::string("  ") + axis.letter, fixed(x.peak_accel_u_s2, 1), fixed(axis.max_accel_u_s2, 1),
-               fixed(x.peak_jerk_u_s3, 0), fixed(axis.max_jerk_u_s3, 0),
-               fmt::format("{0}/s2, {0}/s3", unit)});
+    const char* unit = text::axis_unit(axis);
+    table.add({std::string("  ") + axis.letter, text::fixed(x.peak_accel_u_s2, 1),
+               text::fixed(axis.max_accel_u_s2, 1), text::fixed(x.peak_jerk_u_s3, 0),
+               text::fixed(axis.max_jerk_u_s3, 0), fmt::format("{0}/s2, {0}/s3", unit)});
   }
   return table.render();
 }
 
-std::string load_table(const RunSummary& s, const SummaryContext& c) {
-  TextTable table({{"load (simulated)", Align::left},
-                   {"vibration peak / rms"},
-                   {"at"},
-                   {"", Align::left},
-                   {"residual"},
-                   {"following peak / rms"},
-                   {"lost steps"}});
+std::string load_table(const log::RunSummary& s, const SummaryContext& c) {
+  text::TextTable table({{"load (simulated)", Align::left},
+                         {"vibration peak / rms"},
+                         {"at"},
+                         {"", Align::left},
+                         {"residual"},
+                         {"following peak / rms"},
+                         {"lost steps"}});
   for (std::size_t a = 0; a < s.axis.size(); ++a) {
-    const AxisSummary& x = s.axis[a];
+    const log::AxisSummary& x = s.axis[a];
     const machine::AxisModel& axis = c.model->axis[a];
     const std::string name = std::string("  ") + axis.letter;
     if (!axis.has_plant) {
@@ -102,53 +104,55 @@ std::string load_table(const RunSummary& s, const SummaryContext& c) {
     }
     const bool moved = x.peak_vibration_u > 0;
     table.add({name, error_pair(x.peak_vibration_u, x.rms_vibration_u, axis),
-               moved ? fixed(seconds(x.peak_vibration_tick, *c.model), 3) + " s" : "",
+               moved ? text::fixed(seconds(x.peak_vibration_tick, *c.model), 3) + " s" : "",
                moved && x.peak_vibration_line > 0 ? fmt::format("line {}", x.peak_vibration_line) : "",
                fmt::format("{} {}", error_number(x.residual_u), error_unit(axis)),
-               error_pair(x.peak_following_u, x.rms_following_u, axis), grouped(x.lost_steps.value)});
+               error_pair(x.peak_following_u, x.rms_following_u, axis), text::grouped(x.lost_steps.value)});
   }
   return table.render();
 }
 
 /// Work of the motors; empty without log.energy.
-std::string energy_table(const RunSummary& s, const SummaryContext& c) {
+std::string energy_table(const log::RunSummary& s, const SummaryContext& c) {
   if (!c.plant || !c.model->log.energy) return "";
-  TextTable table({{"energy of motors", Align::left}, {"positive J"}, {"absolute J"}, {"recuperated J"}});
+  text::TextTable table(
+      {{"energy of motors", Align::left}, {"positive J"}, {"absolute J"}, {"recuperated J"}});
   for (std::size_t a = 0; a < s.axis.size(); ++a) {
     if (!c.model->axis[a].has_plant) continue;
-    const AxisSummary& x = s.axis[a];
-    table.add({std::string("  ") + c.model->axis[a].letter, fixed(x.positive_J, 4),
-               fixed(x.positive_J + x.recuperated_J, 4), fixed(x.recuperated_J, 4)});
+    const log::AxisSummary& x = s.axis[a];
+    table.add({std::string("  ") + c.model->axis[a].letter, text::fixed(x.positive_J, 4),
+               text::fixed(x.positive_J + x.recuperated_J, 4), text::fixed(x.recuperated_J, 4)});
   }
   return table.render();
 }
 
-std::string alarm_lines(const RunSummary& s, const SummaryContext& c) {
+std::string alarm_lines(const log::RunSummary& s, const SummaryContext& c) {
   if (s.alarms == 0) return head("alarms", "none");
-  std::string out = head("alarms", grouped(static_cast<std::int64_t>(s.alarms)));
+  std::string out = head("alarms", text::grouped(static_cast<std::int64_t>(s.alarms)));
   for (const auto& [code, count] : c.alarm_counts)
-    out += head("", fmt::format("{} {}, {}", code_name(code), code_entry(code).title,
-                                count == 1 ? "once" : grouped(static_cast<std::int64_t>(count)) + " times"));
-  TextTable table({{"at"}, {"line"}, {"code", Align::left}, {"what", Align::left}});
+    out += head(
+        "", fmt::format("{} {}, {}", code_name(code), code_entry(code).title,
+                        count == 1 ? "once" : text::grouped(static_cast<std::int64_t>(count)) + " times"));
+  text::TextTable table({{"at"}, {"line"}, {"code", Align::left}, {"what", Align::left}});
   for (std::size_t i = 0; i < std::min(c.alarms.size(), kAlarmsShown); ++i) {
-    const EventRecord& e = c.alarms[i];
-    table.add({fixed(seconds(e.tick, *c.model), 3) + " s",
+    const log::EventRecord& e = c.alarms[i];
+    table.add({text::fixed(seconds(e.tick, *c.model), 3) + " s",
                e.span.line > 0 ? std::to_string(e.span.line) : "-", code_name(e.code),
-               one_line(e.text, 200)});
+               text::one_line(e.text, 200)});
   }
   if (!table.empty()) out += table.render("  ");
   if (s.alarms > kAlarmsShown && !c.alarms.empty())
-    out +=
-        fmt::format("  ... {} more, all in the log\n",
-                    grouped(static_cast<std::int64_t>(s.alarms - std::min(c.alarms.size(), kAlarmsShown))));
+    out += fmt::format(
+        "  ... {} more, all in the log\n",
+        text::grouped(static_cast<std::int64_t>(s.alarms - std::min(c.alarms.size(), kAlarmsShown))));
   return out;
 }
 
 }  // namespace
 
-std::string render_limits(const std::vector<LimitShare>& shares) {
+std::string render_limits(const std::vector<log::LimitShare>& shares) {
   double total_s = 0;
-  for (const LimitShare& share : shares) total_s += share.time_s;
+  for (const log::LimitShare& share : shares) total_s += share.time_s;
   if (!(total_s > 0)) return {};
   std::string text;
   std::size_t column = 0;
@@ -156,7 +160,7 @@ std::string render_limits(const std::vector<LimitShare>& shares) {
   const auto entry = [&](std::string_view name, double time_s) {
     const double percent = 100 * time_s / total_s;
     const std::string item =
-        fmt::format("{} {} %", name, percent >= 0.95 ? fixed(percent, 0) : fixed(percent, 1));
+        fmt::format("{} {} %", name, percent >= 0.95 ? text::fixed(percent, 0) : text::fixed(percent, 1));
     if (column > 0 && kHeadWidth + 1 + column + 3 + item.size() > kSummaryWidth) {
       text += '\n' + std::string(kHeadWidth + 1, ' ');
       column = 0;
@@ -165,7 +169,7 @@ std::string render_limits(const std::vector<LimitShare>& shares) {
     text += item;
     column += item.size() + (column > 0 ? 3 : 0);
   };
-  for (const LimitShare& share : shares) {
+  for (const log::LimitShare& share : shares) {
     if (share.time_s < 0.0005 * total_s)
       rest_s += share.time_s;
     else
@@ -176,25 +180,25 @@ std::string render_limits(const std::vector<LimitShare>& shares) {
 }
 
 /// Time lost against the plan at 100 %, by reason; empty in a run without operator and spindle.
-static std::string render_losses(const RunSummary& s) {
+static std::string render_losses(const log::RunSummary& s) {
   if (s.lost_by.empty()) return {};
   std::string text;
-  for (const LimitShare& share : s.lost_by)
+  for (const log::LimitShare& share : s.lost_by)
     text += fmt::format("{}{} {:+.3f} s", text.empty() ? "" : "   ", share.limited_by, share.time_s);
-  return head("time lost", text + fmt::format("   (planned {})", duration_text(s.planned_s)));
+  return head("time lost", text + fmt::format("   (planned {})", text::duration_text(s.planned_s)));
 }
 
-std::string render_summary(const RunSummary& s, const SummaryContext& c) {
+std::string render_summary(const log::RunSummary& s, const SummaryContext& c) {
   const machine::MachineModel& model = *c.model;
   const double time_s = seconds(s.ticks, model);
   std::string out = title(s, c);
-  out +=
-      head("time", fmt::format("{}   ({} in motion, {} standing)   {}, {}", duration_text(time_s),
-                               duration_text(s.motion_s), duration_text(s.dwell_s),
-                               counted(s.control_ticks.value, "control tick"), counted(s.blocks, "block")));
-  out += head("path",
-              fmt::format("{} {}   feed mean {}, peak {} {}", fixed(s.path_u, 3), c.path_unit,
-                          fixed(s.mean_feed_u_s, 3), fixed(s.peak_feed_u_s, 3), speed_unit(c.path_unit)));
+  out += head("time", fmt::format("{}   ({} in motion, {} standing)   {}, {}", text::duration_text(time_s),
+                                  text::duration_text(s.motion_s), text::duration_text(s.dwell_s),
+                                  text::counted(s.control_ticks.value, "control tick"),
+                                  text::counted(s.blocks, "block")));
+  out += head("path", fmt::format("{} {}   feed mean {}, peak {} {}", text::fixed(s.path_u, 3), c.path_unit,
+                                  text::fixed(s.mean_feed_u_s, 3), text::fixed(s.peak_feed_u_s, 3),
+                                  text::speed_unit(c.path_unit)));
   out += motion_table(s, c);
   out += acceleration_table(s, c);
   if (c.plant) {
@@ -212,13 +216,14 @@ std::string render_summary(const RunSummary& s, const SummaryContext& c) {
   out += render_losses(s);
   out += alarm_lines(s, c);
   out += head("steps hash", hash_text(s.steps_hash));
-  if (!c.log_path.empty()) out += head("log", fmt::format("{}   {}", c.log_path, bytes_text(c.log_bytes)));
+  if (!c.log_path.empty())
+    out += head("log", fmt::format("{}   {}", c.log_path, text::bytes_text(c.log_bytes)));
   if (c.wall_s >= 0) {
     const double factor = c.wall_s > 0 ? time_s / c.wall_s : 0;
-    out += head("wall",
-                fmt::format("{} s, {}x real time", fixed(c.wall_s, 2), fixed(factor, factor < 10 ? 1 : 0)));
+    out += head("wall", fmt::format("{} s, {}x real time", text::fixed(c.wall_s, 2),
+                                    text::fixed(factor, factor < 10 ? 1 : 0)));
   }
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::answers

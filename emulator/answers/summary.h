@@ -6,7 +6,7 @@
 
 #include "emulator/log/records.h"
 
-namespace kadr::emulator {
+namespace kadr::answers {
 
 /// Context of a run for its summary.
 struct SummaryContext {
@@ -14,10 +14,10 @@ struct SummaryContext {
   std::string machine;   ///< name and where it comes from
   std::string scenario;  ///< empty: none
   const machine::MachineModel* model = nullptr;
-  std::string path_unit = "mm";      ///< unit of path length
-  bool plant = true;                 ///< false: run with --no-plant
-  std::size_t program_warnings = 0;  ///< reported before the run
-  std::vector<EventRecord> alarms;   ///< in time order, perhaps only the first
+  std::string path_unit = "mm";          ///< unit of path length
+  bool plant = true;                     ///< false: run with --no-plant
+  std::size_t program_warnings = 0;      ///< reported before the run
+  std::vector<log::EventRecord> alarms;  ///< in time order, perhaps only the first
   std::map<Code, std::size_t> alarm_counts;
   std::string log_path;  ///< empty: no log
   std::int64_t log_bytes = 0;
@@ -25,8 +25,8 @@ struct SummaryContext {
 };
 
 /// The table after a run, for people. The wall-clock line is the last one; all others depend only on the inputs.
-std::string render_summary(const RunSummary& summary, const SummaryContext& context);
+std::string render_summary(const log::RunSummary& summary, const SummaryContext& context);
 /// "limited by     program 61 %  junction 19 %"; empty if there is no time to share.
-std::string render_limits(const std::vector<LimitShare>& shares);
+std::string render_limits(const std::vector<log::LimitShare>& shares);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::answers

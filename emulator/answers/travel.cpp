@@ -7,7 +7,7 @@
 #include "machine/machine.h"
 #include "planner/path/path.h"
 
-namespace kadr::emulator {
+namespace kadr::answers {
 
 namespace {
 constexpr std::size_t kCurveChords = 16;
@@ -79,4 +79,4 @@ std::string path_unit(const planner::Path& path, const machine::MachineModel& ma
   return !rotary ? "mm" : !linear ? "deg" : "mm+deg";
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::answers

@@ -12,7 +12,7 @@ struct AxisModel;
 struct MachineModel;
 }  // namespace kadr::machine
 
-namespace kadr::emulator {
+namespace kadr::answers {
 
 /// Travel of one axis in a program; axis units (mm or deg), machine coordinates.
 struct AxisTravel {
@@ -32,4 +32,4 @@ const char* segment_unit(const planner::Path& path, std::size_t segment,
 /// Unit of a program's path: "mm", "deg", or "mm+deg" if it has segments of both kinds.
 std::string path_unit(const planner::Path& path, const machine::MachineModel& machine);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::answers

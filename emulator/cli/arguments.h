@@ -61,9 +61,9 @@ struct OutputOptions {
 
 /// The request to `kadr teach`.
 struct TeachArguments {
-  emulator::TeachOptions options;
+  studies::TeachOptions options;
   int axes = 2;  ///< of a polyline or Bezier
-  emulator::PulseTiming timing = emulator::PulseTiming::uniform;
+  studies::PulseTiming timing = studies::PulseTiming::uniform;
   double feed_steps_s = 1000;
   std::string vcd_path;
   bool spacing = false;           ///< a line of times between pulses
@@ -80,8 +80,8 @@ enum class ExportForm : std::uint8_t { none, csv, excel, json, vcd, svg };
 /// Commands that show what is in logs.
 struct ExportOptions {
   ExportForm form = ExportForm::none;
-  emulator::SampleChoice choice;
-  emulator::PlotForm plot;
+  log_tools::SampleChoice choice;
+  log_tools::PlotForm plot;
   bool path = false;        ///< plot --path
   std::string output_path;  ///< -o; empty: standard output
   double max_size_mb = 10;  ///< of a report page, MB
@@ -118,11 +118,11 @@ struct Arguments {
   bool update = false;
   bool only_check = false;  ///< fmt --check
   bool in_place = false;    ///< fmt --in-place
-  emulator::DiffOptions diff;
+  log_tools::DiffOptions diff;
   std::vector<std::string> methods;  ///< tube --method
   std::string csv_path, page_path;   ///< tube, law --csv, --page
   bool timing = false;               ///< tube --timing
-  emulator::PointQuestion point;     ///< law
+  studies::PointQuestion point;      ///< law
   bool table2 = false;               ///< law --paper
   TeachArguments teach;
   int first_level = 0, last_level = 0;  ///< tube --sweep-levels; 0: no sweep

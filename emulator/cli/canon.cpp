@@ -22,7 +22,7 @@ const Diagnostic& first_error(const Diagnostics& diagnostics) {
 /// The trace's last line for a program with errors.
 std::string error_line(const Diagnostic& d) {
   const std::string message = d.message.empty() ? std::string(code_entry(d.code).title) : d.message;
-  std::string text = emulator::one_line(
+  std::string text = text::one_line(
       fmt::format("{}{}{} [{}]", message, d.label.empty() ? "" : ": ", d.label, code_name(d.code)), 500);
   for (char& c : text)
     if (c == '"') c = '\'';
@@ -31,12 +31,12 @@ std::string error_line(const Diagnostic& d) {
 
 /// "STRAIGHT_FEED 1.000000 ... @12" as {"call": ..., "line": 12, "arguments": [...]}; words stay words.
 std::string call_json(std::string_view line, std::uint32_t source_line) {
-  emulator::Json j;
+  text::Json j;
   if (const auto at = line.rfind(" @"); at != std::string_view::npos) line = line.substr(0, at);
   const auto name_end = std::min(line.find(' '), line.size());
   j["call"] = std::string(line.substr(0, name_end));
   j["line"] = source_line;
-  emulator::Json words = emulator::Json::array();
+  text::Json words = text::Json::array();
   line.remove_prefix(std::min(name_end + 1, line.size()));
   if (!line.empty() && line.front() == '"') {
     words.push_back(std::string(line.substr(1, line.size() < 2 ? 0 : line.size() - 2)));
@@ -44,12 +44,12 @@ std::string call_json(std::string_view line, std::uint32_t source_line) {
   }
   while (!line.empty()) {
     const auto end = std::min(line.find(' '), line.size());
-    const emulator::Json number = emulator::Json::parse(line.substr(0, end), nullptr, false);
-    words.push_back(number.is_number() ? number : emulator::Json(std::string(line.substr(0, end))));
+    const text::Json number = text::Json::parse(line.substr(0, end), nullptr, false);
+    words.push_back(number.is_number() ? number : text::Json(std::string(line.substr(0, end))));
     line.remove_prefix(std::min(end + 1, line.size()));
   }
   j["arguments"] = std::move(words);
-  return emulator::json_line(j);
+  return text::json_line(j);
 }
 
 }  // namespace
@@ -99,9 +99,9 @@ int canon_program(const Arguments& arguments, Console& console) {
 
   const int code = diagnostics.has_errors() ? kNo : kYes;
   if (json) {
-    emulator::Json list = emulator::json_of(diagnostics, sources);
+    text::Json list = text::json_of(diagnostics, sources);
     console.data(fmt::format("{}],\n  \"exit_code\": {},\n  \"diagnostics\": {}\n}}\n", first ? "" : "\n  ",
-                             code, emulator::json_line(list)));
+                             code, text::json_line(list)));
     return code;
   }
   if (diagnostics.has_errors()) console.data(error_line(first_error(diagnostics)));

@@ -14,7 +14,7 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::Json;
+using text::Json;
 
 Json head(const char* command, const std::string& program, const machine::MachineModel& machine,
           const Diagnostics& diagnostics, const SourceSet& sources) {
@@ -23,7 +23,7 @@ Json head(const char* command, const std::string& program, const machine::Machin
   j["command"] = command;
   j["program"] = program;
   j["machine"] = machine.name;
-  j["diagnostics"] = emulator::json_of(diagnostics, sources);
+  j["diagnostics"] = text::json_of(diagnostics, sources);
   return j;
 }
 
@@ -31,7 +31,7 @@ Json head(const char* command, const std::string& program, const machine::Machin
 int check_one(const Arguments& arguments, const std::string& path, Console& console, Json& documents) {
   const std::string program = program_text(path);
   SourceSet sources;
-  emulator::JobInputs given;
+  cycle::JobInputs given;
   Diagnostics diagnostics;
   if (!load_machine(arguments.machine, arguments.settings, sources, given.machine, diagnostics)) {
     console.diagnostics(diagnostics, sources, "the machine file", Console::Where::errors);
@@ -48,13 +48,13 @@ int check_one(const Arguments& arguments, const std::string& path, Console& cons
     console.diagnostics(diagnostics, sources, arguments.tools, Console::Where::errors);
     return kNotStarted;
   }
-  const auto job = emulator::prepare(given, sources, diagnostics);
+  const auto job = cycle::prepare(given, sources, diagnostics);
   const int code = refused(diagnostics, arguments.strict) || !job ? kNo : kYes;
 
   if (console.options().json) {
     Json j = head("check", program, given.machine.model, diagnostics, sources);
     j["exit_code"] = code;
-    j["check"] = job ? emulator::json_of(emulator::check_result(*job), given.machine.model) : Json(nullptr);
+    j["check"] = job ? answers::json_of(answers::check_result(*job), given.machine.model) : Json(nullptr);
     documents.push_back(std::move(j));
     return code;
   }
@@ -62,9 +62,9 @@ int check_one(const Arguments& arguments, const std::string& path, Console& cons
   const bool table = job && !console.options().quiet && console.options().format == DiagnosticFormat::human;
   if (table) {
     if (!diagnostics.list().empty()) console.data("\n");
-    console.data(emulator::render_check(emulator::check_result(*job), program,
-                                        machine_text(arguments.machine, given.machine.model),
-                                        given.machine.model));
+    console.data(answers::render_check(answers::check_result(*job), program,
+                                       machine_text(arguments.machine, given.machine.model),
+                                       given.machine.model));
   }
   return code;
 }
@@ -90,7 +90,7 @@ int plan_program(const Arguments& arguments, Console& console) {
   const std::string& path = arguments.files.front();
   const std::string program = program_text(path);
   SourceSet sources;
-  emulator::JobInputs given;
+  cycle::JobInputs given;
   Diagnostics diagnostics;
   if (!load_machine(arguments.machine, arguments.settings, sources, given.machine, diagnostics)) {
     console.diagnostics(diagnostics, sources, "the machine file", Console::Where::errors);
@@ -102,7 +102,7 @@ int plan_program(const Arguments& arguments, Console& console) {
     return kNotStarted;
   }
   // a plan shows the program as written, even if the machine is too small: `kadr check` refuses that
-  const auto job = emulator::prepare(given, sources, diagnostics, emulator::SoftLimitRule::warning);
+  const auto job = cycle::prepare(given, sources, diagnostics, cycle::SoftLimitRule::warning);
   const int code = !job || refused(diagnostics, arguments.strict) ? kNo : kYes;
 
   if (console.options().json) {
@@ -116,13 +116,13 @@ int plan_program(const Arguments& arguments, Console& console) {
                       {"curve_deviation_u", smoothing.curve_deviation_u}};
     j["rows"] = Json::array();
     // the rows of a long program are streamed into the document's last key
-    std::string text = emulator::json_text(j);
+    std::string text = text::json_text(j);
     text.erase(text.rfind("[]"));
     console.data(text + "[");
     bool first = true;
     if (job)
-      emulator::for_each_plan_row(*job, [&](const emulator::PlanRow& row) {
-        console.data((first ? "\n    " : ",\n    ") + emulator::json_line(emulator::json_of(row)));
+      answers::for_each_plan_row(*job, [&](const answers::PlanRow& row) {
+        console.data((first ? "\n    " : ",\n    ") + text::json_line(answers::json_of(row)));
         first = false;
       });
     console.data(first ? "]\n}\n" : "\n  ]\n}\n");
@@ -132,16 +132,16 @@ int plan_program(const Arguments& arguments, Console& console) {
   console.diagnostics(diagnostics, sources, program, Console::Where::errors);
   if (code != kYes) return code;
   if (arguments.csv) {
-    console.data(emulator::plan_csv_title(given.machine.model));
-    emulator::for_each_plan_row(*job, [&](const emulator::PlanRow& row) {
-      console.data(emulator::plan_csv_row(row, given.machine.model));
+    console.data(answers::plan_csv_title(given.machine.model));
+    answers::for_each_plan_row(*job, [&](const answers::PlanRow& row) {
+      console.data(answers::plan_csv_row(row, given.machine.model));
     });
     return code;
   }
-  const emulator::PlanTable table(*job);
+  const answers::PlanTable table(*job);
   std::size_t rows = 0;
   console.data(table.title());
-  emulator::for_each_plan_row(*job, [&](const emulator::PlanRow& row) {
+  answers::for_each_plan_row(*job, [&](const answers::PlanRow& row) {
     console.data(table.row(row));
     ++rows;
   });

@@ -11,12 +11,12 @@
 namespace kadr::cli {
 
 int compare_logs(const Arguments& arguments, Console& console) {
-  std::vector<emulator::ComparedRun> runs;
+  std::vector<log_tools::ComparedRun> runs;
   for (const std::string& path : arguments.files) {
-    auto data = emulator::read_page_data(path, {});
+    auto data = log_tools::read_page_data(path, {});
     if (data && !data->summary)
-      data = tl::unexpected(emulator::LogReadError{emulator::LogReadFault::not_a_log, path,
-                                                   "the log has no summary: it was cut off"});
+      data = tl::unexpected(
+          log::LogReadError{log::LogReadFault::not_a_log, path, "the log has no summary: it was cut off"});
     if (!data) {
       console.error(fmt::format("{}: {}", data.error().path, data.error().reason));
       return kNotStarted;
@@ -25,18 +25,17 @@ int compare_logs(const Arguments& arguments, Console& console) {
     runs.push_back({path, std::move(*data)});
   }
   if (console.options().json)
-    console.document(emulator::json_of(runs));
+    console.document(log_tools::json_of(runs));
   else if (!console.options().quiet)
-    console.data(emulator::render_comparison(runs));
+    console.data(log_tools::render_comparison(runs));
   const std::string& name = arguments.exported.output_path;
   if (!name.empty()) {
-    const std::string page = emulator::render_compare_page(
+    const std::string page = log_tools::render_compare_page(
         std::move(runs), static_cast<std::size_t>(arguments.exported.max_size_mb * 1e6));
     OutputFile file(name);
     file.write(page);
     file.close();
-    console.note(
-        fmt::format("wrote {}: {}", name, emulator::bytes_text(static_cast<std::int64_t>(page.size()))));
+    console.note(fmt::format("wrote {}: {}", name, text::bytes_text(static_cast<std::int64_t>(page.size()))));
   }
   return kYes;
 }

@@ -73,7 +73,7 @@ void Console::flush() {
 
 void Console::finish(int exit_code) {
   if (sarif()) {
-    const std::string text = emulator::json_text(sarif_.document(exit_code)) + '\n';
+    const std::string text = text::json_text(sarif_.document(exit_code)) + '\n';
     if (sarif_where_ == Where::output)
       data(text);
     else
@@ -138,7 +138,7 @@ void Console::diagnostics(const Diagnostics& list, const SourceSet& sources, con
         out += render_gcc(*d, sources) + '\n';
         break;
       case DiagnosticFormat::json:
-        out += emulator::json_line(emulator::json_of(*d, sources)) + '\n';
+        out += text::json_line(text::json_of(*d, sources)) + '\n';
         break;
       case DiagnosticFormat::sarif:
         sarif_.add(*d, sources);

@@ -28,7 +28,7 @@ class Console {
   /// Data, to standard output. Throws WorldError when it can't be written.
   void data(std::string_view text);
   /// A document in `--json`, as text with a line end.
-  void document(const emulator::Json& json) { data(emulator::json_text(json) + '\n'); }
+  void document(const text::Json& json) { data(text::json_text(json) + '\n'); }
   /// A message with "kadr: " before it, to standard error; -q leaves notes out, and so does a document there.
   void note(std::string_view text);
   void error(std::string_view text);
@@ -50,7 +50,7 @@ class Console {
 
   OutputOptions options_;
   std::string buffer_;
-  emulator::SarifLog sarif_;
+  text::SarifLog sarif_;
   Where sarif_where_ = Where::errors;
 };
 

@@ -8,9 +8,9 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::DiffAlign;
-using emulator::DiffOptions;
-using emulator::Json;
+using log_tools::DiffAlign;
+using log_tools::DiffOptions;
+using text::Json;
 
 /// One JSON document, written piece by piece so that the list of `--all` is never held: the logs and their
 /// inputs, the list, the rest.
@@ -19,16 +19,16 @@ class StreamedDocument {
   explicit StreamedDocument(Console& console) : console_(console) {}
 
   void begin(const Json& head) {
-    const std::string text = emulator::json_text(head);
+    const std::string text = text::json_text(head);
     console_.data(text.substr(0, text.size() - 2));  // without "\n}"
   }
   void begin_list(const char* name) { console_.data(fmt::format(",\n  \"{}\": [", name)); }
   void entry(const Json& entry) {
-    console_.data((first_ ? "\n    " : ",\n    ") + emulator::json_line(entry));
+    console_.data((first_ ? "\n    " : ",\n    ") + text::json_line(entry));
     first_ = false;
   }
   void end_list() { console_.data(first_ ? "]" : "\n  ]"); }
-  void end(const Json& tail) { console_.data("," + emulator::json_text(tail).substr(1) + '\n'); }
+  void end(const Json& tail) { console_.data("," + text::json_text(tail).substr(1) + '\n'); }
 
  private:
   Console& console_;
@@ -46,7 +46,7 @@ int answer(const Diff& diff, const Arguments& arguments) {
   return diff.differ() || (arguments.strict && diff.inputs_differ()) ? kNo : kYes;
 }
 
-int unreadable(const emulator::LogReadError& error, Console& console) {
+int unreadable(const log::LogReadError& error, Console& console) {
   console.error(fmt::format("{}: {}", error.path, error.reason));
   return kNotStarted;
 }
@@ -55,23 +55,23 @@ int by_tick(const Arguments& arguments, Console& console) {
   const DiffOptions& options = arguments.diff;
   const bool json = console.options().json, text = !json && !console.options().quiet;
   StreamedDocument document(console);
-  const emulator::LogDiff* logs = nullptr;
-  emulator::TickDiffSinks sinks;
-  sinks.begin = [&](const emulator::LogDiff& diff) {
+  const log_tools::LogDiff* logs = nullptr;
+  log_tools::TickDiffSinks sinks;
+  sinks.begin = [&](const log_tools::LogDiff& diff) {
     logs = &diff;
-    if (text) console.data(emulator::render_input_differences(diff.inputs));
+    if (text) console.data(log_tools::render_input_differences(diff.inputs));
     if (json) document.begin(head(diff, "tick"));
     if (json && options.all) document.begin_list("differences");
   };
-  sinks.each = [&](const emulator::TickDifference& d) {
-    if (text) console.data(emulator::render_tick_difference(d, *logs));
-    if (json) document.entry(emulator::json_of(d, logs->a.header));
+  sinks.each = [&](const log_tools::TickDifference& d) {
+    if (text) console.data(log_tools::render_tick_difference(d, *logs));
+    if (json) document.entry(log_tools::json_of(d, logs->a.header));
   };
-  const auto diff = emulator::diff_logs(arguments.files[0], arguments.files[1], options, sinks);
+  const auto diff = log_tools::diff_logs(arguments.files[0], arguments.files[1], options, sinks);
   if (!diff) return unreadable(diff.error(), console);
   if (json && options.all) document.end_list();
-  if (json) document.end(emulator::json_of(*diff));
-  if (text) console.data(emulator::render_log_diff(*diff));
+  if (json) document.end(log_tools::json_of(*diff));
+  if (text) console.data(log_tools::render_log_diff(*diff));
   note_passed_over(diff->a.path, diff->a.end, console);
   note_passed_over(diff->b.path, diff->b.end, console);
   return answer(*diff, arguments);
@@ -81,27 +81,27 @@ int by_path(const Arguments& arguments, Console& console) {
   const DiffOptions& options = arguments.diff;
   const bool json = console.options().json, text = !json && !console.options().quiet;
   StreamedDocument document(console);
-  const emulator::PathDiff* logs = nullptr;
-  emulator::PathDiffSinks sinks;
-  sinks.begin = [&](const emulator::PathDiff& diff) {
+  const log_tools::PathDiff* logs = nullptr;
+  log_tools::PathDiffSinks sinks;
+  sinks.begin = [&](const log_tools::PathDiff& diff) {
     logs = &diff;
-    if (text) console.data(emulator::render_input_differences(diff.inputs));
+    if (text) console.data(log_tools::render_input_differences(diff.inputs));
     if (json) document.begin(head(diff, "path"));
     if (json && options.all) document.begin_list("differences");
   };
-  sinks.block = [&](const emulator::BlockDifference& d) {
-    if (text) console.data(emulator::render_block_difference(d, logs->a.header));
-    if (json) document.entry(emulator::json_of(d, logs->a.header));
+  sinks.block = [&](const log_tools::BlockDifference& d) {
+    if (text) console.data(log_tools::render_block_difference(d, logs->a.header));
+    if (json) document.entry(log_tools::json_of(d, logs->a.header));
   };
-  sinks.span = [&](const emulator::FeedSpan& span) {
-    if (text) console.data(emulator::render_feed_span(span, *logs));
-    if (json) document.entry(emulator::json_of(span, logs->a.header));
+  sinks.span = [&](const log_tools::FeedSpan& span) {
+    if (text) console.data(log_tools::render_feed_span(span, *logs));
+    if (json) document.entry(log_tools::json_of(span, logs->a.header));
   };
-  const auto diff = emulator::diff_paths(arguments.files[0], arguments.files[1], options, sinks);
+  const auto diff = log_tools::diff_paths(arguments.files[0], arguments.files[1], options, sinks);
   if (!diff) return unreadable(diff.error(), console);
   if (json && options.all) document.end_list();
-  if (json) document.end(emulator::json_of(*diff));
-  if (text) console.data(emulator::render_path_diff(*diff));
+  if (json) document.end(log_tools::json_of(*diff));
+  if (text) console.data(log_tools::render_path_diff(*diff));
   note_passed_over(diff->a.path, diff->a.end, console);
   note_passed_over(diff->b.path, diff->b.end, console);
   return answer(*diff, arguments);

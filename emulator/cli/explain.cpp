@@ -12,7 +12,7 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::Json;
+using text::Json;
 
 constexpr std::size_t kLineCells = 90;
 
@@ -32,7 +32,7 @@ std::string wrapped(std::string_view text) {
     text.remove_prefix(end);
     const bool blank = !text.empty() && text.front() == ' ';
     if (blank) text.remove_prefix(1);
-    const std::size_t cells = emulator::display_width(word);
+    const std::size_t cells = text::display_width(word);
     if (column > 0 && column + cells > kLineCells) {
       if (!out.empty() && out.back() == ' ') out.pop_back();
       out += '\n';
@@ -56,8 +56,8 @@ Json code_json(const CodeEntry& entry) {
 }
 
 int list_codes(Console& console) {
-  using Align = emulator::TextTable::Align;
-  emulator::TextTable table({{"code", Align::left}, {"title", Align::left}});
+  using Align = text::TextTable::Align;
+  text::TextTable table({{"code", Align::left}, {"title", Align::left}});
   Json list = Json::array();
   for (const CodeEntry& entry : all_codes()) {
     table.add({code_name(entry.code), std::string(entry.title)});

@@ -13,8 +13,8 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::LogSamples;
-using emulator::LogState;
+using log::LogState;
+using log_tools::LogSamples;
 
 // shown unless signals are chosen
 constexpr const char* kFew = "feed.commanded*,feed.programmed*,path.error*,axis.*.following*";
@@ -28,18 +28,18 @@ tl::expected<LogSamples, int> open_log(const Arguments& arguments, const char* w
     console.error(fmt::format("{}: {}", log.error().path, log.error().reason));
     return tl::unexpected(kNotStarted);
   }
-  emulator::SampleChoice choice = arguments.exported.choice;
+  log_tools::SampleChoice choice = arguments.exported.choice;
   if (choice.from_s > choice.to_s) {
     console.error(fmt::format("--from {} s is after --to {} s", choice.from_s, choice.to_s));
     return tl::unexpected(kNotStarted);
   }
   if (choice.signals.empty() && without_choice != nullptr) {
     // the usual signals that the log has: without plant there is no path error
-    for (const emulator::Signal& signal : log->signals()) {
+    for (const log_tools::Signal& signal : log->signals()) {
       std::string_view rest = without_choice;
       while (!rest.empty()) {
         const auto comma = rest.find(',');
-        if (emulator::matches_pattern(signal.name, rest.substr(0, comma)))
+        if (log_tools::matches_pattern(signal.name, rest.substr(0, comma)))
           choice.signals += (choice.signals.empty() ? "" : ",") + signal.name;
         rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
       }
@@ -54,18 +54,18 @@ tl::expected<LogSamples, int> open_log(const Arguments& arguments, const char* w
 
 /// Yes if everything requested was there. Reports a log that breaks off, and what of it was passed over.
 int end_of(const LogSamples& log, const std::string& path, Console& console) {
-  const emulator::LogEnd* end = log.end();
+  const log::LogEnd* end = log.end();
   if (end != nullptr) note_passed_over(path, *end, console);
   if (end == nullptr || end->state == LogState::complete || end->state == LogState::interrupted) return kYes;
   console.error(fmt::format("{}: {}; what was written ends at {} s", path, end->detail,
-                            emulator::fixed(log.header().seconds(end->valid_until), 6)));
+                            text::fixed(log.header().seconds(end->valid_until), 6)));
   return kNo;
 }
 
 /// The meanings of code values, one paragraph per signal.
 std::string code_legend(const LogSamples& log) {
   std::string out;
-  for (const emulator::Signal& s : log.signals()) {
+  for (const log_tools::Signal& s : log.signals()) {
     if (s.words.empty()) continue;
     out += fmt::format("\n{}:", s.name);
     for (std::size_t i = 0; i < s.words.size(); ++i)
@@ -75,24 +75,23 @@ std::string code_legend(const LogSamples& log) {
 }
 
 std::string signal_list(const LogSamples& log) {
-  emulator::TextTable table(
-      {{"signal", emulator::TextTable::Align::left}, {"unit", emulator::TextTable::Align::left}});
-  for (const emulator::Signal& s : log.signals()) table.add({s.name, s.unit.empty() ? "-" : s.unit});
+  text::TextTable table({{"signal", text::TextTable::Align::left}, {"unit", text::TextTable::Align::left}});
+  for (const log_tools::Signal& s : log.signals()) table.add({s.name, s.unit.empty() ? "-" : s.unit});
   return table.render() + code_legend(log);
 }
 
-void write(LogSamples& log, ExportForm form, const emulator::Sink& sink) {
+void write(LogSamples& log, ExportForm form, const log_tools::Sink& sink) {
   switch (form) {
     case ExportForm::csv:
-      return emulator::write_csv(log, emulator::CsvForm::plain, sink);
+      return log_tools::write_csv(log, log_tools::CsvForm::plain, sink);
     case ExportForm::excel:
-      return emulator::write_csv(log, emulator::CsvForm::excel, sink);
+      return log_tools::write_csv(log, log_tools::CsvForm::excel, sink);
     case ExportForm::json:
-      return emulator::write_json_lines(log, sink);
+      return log_tools::write_json_lines(log, sink);
     case ExportForm::vcd:
-      return emulator::write_vcd(log, sink);
+      return log_tools::write_vcd(log, sink);
     case ExportForm::svg:
-      return emulator::write_svg(log, log.header().program_name + " on " + log.header().machine_name, sink);
+      return log_tools::write_svg(log, log.header().program_name + " on " + log.header().machine_name, sink);
     case ExportForm::none:
       return;
   }
@@ -125,7 +124,7 @@ int export_log(const Arguments& arguments, Console& console) {
   });
   if (file) {
     file->close();
-    console.note(fmt::format("wrote {}: {}", out.output_path, emulator::bytes_text(bytes)));
+    console.note(fmt::format("wrote {}: {}", out.output_path, text::bytes_text(bytes)));
   }
   return end_of(*log, arguments.files.front(), console);
 }
@@ -134,7 +133,8 @@ int plot_log(const Arguments& arguments, Console& console) {
   const ExportOptions& out = arguments.exported;
   auto log = open_log(arguments, out.path ? nullptr : kTwo, console);
   if (!log) return log.error();
-  console.data(out.path ? emulator::render_path_plot(*log, out.plot) : emulator::render_plot(*log, out.plot));
+  console.data(out.path ? log_tools::render_path_plot(*log, out.plot)
+                        : log_tools::render_plot(*log, out.plot));
   return end_of(*log, arguments.files.front(), console);
 }
 

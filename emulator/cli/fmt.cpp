@@ -17,7 +17,7 @@ namespace kadr::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using emulator::Json;
+using text::Json;
 
 [[noreturn]] void fail(const fs::path& path, const std::string& reason) {
   throw WorldError(fmt::format("{}: {}", path.string(), reason));
@@ -92,7 +92,7 @@ int format_one(const std::string& path, const Arguments& arguments, Console& con
     j["exit_code"] = code;
     j["differs"] = formatted.differs;
     j["text"] = arguments.only_check || arguments.in_place ? Json(nullptr) : Json(formatted.text);
-    j["diagnostics"] = emulator::json_of(diagnostics, sources);
+    j["diagnostics"] = text::json_of(diagnostics, sources);
     documents.push_back(std::move(j));
     return code;
   } catch (const WorldError& e) {

@@ -10,9 +10,9 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::Json;
-using emulator::LogInfo;
-using emulator::LogState;
+using log::LogInfo;
+using log::LogState;
+using text::Json;
 
 Json hash_json(const std::optional<std::uint64_t>& hash) {
   return hash ? Json(hash_text(*hash)) : Json(nullptr);
@@ -22,7 +22,7 @@ Json agreement(const std::optional<bool>& agrees) { return agrees ? Json(*agrees
 Json info_json(const LogInfo& info) {
   Json j;
   j["file"] = info.path;
-  j["state"] = emulator::log_state_name(info.end.state);
+  j["state"] = log::log_state_name(info.end.state);
   j["detail"] = info.end.detail;
   j["file_bytes"] = info.end.file_bytes;
   j["valid_bytes"] = info.end.valid_bytes;
@@ -43,7 +43,7 @@ Json info_json(const LogInfo& info) {
   j["diagnostics"] = info.diagnostics;
   Json axes = Json::array();
   for (std::size_t a = 0; a < info.header.axis.size(); ++a) {
-    const emulator::LogAxis& axis = info.header.axis[a];
+    const log::LogAxis& axis = info.header.axis[a];
     axes.push_back({{"axis", axis.name},
                     {"unit", axis.unit},
                     {"step_u", axis.step_u},
@@ -51,7 +51,7 @@ Json info_json(const LogInfo& info) {
   }
   j["axes"] = std::move(axes);
   Json channels = Json::array();
-  for (const emulator::ChannelInfo& c : info.channels)
+  for (const log::ChannelInfo& c : info.channels)
     channels.push_back({{"channel", c.name}, {"messages", c.messages}, {"bytes", c.bytes}});
   j["channels"] = std::move(channels);
   j["outcome"] = info.summary ? Json(info.summary->run.outcome.text()) : Json(nullptr);
@@ -79,7 +79,7 @@ int log_info(const Arguments& arguments, Console& console) {
   Json documents = Json::array();
   bool first = true;
   for (const std::string& path : arguments.files) {
-    const auto info = emulator::log_info(path);
+    const auto info = log::log_info(path);
     if (!info) {
       console.error(fmt::format("{}: {}", info.error().path, info.error().reason));
       worst = kNotStarted;
@@ -89,7 +89,7 @@ int log_info(const Arguments& arguments, Console& console) {
     if (console.options().json) {
       documents.push_back(info_json(*info));
     } else if (!console.options().quiet) {
-      console.data((first ? "" : "\n") + emulator::render_log_info(*info));
+      console.data((first ? "" : "\n") + log::render_log_info(*info));
     }
     first = false;
   }

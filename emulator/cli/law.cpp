@@ -10,29 +10,29 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::Json;
+using text::Json;
 
 Json document_head(int code) { return {{"kadr", KADR_VERSION}, {"command", "law"}, {"exit_code", code}}; }
 
 int refuse(const planner::PointFault& fault, Console& console) {
   if (console.options().json) {
     Json j = document_head(kNotStarted);
-    j["refused"] = emulator::json_of(fault);
+    j["refused"] = studies::json_of(fault);
     console.document(j);
   } else {
-    console.error("law: " + emulator::fault_text(fault));
+    console.error("law: " + studies::fault_text(fault));
   }
   return kNotStarted;
 }
 
 int print_table2(Console& console) {
-  const std::vector<emulator::Table2Row> rows = emulator::table2();
+  const std::vector<studies::Table2Row> rows = studies::table2();
   if (console.options().json) {
     Json j = document_head(kYes);
-    j["table2"] = emulator::json_of(rows);
+    j["table2"] = studies::json_of(rows);
     console.document(j);
   } else if (!console.options().quiet) {
-    console.data(emulator::render_table2(rows));
+    console.data(studies::render_table2(rows));
   }
   return kYes;
 }
@@ -48,19 +48,19 @@ void write_whole(const std::string& path, const std::string& text) {
 
 int compare_laws(const Arguments& arguments, Console& console) {
   if (arguments.table2) return print_table2(console);
-  const emulator::PointQuestion& question = arguments.point;
-  const auto study = emulator::study_point_laws(question);
+  const studies::PointQuestion& question = arguments.point;
+  const auto study = studies::study_point_laws(question);
   if (!study) return refuse(study.error(), console);
-  write_whole(arguments.csv_path, emulator::point_csv(*study));
+  write_whole(arguments.csv_path, studies::point_csv(*study));
   if (!arguments.page_path.empty())
-    write_whole(arguments.page_path, emulator::render_point_page(question, *study));
+    write_whole(arguments.page_path, studies::render_point_page(question, *study));
   if (console.options().json) {
     Json j = document_head(kYes);
-    j.update(emulator::json_of(question, *study));
+    j.update(studies::json_of(question, *study));
     console.document(j);
   } else if (!console.options().quiet) {
-    console.data(emulator::render_point_question(question, *study) + '\n' +
-                 emulator::render_point_table(*study) + '\n' + emulator::render_point_answer(*study));
+    console.data(studies::render_point_question(question, *study) + '\n' +
+                 studies::render_point_table(*study) + '\n' + studies::render_point_answer(*study));
   }
   return kYes;
 }

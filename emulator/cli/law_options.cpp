@@ -40,10 +40,10 @@ void add_tube(Options& o) {
   o.repeated(
       sub, "--method", "NAME",
       fmt::format("Use only this method: {};\nrepeatable (default: all that the problem states)",
-                  emulator::kLawMethods.list()),
+                  machine::kLawMethods.list()),
       [&o](const std::string& text) -> tl::expected<void, std::string> {
-        if (!emulator::kLawMethods.find(text))
-          return tl::unexpected(fmt::format("takes one of {}; got '{}'", emulator::kLawMethods.list(), text));
+        if (!machine::kLawMethods.find(text))
+          return tl::unexpected(fmt::format("takes one of {}; got '{}'", machine::kLawMethods.list(), text));
         o.arguments.methods.push_back(text);
         return {};
       });
@@ -70,7 +70,7 @@ void add_tube(Options& o) {
   sub->add_flag("--timing", o.arguments.timing, "Add a column of wall times, which differ from run to run");
   o.diagnostics(sub);
   o.output(sub);
-  o.words(sub->get_option("--method"), emulator::kLawMethods.strings());
+  o.words(sub->get_option("--method"), machine::kLawMethods.strings());
   sub->footer("Example: kadr tube docs/tube/laying.toml --page laying.html");
 }
 
@@ -92,7 +92,7 @@ void add_law(Options& o) {
   CLI::App* sub = o.command(o.app, "law", compare_laws,
                             "Compare motions from rest to rest: energy in J, residual vibration in mm, how\n"
                             "sensitive to the frequency; the default question is Table 1 of paper 001");
-  emulator::PointQuestion& q = o.arguments.point;
+  studies::PointQuestion& q = o.arguments.point;
   number(sub, "--distance-m", "M", "Distance in m (default 3.5)", [&q](double x) { q.task.distance_u = x; });
   number(sub, "--time-s", "S", "Time of the motion in s (default 4)", [&q](double x) { q.time_s = x; });
   sub->add_flag("--time-optimal", q.time_optimal, "As fast as the limits allow, instead of --time-s");

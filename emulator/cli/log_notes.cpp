@@ -4,7 +4,7 @@
 
 namespace kadr::cli {
 
-void note_passed_over(const std::string& path, const emulator::LogEnd& end, Console& console) {
+void note_passed_over(const std::string& path, const log::LogEnd& end, Console& console) {
   for (const std::string& note : end.passed_over) console.note(fmt::format("{}: {}", path, note));
 }
 

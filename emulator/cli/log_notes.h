@@ -7,6 +7,6 @@
 namespace kadr::cli {
 
 /// Says what of a log of a newer kadr was passed over: a note for each channel.
-void note_passed_over(const std::string& path, const emulator::LogEnd& end, Console& console);
+void note_passed_over(const std::string& path, const log::LogEnd& end, Console& console);
 
 }  // namespace kadr::cli

@@ -16,9 +16,10 @@ void add_info(Options& o) {
 
 /// Commands are compared to the last bit by ticks; only a comparison by path can have a tolerance.
 void check_diff(const Arguments& arguments) {
-  const auto feed = static_cast<std::size_t>(emulator::ToleranceKey::feed);
-  const emulator::Tolerances& tolerance = arguments.diff.tolerance;
-  if (arguments.diff.align == emulator::DiffAlign::tick && (tolerance.linear[feed] || tolerance.rotary[feed]))
+  const auto feed = static_cast<std::size_t>(log::ToleranceKey::feed);
+  const log_tools::Tolerances& tolerance = arguments.diff.tolerance;
+  if (arguments.diff.align == log_tools::DiffAlign::tick &&
+      (tolerance.linear[feed] || tolerance.rotary[feed]))
     throw CLI::ValidationError("--tolerance feed needs --align path: by tick, commands are compared exactly");
 }
 
@@ -34,33 +35,33 @@ void add_diff(Options& o) {
            "Log written by kadr run")
         ->required()
         ->type_name("");
-  o.choice(sub, "--align", o.arguments.diff.align, emulator::kDiffAligns,
+  o.choice(sub, "--align", o.arguments.diff.align, log_tools::kDiffAligns,
            fmt::format(
                "Compare at the same tick or at the same path length: {} (default tick; path: whatever the\n"
                "override)",
-               emulator::kDiffAligns.list("|")))
+               log_tools::kDiffAligns.list("|")))
       ->group("Options");
   o.repeated(
       sub, "--tolerance", "KEY=VALUE",
       "Allow a difference, with unit, e.g. load=0.5um; keys: load, base, link, base_rate, link_rate, force,\n"
       "and with --align path feed; repeatable (default: none allowed)",
-      [&o](const std::string& text) { return emulator::add_tolerance(o.arguments.diff.tolerance, text); });
+      [&o](const std::string& text) { return log_tools::add_tolerance(o.arguments.diff.tolerance, text); });
   o.words(sub->get_option("--tolerance"),
           {"load=", "base=", "link=", "base_rate=", "link_rate=", "force=", "feed="});
   o.repeated(
       sub, "--ignore", "CHANNEL/FIELD",
       "Leave out a channel (KADR_EVENT), a field (KADR_EVENT/text) or a group (load, feed); repeatable",
-      [&o](const std::string& text) { return emulator::add_ignored(o.arguments.diff, text); });
+      [&o](const std::string& text) { return log_tools::add_ignored(o.arguments.diff, text); });
   sub->add_option_function<std::string>(
          "--context",
          [&o](const std::string& text) {
            int& context = o.arguments.diff.context;
-           if (!read_number(text, context) || context < 0 || context > emulator::kMostContext)
+           if (!read_number(text, context) || context < 0 || context > log_tools::kMostContext)
              throw CLI::ValidationError(fmt::format("--context takes a whole number from 0 to {}; got '{}'",
-                                                    emulator::kMostContext, text));
+                                                    log_tools::kMostContext, text));
          },
          fmt::format("Control ticks to show before and after the first difference, 0 to {} (default 2)",
-                     emulator::kMostContext))
+                     log_tools::kMostContext))
       ->type_name("N");
   sub->add_flag("--all", o.arguments.diff.all, "Show every difference, not only the first");
   sub->add_flag("--strict", o.arguments.strict, "Count differing inputs, too (exit 1)");
@@ -87,7 +88,7 @@ std::function<void(const std::string&)> cells_option(const char* name, int& valu
 
 /// Which signals, and which part of the run.
 void add_choice(Options& o, CLI::App* sub, const char* signals_help) {
-  emulator::SampleChoice& choice = o.arguments.exported.choice;
+  log_tools::SampleChoice& choice = o.arguments.exported.choice;
   sub->add_option("--signals", choice.signals, signals_help)->type_name("NAME,...");
   sub->add_option_function<std::string>("--from", number_option("--from", choice.from_s, 0),
                                         "Begin at this time of the run, s (default 0)")

@@ -11,7 +11,7 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::Json;
+using text::Json;
 
 std::string axis_letters(const machine::MachineModel& model) {
   std::string letters;
@@ -24,7 +24,7 @@ std::string axis_letters(const machine::MachineModel& model) {
 std::string description(std::string_view toml) {
   const std::string_view line = toml.substr(0, toml.find('\n'));
   if (line.empty() || line.front() != '#') return {};
-  return emulator::one_line(line.substr(1), 100);
+  return text::one_line(line.substr(1), 100);
 }
 
 Json machine_json(const std::string& file, bool good, const machine::MachineFile& machine,
@@ -34,7 +34,7 @@ Json machine_json(const std::string& file, bool good, const machine::MachineFile
   j["exit_code"] = good ? kYes : kNo;
   j["name"] = good ? Json(machine.model.name) : Json(nullptr);
   j["axes"] = good ? Json(axis_letters(machine.model)) : Json(nullptr);
-  j["diagnostics"] = emulator::json_of(diagnostics, sources);
+  j["diagnostics"] = text::json_of(diagnostics, sources);
   return j;
 }
 
@@ -59,8 +59,8 @@ int machine_show(const Arguments& arguments, Console& console) {
 }
 
 int machine_list(const Arguments&, Console& console) {
-  using Align = emulator::TextTable::Align;
-  emulator::TextTable table({{"machine", Align::left}, {"axes", Align::left}, {"what it is", Align::left}});
+  using Align = text::TextTable::Align;
+  text::TextTable table({{"machine", Align::left}, {"axes", Align::left}, {"what it is", Align::left}});
   Json list = Json::array();
   for (const std::string_view name : machine::shipped_machine_names()) {
     SourceSet sources;
@@ -98,12 +98,12 @@ int machine_keys(const Arguments&, Console& console) {
     console.document(list);
     return kYes;
   }
-  using Align = emulator::TextTable::Align;
+  using Align = text::TextTable::Align;
   std::string out;
   for (const machine::TableDocument& table : tables) {
     out += fmt::format("{}{}{}\n", out.empty() ? "" : "\n", table.header.empty() ? "" : table.header + "  ",
                        table.sentence);
-    emulator::TextTable text(
+    text::TextTable text(
         {{"key", Align::left}, {"default", Align::left}, {"takes", Align::left}, {"meaning", Align::left}});
     for (const machine::KeyDocument& key : table.keys) {
       text.add({key.name, key.otherwise, key.words.empty() ? key.allowed : "one of", key.sentence});

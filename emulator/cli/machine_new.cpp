@@ -17,10 +17,10 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::Json;
 using machine::DataSheet;
 using machine::DataSheetWords;
 using machine::SheetAxis;
+using text::Json;
 
 /// The machine's text with `name = "..."` replaced.
 std::string renamed(std::string_view toml, const std::string& name) {
@@ -65,31 +65,31 @@ void check_name(const std::string& name) {
 /// "83.333 mm/s (5000 mm/min)"
 std::string speed_text(const SheetAxis& axis) {
   const double u_s = axis.max_u_s.value;
-  return fmt::format("{} {}/s ({} {}/min)", emulator::significant(u_s), axis.unit(),
-                     emulator::significant(60 * u_s), axis.unit());
+  return fmt::format("{} {}/s ({} {}/min)", text::significant(u_s), axis.unit(), text::significant(60 * u_s),
+                     axis.unit());
 }
 
 std::string value_text(const machine::SheetValue& value) {
-  return emulator::significant(value.value) + (value.given.empty() ? " *" : "");
+  return text::significant(value.value) + (value.given.empty() ? " *" : "");
 }
 
 /// "2.600 mm/s *"
 std::string corner_text(const SheetAxis& axis) {
-  return fmt::format("{} {}/s *", emulator::significant(axis.junction_u_s2 * machine::kSheetPeriod_s),
+  return fmt::format("{} {}/s *", text::significant(axis.junction_u_s2 * machine::kSheetPeriod_s),
                      axis.unit());
 }
 
 /// The values read, one row per axis; `*` marks a default.
 std::string understood(const DataSheet& sheet) {
-  emulator::TextTable table({{"axis"},
-                             {"travel"},
-                             {"home"},
-                             {"max speed"},
-                             {"acceleration"},
-                             {"jerk"},
-                             {"corner"},
-                             {"steps"},
-                             {"unit", emulator::TextTable::Align::left}});
+  text::TextTable table({{"axis"},
+                         {"travel"},
+                         {"home"},
+                         {"max speed"},
+                         {"acceleration"},
+                         {"jerk"},
+                         {"corner"},
+                         {"steps"},
+                         {"unit", text::TextTable::Align::left}});
   for (const SheetAxis& axis : sheet.axis)
     table.add({std::string(1, axis.letter),
                fmt::format("{} .. {}{}", number_text(axis.min_u), number_text(axis.max_u),

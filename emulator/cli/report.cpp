@@ -22,25 +22,25 @@ std::string page_path(const std::string& log) {
 int report_log(const Arguments& arguments, Console& console) {
   const ExportOptions& out = arguments.exported;
   const std::string& path = arguments.files.front();
-  auto data = emulator::read_page_data(path, out.choice);
+  auto data = log_tools::read_page_data(path, out.choice);
   if (!data) {
     console.error(fmt::format("{}: {}", data.error().path, data.error().reason));
     return kNotStarted;
   }
   const bool whole =
-      data->end.state == emulator::LogState::complete || data->end.state == emulator::LogState::interrupted;
+      data->end.state == log::LogState::complete || data->end.state == log::LogState::interrupted;
   note_passed_over(path, data->end, console);
   const std::string name = out.output_path.empty() ? page_path(path) : out.output_path;
   std::string failure;
-  const auto again = [&](const emulator::PageData& page, const std::vector<emulator::Stretch>& stretches) {
-    auto read = emulator::read_full_rate(path, out.choice, page, stretches);
+  const auto again = [&](const log_tools::PageData& page, const std::vector<log_tools::Stretch>& stretches) {
+    auto read = log_tools::read_full_rate(path, out.choice, page, stretches);
     if (!read) failure = read.error().reason;
-    return read ? std::move(*read) : emulator::FullRate{};
+    return read ? std::move(*read) : log_tools::FullRate{};
   };
   const std::string page =
-      out.plain ? emulator::render_plain_page(*data)
-                : emulator::render_report_page(std::move(*data),
-                                               static_cast<std::size_t>(out.max_size_mb * 1e6), again);
+      out.plain ? log_tools::render_plain_page(*data)
+                : log_tools::render_report_page(std::move(*data),
+                                                static_cast<std::size_t>(out.max_size_mb * 1e6), again);
   if (!failure.empty()) {
     console.error(fmt::format("{}: {}", path, failure));
     return kNotStarted;
@@ -51,8 +51,7 @@ int report_log(const Arguments& arguments, Console& console) {
     OutputFile file(name);
     file.write(page);
     file.close();
-    console.note(
-        fmt::format("wrote {}: {}", name, emulator::bytes_text(static_cast<std::int64_t>(page.size()))));
+    console.note(fmt::format("wrote {}: {}", name, text::bytes_text(static_cast<std::int64_t>(page.size()))));
   }
   if (!whole) console.error(fmt::format("{}: the log breaks off; the page says where", path));
   return whole ? kYes : kNo;

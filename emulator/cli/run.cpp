@@ -21,7 +21,7 @@ namespace kadr::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using emulator::Json;
+using text::Json;
 
 /// "PROG.lcmlog" in the current folder: the program's name without folders and last extension.
 std::string default_log_path(const std::string& program) {
@@ -45,21 +45,21 @@ void refuse_bad_log_path(const std::string& log, const Arguments& arguments, con
 }
 
 /// Prints the expected size of the log before the run, and the free space if that is too little.
-void tell_expected_size(const emulator::Job& job, const Arguments& arguments, const std::string& log,
-                        const emulator::RunHeader& header, Console& console) {
+void tell_expected_size(const cycle::Job& job, const Arguments& arguments, const std::string& log,
+                        const log::RunHeader& header, Console& console) {
   const machine::MachineModel& model = job.given.machine.model;
   const double planned_s = job.planned.plan.motion_s + job.planned.plan.pause_s;
   const double run_s = std::min(planned_s, arguments.until_s);
   const double part = planned_s > 0 ? run_s / planned_s : 1.0;
   const auto pulses =
-      static_cast<double>(emulator::estimate_pulses(emulator::axis_travel(job.read.path), model));
+      static_cast<double>(answers::estimate_pulses(answers::axis_travel(job.read.path), model));
   const std::size_t text_bytes = header.program_text.size() + header.machine_toml.size() +
                                  header.scenario_toml.size() + header.settings_toml.size();
-  const std::int64_t bytes = emulator::estimate_log_bytes(
+  const std::int64_t bytes = log::estimate_log_bytes(
       model, run_s, static_cast<std::int64_t>(pulses * part),
       static_cast<std::size_t>(static_cast<double>(job.read.blocks) * part), arguments.plant, text_bytes);
-  console.note(fmt::format("log {}, about {} for {} of machine time", log, emulator::bytes_text(bytes),
-                           emulator::duration_text(run_s)));
+  console.note(fmt::format("log {}, about {} for {} of machine time", log, text::bytes_text(bytes),
+                           text::duration_text(run_s)));
   std::error_code error;
   const fs::path folder = fs::absolute(log, error).parent_path();
   const fs::space_info room = fs::space(folder, error);
@@ -67,25 +67,25 @@ void tell_expected_size(const emulator::Job& job, const Arguments& arguments, co
     console.note(
         fmt::format("only {} are free there; --no-log, --until, log.steps=false or log.viewer_rate_hz=0 "
                     "write less",
-                    emulator::bytes_text(static_cast<std::int64_t>(room.available))));
+                    text::bytes_text(static_cast<std::int64_t>(room.available))));
 }
 
 /// Program, machine and settings, from the command line or else from the scenario.
 struct RunInputs {
   Arguments arguments;  ///< completed by the scenario
   SourceSet sources;
-  emulator::JobInputs given;
+  cycle::JobInputs given;
   Diagnostics diagnostics;
   std::string program;  ///< as given, for people
   std::string scenario_toml;
   std::string scenario_name;
-  std::optional<emulator::Scenario> scenario;
+  std::optional<scenario::Scenario> scenario;
   bool machine_good = false;
   bool started = false;  ///< machine, tool table and scenario could be read
 };
 
 void take_scenario(RunInputs& in) {
-  auto scenario = emulator::read_scenario(in.arguments.scenario, in.sources);
+  auto scenario = scenario::read_scenario(in.arguments.scenario, in.sources);
   if (!scenario) {
     for (const Diagnostic& d : scenario.error().list()) in.diagnostics.add(d);
     return;
@@ -123,7 +123,7 @@ void read_inputs(RunInputs& in) {
   const auto& points = in.scenario->technology;
   if (steps.empty() && points.empty()) return;
   const Span& place = steps.empty() ? points.front().span : steps.front().span;
-  emulator::place_inputs(*in.scenario, place.file, in.given, in.diagnostics);
+  scenario::place_inputs(*in.scenario, place.file, in.given, in.diagnostics);
   in.started = !in.diagnostics.has_errors();
 }
 
@@ -135,7 +135,7 @@ Json head(const RunInputs& in, int exit_code) {
   j["program"] = in.program;
   j["machine"] = in.machine_good ? Json(in.given.machine.model.name) : Json(nullptr);
   j["scenario"] = in.scenario_name.empty() ? Json(nullptr) : Json(in.scenario_name);
-  j["diagnostics"] = emulator::json_of(in.diagnostics, in.sources);
+  j["diagnostics"] = text::json_of(in.diagnostics, in.sources);
   return j;
 }
 
@@ -156,13 +156,13 @@ int refuse(const RunInputs& in, int exit_code, Console& console) {
 
 /// Ends a run that an I/O error or the plant's numerics stopped.
 [[noreturn]] void fail(const std::string& what) { throw WorldError(what); }
-[[noreturn]] void fail(const emulator::LogError& e) { fail(fmt::format("{}: {}", e.path, e.reason)); }
+[[noreturn]] void fail(const log::LogError& e) { fail(fmt::format("{}: {}", e.path, e.reason)); }
 
-std::unique_ptr<emulator::RunLog> open_log(const RunInputs& in, const emulator::RunHeader& header,
-                                           const std::string& path) {
+std::unique_ptr<log::RunLog> open_log(const RunInputs& in, const log::RunHeader& header,
+                                      const std::string& path) {
   const Arguments& arguments = in.arguments;
   if (path.empty() && arguments.publish_url.empty()) return nullptr;
-  auto log = emulator::open_lcm_log({path, arguments.publish_url});
+  auto log = log::open_lcm_log({path, arguments.publish_url});
   if (!log) fail(log.error());
   if (auto begun = (*log)->begin(header); !begun) fail(begun.error());
   for (const Diagnostic* d : by_place(in.diagnostics))
@@ -170,70 +170,70 @@ std::unique_ptr<emulator::RunLog> open_log(const RunInputs& in, const emulator::
   return std::move(*log);
 }
 
-int exit_code(const emulator::RunSummary& summary, int signal) {
-  if (summary.outcome == emulator::Outcome::interrupted && signal != 0) return kSignal + signal;
-  return summary.alarms > 0 || summary.outcome == emulator::Outcome::plant_error ? kAlarm : kYes;
+int exit_code(const log::RunSummary& summary, int signal) {
+  if (summary.outcome == log::Outcome::interrupted && signal != 0) return kSignal + signal;
+  return summary.alarms > 0 || summary.outcome == log::Outcome::plant_error ? kAlarm : kYes;
 }
 
-int move(const RunInputs& in, const emulator::Job& job, Console& console) {
+int move(const RunInputs& in, const cycle::Job& job, Console& console) {
   const Arguments& arguments = in.arguments;
   std::string log_path = arguments.log_path;
   if (log_path.empty()) log_path = default_log_path(in.sources[in.given.program].name());
   if (!arguments.log) log_path.clear();
 
   SignalGuard signals;
-  emulator::RunOptions options;
+  cycle::RunOptions options;
   options.plant = arguments.plant;
   options.threads = arguments.threads;
   options.until_s = arguments.until_s;
   options.interrupt = signals.flag();
   options.warnings = in.diagnostics.warnings();
-  options.exit_code = [&signals](const emulator::RunSummary& summary) {
+  options.exit_code = [&signals](const log::RunSummary& summary) {
     return exit_code(summary, signals.signal());
   };
-  const emulator::RunHeader header = run_header(job, options, in.scenario_toml);
+  const log::RunHeader header = run_header(job, options, in.scenario_toml);
   if (!log_path.empty()) {
     refuse_bad_log_path(log_path, arguments, in.sources[in.given.program].name());
     tell_expected_size(job, arguments, log_path, header, console);
   }
   const auto log = open_log(in, header, log_path);
-  emulator::AlarmList alarms(log.get());
+  log::AlarmList alarms(log.get());
 
   Progress progress(arguments.output, count_lines(in.sources[in.given.program].text()));
   options.progress = [&](double done, std::uint32_t line, double sim_s) {
     progress.update(done, line, sim_s);
   };
-  const auto result = emulator::run(job, &alarms, options);
+  const auto result = cycle::run(job, &alarms, options);
   const double wall_s = progress.wall_s();
   progress.erase();
   if (!result) fail(result.error().what);
 
   const int code = result->exit_code;
-  emulator::SummaryContext context;
+  answers::SummaryContext context;
   context.program = in.program;
   context.machine = machine_text(arguments.machine, job.given.machine.model);
   context.scenario = in.scenario_name;
   context.model = &job.given.machine.model;
-  context.path_unit = emulator::path_unit(job.read.path, job.given.machine.model);
+  context.path_unit = answers::path_unit(job.read.path, job.given.machine.model);
   context.plant = arguments.plant;
   context.program_warnings = in.diagnostics.warnings();
   context.alarms = alarms.alarms();
   context.alarm_counts = alarms.counts();
   context.wall_s = wall_s;
   if (!log_path.empty()) {
-    context.log_path = result->outcome == emulator::Outcome::interrupted ? log_path + ".part" : log_path;
+    context.log_path = result->outcome == log::Outcome::interrupted ? log_path + ".part" : log_path;
     std::error_code error;
     const auto size = fs::file_size(context.log_path, error);
     context.log_bytes = error ? 0 : static_cast<std::int64_t>(size);
   }
   if (console.options().json) {
     Json j = head(in, code);
-    j["run"] = emulator::json_of(*result, context);
+    j["run"] = answers::json_of(*result, context);
     console.document(j);
   } else if (!console.options().quiet) {
-    console.data(emulator::render_summary(*result, context));
+    console.data(answers::render_summary(*result, context));
   }
-  if (result->outcome == emulator::Outcome::interrupted)
+  if (result->outcome == log::Outcome::interrupted)
     console.error(
         fmt::format("interrupted{}", log_path.empty() ? "" : "; what was written is in " + context.log_path));
   return code;
@@ -246,7 +246,7 @@ int run_program(const Arguments& arguments, Console& console) {
   in.arguments = arguments;
   read_inputs(in);
   if (!in.started) return refuse(in, kNotStarted, console);
-  const auto job = emulator::prepare(in.given, in.sources, in.diagnostics, emulator::SoftLimitRule::warning);
+  const auto job = cycle::prepare(in.given, in.sources, in.diagnostics, cycle::SoftLimitRule::warning);
   if (!job || refused(in.diagnostics, arguments.strict)) return refuse(in, kNo, console);
   if (!console.options().json)
     console.diagnostics(in.diagnostics, in.sources, in.program, Console::Where::errors);

@@ -38,9 +38,9 @@ std::string without_comments(std::string_view toml) {
 
 }  // namespace
 
-emulator::RunHeader run_header(const emulator::Job& job, const emulator::RunOptions& options,
-                               const std::string& scenario_toml) {
-  emulator::RunHeader header;
+log::RunHeader run_header(const cycle::Job& job, const cycle::RunOptions& options,
+                          const std::string& scenario_toml) {
+  log::RunHeader header;
   const SourceText& program = job.sources[job.given.program];
   header.program_name = file_name(program.name());
   header.program_text = program.text();

@@ -9,7 +9,7 @@ namespace kadr::cli {
 /// @param options     plant and until_s are inputs of a run and belong to the settings; threads are not
 /// @param scenario_toml  as read, empty if none
 /// The header points into the job's machine.
-emulator::RunHeader run_header(const emulator::Job& job, const emulator::RunOptions& options,
-                               const std::string& scenario_toml);
+log::RunHeader run_header(const cycle::Job& job, const cycle::RunOptions& options,
+                          const std::string& scenario_toml);
 
 }  // namespace kadr::cli

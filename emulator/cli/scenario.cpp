@@ -13,7 +13,7 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::Json;
+using text::Json;
 namespace fs = std::filesystem;
 
 /// Where `cmake --install` put the scenarios of this kadr.
@@ -27,7 +27,7 @@ std::string installed_scenarios() {
 /// @throws WorldError if there is none, with the paths tried
 std::vector<std::string> scenarios_of(const Arguments& arguments) {
   try {
-    return emulator::find_scenarios(arguments.files);
+    return scenario::find_scenarios(arguments.files);
   } catch (const fs::filesystem_error& e) {
     const std::string path = e.path1().string();
     if (e.code() != std::errc::no_such_file_or_directory)
@@ -40,11 +40,11 @@ std::vector<std::string> scenarios_of(const Arguments& arguments) {
 }
 
 /// Rewrites the expectations of a scenario with the measured values.
-void update(const std::string& path, const emulator::ScenarioResult& result, Console& console) {
+void update(const std::string& path, const scenario::ScenarioResult& result, Console& console) {
   SourceSet sources;
-  const auto scenario = emulator::read_scenario(path, sources);
+  const auto scenario = scenario::read_scenario(path, sources);
   if (!scenario || !result.failure.empty()) return;
-  const std::string text = emulator::updated_text(*scenario, result);
+  const std::string text = scenario::updated_text(*scenario, result);
   if (text == scenario->text) return;
   write_file(scenario->file, text);
   console.note(fmt::format("updated {}", scenario->file));
@@ -53,32 +53,32 @@ void update(const std::string& path, const emulator::ScenarioResult& result, Con
 }  // namespace
 
 int scenario_run(const Arguments& arguments, Console& console) {
-  std::vector<emulator::ScenarioResult> results;
+  std::vector<scenario::ScenarioResult> results;
   bool all_passed = true;
   for (const std::string& path : scenarios_of(arguments)) {
-    results.push_back(emulator::run_scenario(path));
-    const emulator::ScenarioResult& result = results.back();
+    results.push_back(scenario::run_scenario(path));
+    const scenario::ScenarioResult& result = results.back();
     all_passed = all_passed && result.passed();
     if (arguments.update) update(path, result, console);
     if (console.options().json || (console.options().quiet && result.passed())) continue;
-    std::string text = emulator::render_result(result);
+    std::string text = scenario::render_result(result);
     if (text.empty() || text.back() != '\n') text += '\n';
     console.data(text);
   }
   if (console.options().json) {
-    std::string text = emulator::render_json(results);
+    std::string text = scenario::render_json(results);
     if (text.empty() || text.back() != '\n') text += '\n';
     console.data(text);
   } else if (!console.options().quiet) {
-    std::string text = emulator::render_totals(results);
+    std::string text = scenario::render_totals(results);
     if (text.empty() || text.back() != '\n') text += '\n';
     console.data(text);
   }
   if (!arguments.junit_path.empty()) {
     if (arguments.junit_path == "-")
-      console.data(emulator::render_junit(results));
+      console.data(scenario::render_junit(results));
     else
-      write_file(arguments.junit_path, emulator::render_junit(results));
+      write_file(arguments.junit_path, scenario::render_junit(results));
   }
   return all_passed || arguments.update ? kYes : kNo;
 }
@@ -90,14 +90,14 @@ int scenario_check(const Arguments& arguments, Console& console) {
   int worst = kYes;
   for (const std::string& path : scenarios_of(arguments)) {
     SourceSet sources;
-    emulator::JobInputs given;
+    cycle::JobInputs given;
     Diagnostics diagnostics;
-    const auto scenario = emulator::read_scenario(path, sources);
+    const auto scenario = scenario::read_scenario(path, sources);
     if (!scenario)
       for (const Diagnostic& d : scenario.error().list()) diagnostics.add(d);
     int code = scenario ? kYes : kNo;
     try {
-      if (scenario && !emulator::open_job(*scenario, given, sources, diagnostics)) code = kNo;
+      if (scenario && !scenario::open_job(*scenario, given, sources, diagnostics)) code = kNo;
     } catch (const std::system_error& e) {
       console.error(fmt::format("{}: {}", path, e.what()));
       code = kNotStarted;
@@ -105,7 +105,7 @@ int scenario_check(const Arguments& arguments, Console& console) {
     worst = std::max(worst, code);
     if (console.options().json) {
       documents.push_back(
-          {{"file", path}, {"exit_code", code}, {"diagnostics", emulator::json_of(diagnostics, sources)}});
+          {{"file", path}, {"exit_code", code}, {"diagnostics", text::json_of(diagnostics, sources)}});
       continue;
     }
     console.diagnostics(diagnostics, sources, path, Console::Where::output);
@@ -118,23 +118,23 @@ int scenario_check(const Arguments& arguments, Console& console) {
 }
 
 int scenario_list(const Arguments& arguments, Console& console) {
-  using Align = emulator::TextTable::Align;
-  emulator::TextTable table({{"scenario", Align::left},
-                             {"machine", Align::left},
-                             {"program", Align::left},
-                             {"what it shows", Align::left}});
+  using Align = text::TextTable::Align;
+  text::TextTable table({{"scenario", Align::left},
+                         {"machine", Align::left},
+                         {"program", Align::left},
+                         {"what it shows", Align::left}});
   Json list = Json::array();
   int code = kYes;
   for (const std::string& path : scenarios_of(arguments)) {
     SourceSet sources;
-    const auto scenario = emulator::read_scenario(path, sources);
+    const auto scenario = scenario::read_scenario(path, sources);
     if (!scenario) {
       console.diagnostics(scenario.error(), sources, path, Console::Where::errors);
       code = kNo;
       continue;
     }
-    table.add({scenario->name, scenario->machine, scenario->program_name,
-               emulator::one_line(scenario->summary, 200)});
+    table.add(
+        {scenario->name, scenario->machine, scenario->program_name, text::one_line(scenario->summary, 200)});
     list.push_back({{"name", scenario->name},
                     {"file", scenario->file},
                     {"machine", scenario->machine},

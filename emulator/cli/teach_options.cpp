@@ -33,26 +33,26 @@ void bounded(CLI::App* sub, const std::string& name, T& value, double least, dou
 
 /// Words that may follow in a case.
 void case_words(Options& o, const CLI::App* sub) {
-  o.words(sub->get_option("CASE"), emulator::kCaseKinds.strings());
+  o.words(sub->get_option("CASE"), studies::kCaseKinds.strings());
 }
 
 void subject(Options& o, CLI::App* sub) {
   std::string kinds;
-  for (const auto& k : emulator::kCaseKinds)
-    kinds += fmt::format("\n  {} {}: {}", k.word, emulator::case_numbers(k.value), k.sentence);
+  for (const auto& k : studies::kCaseKinds)
+    kinds += fmt::format("\n  {} {}: {}", k.word, studies::case_numbers(k.value), k.sentence);
   sub->add_option("CASE", o.arguments.files, "What is interpolated, in whole steps:" + kinds)
       ->required()
       ->expected(1, 4096)
       ->type_name("");
   case_words(o, sub);
-  emulator::TeachOptions& options = o.arguments.teach.options;
+  studies::TeachOptions& options = o.arguments.teach.options;
   bounded(sub, "--axes", o.arguments.teach.axes, 2, 9, "Axes of a polyline or Bezier (default 2)");
   o.choice(
-       sub, "--mode", options.mode, emulator::kTeachModes,
+       sub, "--mode", options.mode, studies::kTeachModes,
        fmt::format(
            "How axes move: {} (default cp: together along the path; ptp: each at its own rate from node to\n"
            "node)",
-           emulator::kTeachModes.list("|")))
+           studies::kTeachModes.list("|")))
       ->group("Options");
   bounded(sub, "--bits", options.method.fraction_bits, 1, 60,
           "Fraction bits of progression and newton (default 16)");
@@ -67,7 +67,7 @@ void subject(Options& o, CLI::App* sub) {
 
 void methods(Options& o, CLI::App* sub, std::size_t most) {
   std::string names;
-  for (const auto& m : emulator::lattice::methods())
+  for (const auto& m : interpolator::lattice::methods())
     names += fmt::format("{}{}", names.empty() ? "" : ", ", m.name());
   o.repeated(sub, "--method", "NAME",
              most == 1
@@ -75,7 +75,7 @@ void methods(Options& o, CLI::App* sub, std::size_t most) {
                  : fmt::format("Interpolator, up to {}, repeatable; default: the first {} that know the case",
                                most, most),
              [&o, names, most](const std::string& text) -> tl::expected<void, std::string> {
-               if (!emulator::lattice::method_of(text))
+               if (!interpolator::lattice::method_of(text))
                  return tl::unexpected(fmt::format("takes one of {}; got '{}'", names, text));
                if (o.arguments.methods.size() == most)
                  return tl::unexpected(fmt::format("is taken {} at most; '{}' is one more",
@@ -84,7 +84,7 @@ void methods(Options& o, CLI::App* sub, std::size_t most) {
                return {};
              });
   std::vector<std::string> list;
-  for (const auto& m : emulator::lattice::methods()) list.emplace_back(m.name());
+  for (const auto& m : interpolator::lattice::methods()) list.emplace_back(m.name());
   o.words(sub->get_option("--method"), std::move(list));
 }
 
@@ -93,11 +93,11 @@ void add_table(Options& o, CLI::App* group) {
                             "Print a case step by step: node, F, what was tested, move, deviation in steps");
   subject(o, sub);
   methods(o, sub, 1);
-  emulator::PulseTiming& timing = o.arguments.teach.timing;
-  o.choice(sub, "--timing", timing, emulator::kPulseTimings,
+  studies::PulseTiming& timing = o.arguments.teach.timing;
+  o.choice(sub, "--timing", timing, studies::kPulseTimings,
            fmt::format("When pulses fire: {} (default uniform: slot after slot; crossing: where the path\n"
                        "crosses the middle between two nodes, at a constant feed)",
-                       emulator::kPulseTimings.list("|")))
+                       studies::kPulseTimings.list("|")))
       ->group("Options");
   bounded(sub, "--feed", o.arguments.teach.feed_steps_s, 1e-3, 1e7,
           "Slots per second, or steps per second along the path (default 1000)");

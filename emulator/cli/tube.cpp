@@ -16,16 +16,16 @@
 namespace kadr::cli {
 namespace {
 
-using emulator::Json;
-using emulator::LawStudy;
-using emulator::PlanMethod;
-using emulator::TimeLawProblem;
+using machine::PlanMethod;
+using studies::LawStudy;
+using studies::TimeLawProblem;
+using text::Json;
 
 /// Methods of the command line, in the order of the table; all of the problem's if none is named.
 std::vector<PlanMethod> chosen_methods(const Arguments& arguments, const TimeLawProblem& problem) {
   std::vector<PlanMethod> methods;
-  for (const std::string& name : arguments.methods) methods.push_back(*emulator::kLawMethods.find(name));
-  if (methods.empty()) return emulator::methods_of(problem);
+  for (const std::string& name : arguments.methods) methods.push_back(*machine::kLawMethods.find(name));
+  if (methods.empty()) return studies::methods_of(problem);
   std::sort(methods.begin(), methods.end());
   methods.erase(std::unique(methods.begin(), methods.end()), methods.end());
   if (methods.back() == PlanMethod::jerk_limited && !problem.jerk_mm_s3)
@@ -37,35 +37,35 @@ void write_files(const Arguments& arguments, const LawStudy& study, const TimeLa
                  const std::string& name) {
   if (!arguments.csv_path.empty()) {
     OutputFile csv(arguments.csv_path);
-    emulator::write_law_csv(study, problem, [&](std::string_view text) { csv.write(text); });
+    studies::write_law_csv(study, problem, [&](std::string_view text) { csv.write(text); });
     csv.close();
   }
   if (!arguments.page_path.empty()) {
     OutputFile page(arguments.page_path);
-    page.write(emulator::render_tube_page(study, problem, name));
+    page.write(studies::render_tube_page(study, problem, name));
     page.close();
   }
 }
 
 std::string tables(const Arguments& arguments, const LawStudy& study, const TimeLawProblem& problem,
                    const std::string& name) {
-  std::string out = emulator::render_problem(problem, name);
+  std::string out = studies::render_problem(problem, name);
   const planner::LawSolution* law = nullptr;
-  for (const emulator::MethodOutcome& o : study.outcomes)
+  for (const studies::MethodOutcome& o : study.outcomes)
     if (o.method == PlanMethod::tube && o.law) law = &*o.law;
   if (!study.tube.passes.empty())
-    out += '\n' + emulator::render_tube_log(study.tube, law, problem.law.length_u(), problem.tube);
-  out += '\n' + emulator::render_law_table(study, arguments.timing);
-  return out + '\n' + emulator::render_law_checks(study, problem);
+    out += '\n' + studies::render_tube_log(study.tube, law, problem.law.length_u(), problem.tube);
+  out += '\n' + studies::render_law_table(study, arguments.timing);
+  return out + '\n' + studies::render_law_checks(study, problem);
 }
 
 /// Standard output has the same bytes on a terminal; wall times go to standard error.
 void note_times(const Arguments& arguments, const LawStudy& study, Console& console) {
   if (arguments.timing || !::isatty(STDERR_FILENO)) return;
   std::string text = "wall";
-  for (const emulator::MethodOutcome& o : study.outcomes)
+  for (const studies::MethodOutcome& o : study.outcomes)
     text += fmt::format("{} {} {:.1f} ms", o.method == study.outcomes.front().method ? "" : ",",
-                        emulator::kLawMethods.word(o.method), 1000 * o.wall_s);
+                        machine::kLawMethods.word(o.method), 1000 * o.wall_s);
   console.note(text);
 }
 
@@ -79,29 +79,29 @@ int sweep_tube(const Arguments& arguments, const TimeLawProblem& problem, const 
                Console& console) {
   ProgressLine progress(arguments.output, ProgressLine::Elsewhere::nothing);
   const std::int32_t first = arguments.first_level, last = arguments.last_level;
-  const emulator::LevelSweep sweep = emulator::sweep_levels(problem, first, last, [&](std::int32_t levels) {
+  const studies::LevelSweep sweep = studies::sweep_levels(problem, first, last, [&](std::int32_t levels) {
     tell(progress, fmt::format("{} levels of {} to {}", levels, first, last),
          static_cast<double>(levels - first) / (last - first + 1));
   });
   progress.erase();
   if (!arguments.csv_path.empty()) {
     OutputFile csv(arguments.csv_path);
-    csv.write(emulator::sweep_csv(sweep));
+    csv.write(studies::sweep_csv(sweep));
     csv.close();
   }
   if (!arguments.page_path.empty()) {
     OutputFile page(arguments.page_path);
-    page.write(emulator::render_sweep_page(sweep, problem, name));
+    page.write(studies::render_sweep_page(sweep, problem, name));
     page.close();
   }
   const int code = sweep.good() ? kYes : kNo;
   if (console.options().json) {
     Json j = {{"kadr", KADR_VERSION}, {"command", "tube"}, {"file", name}, {"exit_code", code}};
     j["diagnostics"] = Json::array();
-    j.update(emulator::json_of(sweep));
+    j.update(studies::json_of(sweep));
     console.document(j);
   } else if (!console.options().quiet) {
-    console.data(emulator::render_problem(problem, name) + '\n' + emulator::render_sweep_table(sweep));
+    console.data(studies::render_problem(problem, name) + '\n' + studies::render_sweep_table(sweep));
   }
   return code;
 }
@@ -119,12 +119,12 @@ int solve_tube(const Arguments& arguments, Console& console) {
                         {"command", "tube"},
                         {"file", name},
                         {"exit_code", kNotStarted},
-                        {"diagnostics", emulator::json_of(diagnostics, sources)}});
+                        {"diagnostics", text::json_of(diagnostics, sources)}});
     else
       console.diagnostics(diagnostics, sources, name, Console::Where::errors);
     return kNotStarted;
   };
-  const auto problem = emulator::read_time_law_problem(sources, file);
+  const auto problem = studies::read_time_law_problem(sources, file);
   if (!problem) return refuse(problem.error());
   if (!problem->warnings.list().empty())
     console.diagnostics(problem->warnings, sources, name, Console::Where::errors);
@@ -134,16 +134,16 @@ int solve_tube(const Arguments& arguments, Console& console) {
   const std::vector<PlanMethod> methods =
       sweep ? std::vector{PlanMethod::tube, PlanMethod::optimum} : chosen_methods(arguments, *problem);
   const bool keep_profiles = !arguments.page_path.empty();
-  if (auto large = emulator::check_size(sized, methods, keep_profiles && !sweep)) {
+  if (auto large = studies::check_size(sized, methods, keep_profiles && !sweep)) {
     Diagnostics diagnostics;
     diagnostics.add(std::move(*large));
     return refuse(diagnostics);
   }
   if (sweep) return sweep_tube(arguments, *problem, name, console);
   ProgressLine progress(arguments.output, ProgressLine::Elsewhere::nothing);
-  const LawStudy study = emulator::study_laws(
+  const LawStudy study = studies::study_laws(
       *problem, methods, keep_profiles, [&](PlanMethod method, std::string_view stage, double done) {
-        tell(progress, fmt::format("{}: {}", emulator::kLawMethods.word(method), stage), done);
+        tell(progress, fmt::format("{}: {}", machine::kLawMethods.word(method), stage), done);
       });
   progress.erase();
   write_files(arguments, study, *problem, name);
@@ -151,7 +151,7 @@ int solve_tube(const Arguments& arguments, Console& console) {
   if (console.options().json) {
     Json j = {{"kadr", KADR_VERSION}, {"command", "tube"}, {"file", name}, {"exit_code", code}};
     j["diagnostics"] = Json::array();
-    j.update(emulator::json_of(study, *problem));
+    j.update(studies::json_of(study, *problem));
     console.document(j);
     return code;
   }

@@ -10,10 +10,10 @@ namespace kadr::cli {
 namespace {
 
 /// true, or why this build lacks the page.
-emulator::Json pages() {
-  emulator::Json list = emulator::Json::object();
-  for (const emulator::BuiltPage& page : emulator::built_pages())
-    list[std::string(page.name)] = page.missing.empty() ? emulator::Json(true) : emulator::Json(page.missing);
+text::Json pages() {
+  text::Json list = text::Json::object();
+  for (const log_tools::BuiltPage& page : log_tools::built_pages())
+    list[std::string(page.name)] = page.missing.empty() ? text::Json(true) : text::Json(page.missing);
   return list;
 }
 
@@ -21,24 +21,23 @@ emulator::Json pages() {
 
 int print_version(const Arguments&, Console& console) {
   if (console.options().json) {
-    emulator::Json libraries = emulator::Json::object();
+    text::Json libraries = text::Json::object();
     for (const LibraryVersion& l : build_libraries()) libraries[std::string(l.name)] = l.version;
     console.document({{"kadr", KADR_VERSION},
                       {"commit", build_commit()},
                       {"compiler", build_compiler()},
                       {"build", build_flags()},
                       {"libraries", std::move(libraries)},
-                      {"log_format", emulator::kLogFormat},
+                      {"log_format", log::kLogFormat},
                       {"pages", pages()}});
     return kYes;
   }
   std::string libraries;
   for (const LibraryVersion& l : build_libraries())
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", l.name, l.version);
-  console.data(
-      fmt::format("kadr {}\ncommit {}\ncompiler {}\nbuild {}\nlibraries {}\nlog format {}\npages {}\n",
-                  KADR_VERSION, build_commit(), build_compiler(), build_flags(), libraries,
-                  emulator::kLogFormat, emulator::pages_text()));
+  console.data(fmt::format(
+      "kadr {}\ncommit {}\ncompiler {}\nbuild {}\nlibraries {}\nlog format {}\npages {}\n", KADR_VERSION,
+      build_commit(), build_compiler(), build_flags(), libraries, log::kLogFormat, log_tools::pages_text()));
   return kYes;
 }
 

@@ -21,18 +21,17 @@ int write_winding(const Arguments& arguments, Console& console) {
   const bool to_file = !path.empty() && path != "-";
   if (to_file) write_file(path, text);
   if (console.options().json) {
-    emulator::Json j;
-    j["file"] = to_file ? emulator::Json(path) : emulator::Json(nullptr);
+    text::Json j;
+    j["file"] = to_file ? text::Json(path) : text::Json(nullptr);
     j["command"] = command;
     j["title"] = winding->title;
     j["blocks"] = winding->points.size() - 1;
     j["fibre_mm_s"] = winding->fibre_mm_s;
-    j["text"] = to_file ? emulator::Json(nullptr) : emulator::Json(text);
+    j["text"] = to_file ? text::Json(nullptr) : text::Json(text);
     console.document(j);
   } else if (to_file) {
-    console.note(
-        fmt::format("wrote {}: {}, {}", path, winding->title,
-                    emulator::counted(static_cast<std::int64_t>(winding->points.size() - 1), "block")));
+    console.note(fmt::format("wrote {}: {}, {}", path, winding->title,
+                             text::counted(static_cast<std::int64_t>(winding->points.size() - 1), "block")));
   } else {
     console.data(text);
   }

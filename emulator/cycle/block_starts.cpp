@@ -4,7 +4,7 @@
 
 #include "emulator/cycle/tick_time.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 void BlockStarts::tick(const TickMotion& motion) {
   list_.clear();
@@ -18,11 +18,11 @@ void BlockStarts::tick(const TickMotion& motion) {
   }
 }
 
-BlockRecord BlockStarts::record(const Start& start, const TickMotion& motion,
-                                ControlTicks deferred_ticks) const {
+log::BlockRecord BlockStarts::record(const Start& start, const TickMotion& motion,
+                                     ControlTicks deferred_ticks) const {
   const planner::PathSegment& s = job_.read.path.segments[start.segment];
   const BlockSummary summary = block_summary(job_.read.path, job_.planned.plan, start.segment);
-  BlockRecord r;
+  log::BlockRecord r;
   r.tick = start.tick;
   r.block = s.block;
   r.span = s.span;
@@ -40,4 +40,4 @@ BlockRecord BlockStarts::record(const Start& start, const TickMotion& motion,
   return r;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -5,7 +5,7 @@
 #include "emulator/emulator.h"
 #include "machine/tick_motion.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Finds the motion blocks that begin in a control tick.
 class BlockStarts {
@@ -23,7 +23,7 @@ class BlockStarts {
   std::size_t segments() const { return segments_; }
   /// The log's record of a block that began in this tick.
   /// @param deferred_ticks  that a change of the override has been waiting
-  BlockRecord record(const Start& start, const TickMotion& motion, ControlTicks deferred_ticks) const;
+  log::BlockRecord record(const Start& start, const TickMotion& motion, ControlTicks deferred_ticks) const;
 
  private:
   const Job& job_;
@@ -31,4 +31,4 @@ class BlockStarts {
   std::size_t segments_ = 0;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

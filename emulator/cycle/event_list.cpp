@@ -2,14 +2,14 @@
 
 #include "planner/path/path.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 std::uint32_t EventList::block() const { return path_.size() > 0 ? path_.segments[segment_].block : 0; }
 
 std::uint32_t EventList::line() const { return path_.size() > 0 ? path_.segments[segment_].span.line : 0; }
 
-EventRecord& EventList::add_at(std::size_t segment, Ticks tick, EventKind kind) {
-  EventRecord& event = list_.emplace_back();
+log::EventRecord& EventList::add_at(std::size_t segment, Ticks tick, log::EventKind kind) {
+  log::EventRecord& event = list_.emplace_back();
   event.tick = tick;
   event.kind = kind;
   if (path_.size() > 0) {
@@ -20,11 +20,11 @@ EventRecord& EventList::add_at(std::size_t segment, Ticks tick, EventKind kind) 
 }
 
 void EventList::alarm(Ticks tick, Code code, double value, double limit, std::string text) {
-  EventRecord& event = add(tick, EventKind::alarm);
+  log::EventRecord& event = add(tick, log::EventKind::alarm);
   event.code = code;
   event.value = value;
   event.limit = limit;
   event.text = std::move(text);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

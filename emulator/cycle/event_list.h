@@ -10,7 +10,7 @@ namespace kadr::planner {
 class Path;
 }
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Events of the current control tick, in the order in which they are made. Each one is of the block and
 /// the program line where the run is.
@@ -28,21 +28,21 @@ class EventList {
 
   /// A new event at the segment where the run is; the caller fills in the rest.
   /// @return valid until the next event
-  EventRecord& add(Ticks tick, EventKind kind) { return add_at(segment_, tick, kind); }
+  log::EventRecord& add(Ticks tick, log::EventKind kind) { return add_at(segment_, tick, kind); }
   /// A new event at another segment.
-  EventRecord& add_at(std::size_t segment, Ticks tick, EventKind kind);
+  log::EventRecord& add_at(std::size_t segment, Ticks tick, log::EventKind kind);
   /// An alarm at the segment where the run is, of no axis.
   void alarm(Ticks tick, Code code, double value, double limit, std::string text);
   /// An event that names its own position, or none.
-  void append(EventRecord event) { list_.push_back(std::move(event)); }
+  void append(log::EventRecord event) { list_.push_back(std::move(event)); }
 
-  const std::vector<EventRecord>& list() const { return list_; }
+  const std::vector<log::EventRecord>& list() const { return list_; }
   void clear() { list_.clear(); }
 
  private:
   const planner::Path& path_;
   std::size_t segment_ = 0;
-  std::vector<EventRecord> list_;
+  std::vector<log::EventRecord> list_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -7,7 +7,7 @@
 
 #include "emulator/cycle/tick_time.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 namespace {
 
 /// Times are decimals and whole ticks: closer than this is the same moment.
@@ -65,14 +65,14 @@ WaitOutcome wait_for(const gcode::InputWait& wait, double begin_s, const std::ve
 void InputEvents::tick(ControlTicks tick) {
   for (; next_ < steps_.size() && steps_[next_].tick <= tick; ++next_) {
     const InputStep& step = steps_[next_];
-    EventRecord e;
+    log::EventRecord e;
     e.tick = begin_of(step.tick, clock_);
     e.block = events_.block();
-    e.kind = EventKind::input;
+    e.kind = log::EventKind::input;
     e.value = step.value;
     e.text = fmt::format("{} input {} = {:.6g}", step.analog ? "analog" : "digital", step.number, step.value);
     events_.append(std::move(e));
   }
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -5,7 +5,7 @@
 #include "emulator/cycle/event_list.h"
 #include "emulator/emulator.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Follows one input from a time on. An input reads 0 until its first step; a step holds from the beginning
 /// of its control tick. Rise and fall are steps after `begin_s`; high and low may hold already.
@@ -28,4 +28,4 @@ class InputEvents {
   std::size_t next_ = 0;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -10,7 +10,7 @@
 #include "machine/base/require.h"
 #include "planner/planner.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 namespace {
 
 using gcode::Block;
@@ -137,19 +137,20 @@ std::string limited_by_text(planner::LimitedBy reason, int axis, const machine::
   return text + " " + letter;
 }
 
-std::vector<LimitShare> limit_shares(const planner::MotionLaw& law, const machine::MachineModel& machine) {
-  std::vector<LimitShare> shares;
+std::vector<log::LimitShare> limit_shares(const planner::MotionLaw& law,
+                                          const machine::MachineModel& machine) {
+  std::vector<log::LimitShare> shares;
   for (const planner::JerkPiece& piece : law.pieces) {
     const bool rest = piece.speed_u_s == 0 && piece.accel_u_s2 == 0 && piece.jerk_u_s3 == 0;
     const std::string name = rest ? "dwell" : limited_by_text(piece.limited_by, piece.limiting_axis, machine);
-    auto it =
-        std::find_if(shares.begin(), shares.end(), [&](const LimitShare& s) { return s.limited_by == name; });
-    if (it == shares.end()) it = shares.insert(shares.end(), LimitShare{name, 0.0});
+    auto it = std::find_if(shares.begin(), shares.end(),
+                           [&](const log::LimitShare& s) { return s.limited_by == name; });
+    if (it == shares.end()) it = shares.insert(shares.end(), log::LimitShare{name, 0.0});
     it->time_s += piece.duration_s;
   }
   std::stable_sort(shares.begin(), shares.end(),
-                   [](const LimitShare& a, const LimitShare& b) { return a.time_s > b.time_s; });
+                   [](const log::LimitShare& a, const log::LimitShare& b) { return a.time_s > b.time_s; });
   return shares;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -9,12 +9,12 @@
 #include <variant>
 #include <vector>
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 namespace {
 
 /// A tick record with everything it points to.
 struct OwnedTick {
-  TickRecord record;
+  log::TickRecord record;
   TickMotion motion;
   std::vector<std::int64_t> position_steps;
   std::vector<AxisState> axis;
@@ -22,7 +22,7 @@ struct OwnedTick {
   StepBatch batch;
 };
 
-using SmallRecord = std::variant<BlockRecord, BlockEndRecord, EventRecord>;
+using SmallRecord = std::variant<log::BlockRecord, log::BlockEndRecord, log::EventRecord>;
 
 /// Up to kBlockTicks ticks with the other records that came before each of them, in order.
 struct RecordBlock {
@@ -33,18 +33,20 @@ struct RecordBlock {
   std::size_t count = 0;
 };
 
-class ThreadedLog final : public RunLog {
+class ThreadedLog final : public log::RunLog {
  public:
-  explicit ThreadedLog(RunLog& inner) : inner_(inner), worker_([this] { work(); }) {}
+  explicit ThreadedLog(log::RunLog& inner) : inner_(inner), worker_([this] { work(); }) {}
   ~ThreadedLog() override { stop(); }
 
-  tl::expected<void, LogError> begin(const RunHeader& header) override { return inner_.begin(header); }
+  tl::expected<void, log::LogError> begin(const log::RunHeader& header) override {
+    return inner_.begin(header);
+  }
 
-  tl::expected<void, LogError> block(const BlockRecord& r) override { return add_small(r); }
-  tl::expected<void, LogError> block_end(const BlockEndRecord& r) override { return add_small(r); }
-  tl::expected<void, LogError> event(const EventRecord& r) override { return add_small(r); }
+  tl::expected<void, log::LogError> block(const log::BlockRecord& r) override { return add_small(r); }
+  tl::expected<void, log::LogError> block_end(const log::BlockEndRecord& r) override { return add_small(r); }
+  tl::expected<void, log::LogError> event(const log::EventRecord& r) override { return add_small(r); }
 
-  tl::expected<void, LogError> tick(const TickRecord& record, const StepBatch& batch) override {
+  tl::expected<void, log::LogError> tick(const log::TickRecord& record, const StepBatch& batch) override {
     RecordBlock& block = ring_[head_ % kRing];
     block.small_before[block.count] = block.small.size();
     OwnedTick& t = block.ticks[block.count++];
@@ -57,12 +59,12 @@ class ThreadedLog final : public RunLog {
     return block.count == RecordBlock::kBlockTicks ? hand_over() : status();
   }
 
-  tl::expected<void, LogError> diagnostic(const Diagnostic& d, Ticks tick) override {
+  tl::expected<void, log::LogError> diagnostic(const Diagnostic& d, Ticks tick) override {
     if (auto done = drain(); !done) return done;
     return inner_.diagnostic(d, tick);
   }
 
-  tl::expected<void, LogError> end(const RunSummary& summary) override {
+  tl::expected<void, log::LogError> end(const log::RunSummary& summary) override {
     if (auto done = drain(); !done) return done;
     stop();
     return inner_.end(summary);
@@ -72,18 +74,18 @@ class ThreadedLog final : public RunLog {
   static constexpr std::size_t kRing = 8;
 
   template <class R>
-  tl::expected<void, LogError> add_small(const R& record) {
+  tl::expected<void, log::LogError> add_small(const R& record) {
     ring_[head_ % kRing].small.emplace_back(record);
     return status();
   }
 
-  tl::expected<void, LogError> status() {
+  tl::expected<void, log::LogError> status() {
     if (!failed_.load(std::memory_order_acquire)) return {};
     return tl::unexpected(*error_);
   }
 
   /// Gives the filled block to the worker and takes the next free one.
-  tl::expected<void, LogError> hand_over() {
+  tl::expected<void, log::LogError> hand_over() {
     RecordBlock& block = ring_[head_ % kRing];
     block.small_before[block.count] = block.small.size();
     std::unique_lock lock(mutex_);
@@ -97,7 +99,7 @@ class ThreadedLog final : public RunLog {
     return status();
   }
 
-  tl::expected<void, LogError> drain() {
+  tl::expected<void, log::LogError> drain() {
     if (auto done = hand_over(); !done) return done;
     std::unique_lock lock(mutex_);
     free_.wait(lock, [&] { return head_ == tail_; });
@@ -141,18 +143,18 @@ class ThreadedLog final : public RunLog {
     }
   }
 
-  tl::expected<void, LogError> forward(const BlockRecord& r) { return inner_.block(r); }
-  tl::expected<void, LogError> forward(const BlockEndRecord& r) { return inner_.block_end(r); }
-  tl::expected<void, LogError> forward(const EventRecord& r) { return inner_.event(r); }
+  tl::expected<void, log::LogError> forward(const log::BlockRecord& r) { return inner_.block(r); }
+  tl::expected<void, log::LogError> forward(const log::BlockEndRecord& r) { return inner_.block_end(r); }
+  tl::expected<void, log::LogError> forward(const log::EventRecord& r) { return inner_.event(r); }
 
-  bool keep(const tl::expected<void, LogError>& done) {
+  bool keep(const tl::expected<void, log::LogError>& done) {
     if (done) return true;
     error_ = done.error();
     failed_.store(true, std::memory_order_release);
     return false;
   }
 
-  RunLog& inner_;
+  log::RunLog& inner_;
   std::array<RecordBlock, kRing> ring_;
   std::mutex mutex_;
   std::condition_variable ready_, free_;
@@ -161,12 +163,14 @@ class ThreadedLog final : public RunLog {
       tail_ = 0;  // blocks handed over, blocks written; guarded by mutex_ (head_ is read freely by its owner)
   bool stopping_ = false;
   std::atomic<bool> failed_{false};
-  std::optional<LogError> error_;
+  std::optional<log::LogError> error_;
   std::thread worker_;
 };
 
 }  // namespace
 
-std::unique_ptr<RunLog> make_threaded_log(RunLog& inner) { return std::make_unique<ThreadedLog>(inner); }
+std::unique_ptr<log::RunLog> make_threaded_log(log::RunLog& inner) {
+  return std::make_unique<ThreadedLog>(inner);
+}
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 namespace {
 
 constexpr int kBisections = 60;
@@ -35,7 +35,7 @@ double LostTime::planned_s(double s_u) {
   return moving_s_ + high;
 }
 
-void LostTime::add(const planner::TickMotion& motion, LostReason reason) {
+void LostTime::add(const planner::TickMotion& motion, log::LostReason reason) {
   const double reached_s = motion.s_end_u > motion.s_begin_u ? planned_s(motion.s_end_u) : reached_s_;
   const double lost_s = tau_s_ - (reached_s - reached_s_);
   reached_s_ = reached_s;
@@ -44,14 +44,14 @@ void LostTime::add(const planner::TickMotion& motion, LostReason reason) {
   it->time_s += lost_s;
 }
 
-std::vector<LimitShare> LostTime::shares() const {
-  std::vector<LimitShare> out;
+std::vector<log::LimitShare> LostTime::shares() const {
+  std::vector<log::LimitShare> out;
   for (const Share& share : shares_)
     if (std::fabs(share.time_s) >= kLeast_s)
-      out.push_back({std::string(kLostReasons.word(share.reason)), share.time_s});
+      out.push_back({std::string(log::kLostReasons.word(share.reason)), share.time_s});
   std::stable_sort(out.begin(), out.end(),
-                   [](const LimitShare& a, const LimitShare& b) { return a.time_s > b.time_s; });
+                   [](const log::LimitShare& a, const log::LimitShare& b) { return a.time_s > b.time_s; });
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -8,7 +8,7 @@
 
 #include "planner/path/path_cut.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 void limit_places(const std::vector<PlaceLimit>& points, ReadProgram& read, Diagnostics& diagnostics) {
   const auto refuse = [&](const PlaceLimit& point, std::string label, const std::string& allowed,
@@ -46,4 +46,4 @@ void limit_places(const std::vector<PlaceLimit>& points, ReadProgram& read, Diag
   }
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -7,7 +7,7 @@
 #include "emulator/cycle/program_event.h"
 #include "emulator/cycle/tick_time.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 ProgramClock::ProgramClock(const std::vector<ProgramEvent>& program_events, const planner::Path& path,
                            const machine::MachineModel& machine, EventList& list)
@@ -29,7 +29,7 @@ void ProgramClock::tick(const TickMotion& motion) {
 }
 
 void ProgramClock::add(const ProgramEvent& event) {
-  EventRecord e = event_record(event);
+  log::EventRecord e = event_record(event);
   e.tick = held_until_;
   e.block = event.after_segment == 0 ? 0 : path_.segments[event.after_segment - 1].block;
   e.span = event.block.span;
@@ -38,4 +38,4 @@ void ProgramClock::add(const ProgramEvent& event) {
   held_until_ += Ticks{static_cast<std::int64_t>(std::floor(hold_ticks + 0.5))};
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

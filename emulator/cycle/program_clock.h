@@ -6,7 +6,7 @@
 #include "emulator/emulator.h"
 #include "machine/tick_motion.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Makes the program's events as the path reaches their joints, one after the other: a dwell, a wait or a
 /// tool change delays those after it.
@@ -33,4 +33,4 @@ class ProgramClock {
   Ticks held_until_;                  // the events made so far hold the machine until then
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -9,7 +9,7 @@
 #include "machine/base/require.h"
 #include "machine/base/variants.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 namespace {
 
 using gcode::Block;
@@ -47,8 +47,8 @@ struct RoleOf {
 
 Role role_of(const Block& block) { return std::visit(RoleOf{}, block.action); }
 
-EventRecord record(EventKind kind, double value, std::string text) {
-  EventRecord e;
+log::EventRecord record(log::EventKind kind, double value, std::string text) {
+  log::EventRecord e;
   e.kind = kind;
   e.value = value;
   e.text = std::move(text);
@@ -59,10 +59,10 @@ EventRecord record(EventKind kind, double value, std::string text) {
 struct RecordOf {
   const WaitOutcome& outcome;
 
-  EventRecord operator()(const gcode::Dwell& dwell) const {
-    return record(EventKind::dwell, dwell.time_s, fmt::format("dwell {:.6g} s", dwell.time_s));
+  log::EventRecord operator()(const gcode::Dwell& dwell) const {
+    return record(log::EventKind::dwell, dwell.time_s, fmt::format("dwell {:.6g} s", dwell.time_s));
   }
-  EventRecord operator()(const gcode::InputWait& wait) const {
+  log::EventRecord operator()(const gcode::InputWait& wait) const {
     const std::string input = fmt::format("{} input {}", wait.analog ? "analog" : "digital", wait.number);
     const auto waited = [&](const char* mode) {
       const std::string text =
@@ -71,106 +71,118 @@ struct RecordOf {
     };
     switch (wait.mode) {
       case gcode::WaitMode::immediate:
-        return record(EventKind::wait, outcome.value, fmt::format("read {}: {:.6g}", input, outcome.value));
+        return record(log::EventKind::wait, outcome.value,
+                      fmt::format("read {}: {:.6g}", input, outcome.value));
       case gcode::WaitMode::rise:
-        return record(EventKind::wait, outcome.value, waited("rises"));
+        return record(log::EventKind::wait, outcome.value, waited("rises"));
       case gcode::WaitMode::fall:
-        return record(EventKind::wait, outcome.value, waited("falls"));
+        return record(log::EventKind::wait, outcome.value, waited("falls"));
       case gcode::WaitMode::high:
-        return record(EventKind::wait, outcome.value, waited("is high"));
+        return record(log::EventKind::wait, outcome.value, waited("is high"));
       case gcode::WaitMode::low:
-        return record(EventKind::wait, outcome.value, waited("is low"));
+        return record(log::EventKind::wait, outcome.value, waited("is low"));
     }
     return {};
   }
   /// Contact position, all three linear axes: the block no longer knows which ones the move named.
-  EventRecord operator()(const gcode::Probe& probe) const {
-    if (!probe.tripped) return record(EventKind::probe, 0, "no contact");
+  log::EventRecord operator()(const gcode::Probe& probe) const {
+    if (!probe.tripped) return record(log::EventKind::probe, 0, "no contact");
     std::string text = probe.away ? "contact lost at" : "contact at";
     for (std::size_t a = 0; a < 3; ++a) text += fmt::format(" {}{:.6g}", kAxisLetters[a], probe.contact[a]);
-    return record(EventKind::probe, 1, text + " (machine coordinates, mm)");
+    return record(log::EventKind::probe, 1, text + " (machine coordinates, mm)");
   }
 
-  EventRecord operator()(const gcode::SpindleSpeed& speed) const {
-    return record(EventKind::spindle, speed.s_word,
+  log::EventRecord operator()(const gcode::SpindleSpeed& speed) const {
+    return record(log::EventKind::spindle, speed.s_word,
                   speed.surface_speed_m_min > 0
                       ? fmt::format("surface speed {:.6g} m/min", speed.surface_speed_m_min)
                       : fmt::format("spindle speed {:.6g} rpm", speed.s_word));
   }
-  EventRecord operator()(const gcode::SpindleClockwise& start) const {
-    return record(EventKind::spindle, start.speed_rpm,
+  log::EventRecord operator()(const gcode::SpindleClockwise& start) const {
+    return record(log::EventKind::spindle, start.speed_rpm,
                   fmt::format("spindle clockwise {:.6g} rpm", start.speed_rpm));
   }
-  EventRecord operator()(const gcode::SpindleCounterclockwise& start) const {
-    return record(EventKind::spindle, start.speed_rpm,
+  log::EventRecord operator()(const gcode::SpindleCounterclockwise& start) const {
+    return record(log::EventKind::spindle, start.speed_rpm,
                   fmt::format("spindle counter-clockwise {:.6g} rpm", start.speed_rpm));
   }
-  EventRecord operator()(const gcode::SpindleStop& stop) const {
-    return record(EventKind::spindle, stop.orientation ? stop.orientation->direction : 0, "spindle stop");
+  log::EventRecord operator()(const gcode::SpindleStop& stop) const {
+    return record(log::EventKind::spindle, stop.orientation ? stop.orientation->direction : 0,
+                  "spindle stop");
   }
-  EventRecord operator()(const gcode::SpindleMode& mode) const {
+  log::EventRecord operator()(const gcode::SpindleMode& mode) const {
     std::string text = "spindle at constant speed";
     if (mode.surface_speed_m_min > 0)
       text = fmt::format("constant surface speed {:.6g} m/min", mode.surface_speed_m_min);
     if (mode.surface_speed_m_min > 0 && mode.maximum_rpm > 0)
       text += fmt::format(", at most {:.6g} rpm", mode.maximum_rpm);
-    return record(EventKind::spindle, mode.surface_speed_m_min, text);
+    return record(log::EventKind::spindle, mode.surface_speed_m_min, text);
   }
-  EventRecord operator()(const gcode::SyncStart& sync) const {
-    return record(EventKind::sync, sync.pitch_mm_rev,
+  log::EventRecord operator()(const gcode::SyncStart& sync) const {
+    return record(log::EventKind::sync, sync.pitch_mm_rev,
                   fmt::format("feed follows the spindle's angle, {:.6g} mm per turn", sync.pitch_mm_rev));
   }
-  EventRecord operator()(const gcode::SyncStop&) const {
-    return record(EventKind::sync, 0, "feed no longer follows the spindle");
+  log::EventRecord operator()(const gcode::SyncStop&) const {
+    return record(log::EventKind::sync, 0, "feed no longer follows the spindle");
   }
 
-  EventRecord operator()(const gcode::MistOn&) const { return record(EventKind::coolant, 0, "mist on"); }
-  EventRecord operator()(const gcode::MistOff&) const { return record(EventKind::coolant, 0, "mist off"); }
-  EventRecord operator()(const gcode::FloodOn&) const { return record(EventKind::coolant, 0, "flood on"); }
-  EventRecord operator()(const gcode::FloodOff&) const { return record(EventKind::coolant, 0, "flood off"); }
-  EventRecord operator()(const gcode::SelectTool& select) const {
-    return record(EventKind::tool, select.tool, fmt::format("select tool {}", select.tool));
+  log::EventRecord operator()(const gcode::MistOn&) const {
+    return record(log::EventKind::coolant, 0, "mist on");
   }
-  EventRecord operator()(const gcode::ChangeTool& change) const {
-    return record(EventKind::tool, change.tool, fmt::format("change to tool {}", change.tool));
+  log::EventRecord operator()(const gcode::MistOff&) const {
+    return record(log::EventKind::coolant, 0, "mist off");
   }
-  EventRecord operator()(const gcode::SetToolNumber& set) const {
-    return record(EventKind::tool, set.tool, fmt::format("the tool in the spindle is tool {}", set.tool));
+  log::EventRecord operator()(const gcode::FloodOn&) const {
+    return record(log::EventKind::coolant, 0, "flood on");
   }
-  EventRecord operator()(const gcode::DigitalOutput& output) const {
-    return record(EventKind::output, output.on ? 1 : 0,
+  log::EventRecord operator()(const gcode::FloodOff&) const {
+    return record(log::EventKind::coolant, 0, "flood off");
+  }
+  log::EventRecord operator()(const gcode::SelectTool& select) const {
+    return record(log::EventKind::tool, select.tool, fmt::format("select tool {}", select.tool));
+  }
+  log::EventRecord operator()(const gcode::ChangeTool& change) const {
+    return record(log::EventKind::tool, change.tool, fmt::format("change to tool {}", change.tool));
+  }
+  log::EventRecord operator()(const gcode::SetToolNumber& set) const {
+    return record(log::EventKind::tool, set.tool,
+                  fmt::format("the tool in the spindle is tool {}", set.tool));
+  }
+  log::EventRecord operator()(const gcode::DigitalOutput& output) const {
+    return record(log::EventKind::output, output.on ? 1 : 0,
                   fmt::format("digital output {} {}", output.number, output.on ? "on" : "off"));
   }
-  EventRecord operator()(const gcode::AnalogOutput& output) const {
-    return record(EventKind::output, output.value,
+  log::EventRecord operator()(const gcode::AnalogOutput& output) const {
+    return record(log::EventKind::output, output.value,
                   fmt::format("analog output {} = {:.6g}", output.number, output.value));
   }
 
-  EventRecord operator()(const gcode::Message& message) const {
+  log::EventRecord operator()(const gcode::Message& message) const {
     const std::size_t first = std::min(message.text.find_first_not_of(' '), message.text.size());
-    return record(EventKind::message, 0, message.text.substr(first));
+    return record(log::EventKind::message, 0, message.text.substr(first));
   }
-  EventRecord operator()(const gcode::ProgramStop&) const {
-    return record(EventKind::stop, 0, "program stop");
+  log::EventRecord operator()(const gcode::ProgramStop&) const {
+    return record(log::EventKind::stop, 0, "program stop");
   }
-  EventRecord operator()(const gcode::OptionalStop&) const {
-    return record(EventKind::stop, 0, "optional stop");
+  log::EventRecord operator()(const gcode::OptionalStop&) const {
+    return record(log::EventKind::stop, 0, "optional stop");
   }
-  EventRecord operator()(const gcode::ProgramEnd& end) const {
-    return record(EventKind::stop, end.by_percent ? 1 : 0, "program end");
+  log::EventRecord operator()(const gcode::ProgramEnd& end) const {
+    return record(log::EventKind::stop, end.by_percent ? 1 : 0, "program end");
   }
-  EventRecord operator()(const gcode::FeedOverride& feed) const {
-    return record(EventKind::lock, feed.enabled ? 1 : 0,
+  log::EventRecord operator()(const gcode::FeedOverride& feed) const {
+    return record(log::EventKind::lock, feed.enabled ? 1 : 0,
                   feed.enabled ? "feed override enabled" : "feed override locked");
   }
-  EventRecord operator()(const gcode::SpeedOverride& speed) const {
-    return record(EventKind::lock, speed.enabled ? 1 : 0,
+  log::EventRecord operator()(const gcode::SpeedOverride& speed) const {
+    return record(log::EventKind::lock, speed.enabled ? 1 : 0,
                   speed.enabled ? "spindle override enabled" : "spindle override locked");
   }
 
-  EventRecord operator()(const OneOf<gcode::Traverse, gcode::Feed, gcode::Arc, gcode::Spline, gcode::RigidTap,
-                                     gcode::SetFeedRate, gcode::SetFeedMode, gcode::SetPathMode,
-                                     gcode::SpeedPoint, gcode::Comment> auto&) const {
+  log::EventRecord operator()(
+      const OneOf<gcode::Traverse, gcode::Feed, gcode::Arc, gcode::Spline, gcode::RigidTap,
+                  gcode::SetFeedRate, gcode::SetFeedMode, gcode::SetPathMode, gcode::SpeedPoint,
+                  gcode::Comment> auto&) const {
     require(false, "moves and settings are no events");
     return {};
   }
@@ -195,8 +207,8 @@ bool is_event(const Block& block) {
   return false;
 }
 
-EventRecord event_record(const ProgramEvent& event) {
+log::EventRecord event_record(const ProgramEvent& event) {
   return std::visit(RecordOf{event.wait}, event.block.action);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -2,7 +2,7 @@
 #include "emulator/emulator.h"
 #include "emulator/log/records.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Events at which the machine stops: it waits for spindle, coolant, input or operator, or an output
 /// changes at once.
@@ -14,6 +14,6 @@ bool waits_for_motion(const gcode::Block& block);
 
 /// Kind, value and text of the log's record; the caller adds tick, block and position.
 /// @pre is_event(event.block), or a probing move
-EventRecord event_record(const ProgramEvent& event);
+log::EventRecord event_record(const ProgramEvent& event);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -8,7 +8,7 @@
 
 #include "emulator/cycle/program_event.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 namespace {
 
 using gcode::Block;
@@ -167,4 +167,4 @@ ReadProgram ProgramReader::finish() {
   return {std::move(path), std::move(events_), blocks_, {}};
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -6,7 +6,7 @@
 #include "emulator/emulator.h"
 #include "planner/planner.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Takes the blocks of a program as they are interpreted and lays them out along the path: moves make path,
 /// everything else happens at its joints. Answers the reading of an input while the program is still being read, from
@@ -48,4 +48,4 @@ class ProgramReader {
   std::optional<WaitOutcome> for_block_, for_program_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -2,7 +2,7 @@
 #include "emulator/cycle/session.h"
 #include "emulator/emulator.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 namespace {
 
 constexpr std::int64_t kProgressTicks = 1000;
@@ -15,14 +15,15 @@ void report_progress(const Job& job, const Session& session, const RunOptions& o
                    base_ticks / static_cast<double>(clock.base_hz));
 }
 
-tl::expected<RunSummary, RunFailure> run_session(const Job& job, RunLog* log, const RunOptions& options) {
+tl::expected<log::RunSummary, RunFailure> run_session(const Job& job, log::RunLog* log,
+                                                      const RunOptions& options) {
   const double tau_s = job.given.machine.model.clock.tau_s();
   Session session(job, log, static_cast<const SessionOptions&>(options));
   while (!session.ended()) {
     if (options.interrupt && options.interrupt->load(std::memory_order_relaxed))
-      return session.finish(Outcome::interrupted);
+      return session.finish(log::Outcome::interrupted);
     if (static_cast<double>(session.ticks().value) * tau_s >= options.until_s)
-      return session.finish(Outcome::stopped_by_until);
+      return session.finish(log::Outcome::stopped_by_until);
     if (auto moved = session.advance(ControlTicks{1}); !moved) return tl::unexpected(moved.error());
     if (options.progress && session.ticks().value % kProgressTicks == 0)
       report_progress(job, session, options);
@@ -32,7 +33,7 @@ tl::expected<RunSummary, RunFailure> run_session(const Job& job, RunLog* log, co
 
 }  // namespace
 
-tl::expected<RunSummary, RunFailure> run(const Job& job, RunLog* log, const RunOptions& options) {
+tl::expected<log::RunSummary, RunFailure> run(const Job& job, log::RunLog* log, const RunOptions& options) {
   if (log && options.threads > 1) {
     const auto threaded = make_threaded_log(*log);
     return run_session(job, threaded.get(), options);
@@ -40,4 +41,4 @@ tl::expected<RunSummary, RunFailure> run(const Job& job, RunLog* log, const RunO
   return run_session(job, log, options);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

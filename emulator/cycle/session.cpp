@@ -19,7 +19,7 @@
 #include "planner/planner.h"
 #include "plant/plant.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 using planner::LimitedBy;
 
@@ -58,7 +58,7 @@ std::vector<double> start_u(const Job& job) {
 /// monitors, log.
 class Session::Cycle {
  public:
-  Cycle(const Job& job, RunLog* log, SessionOptions options)
+  Cycle(const Job& job, log::RunLog* log, SessionOptions options)
       : job_(job),
         machine_(job.given.machine.model),
         options_(std::move(options)),
@@ -99,7 +99,7 @@ class Session::Cycle {
     if (motion_.s_end_u > motion_.s_begin_u) ++motion_ticks_;
     if (auto failure = log_tick()) return failure;
     if (machine_.on_alarm == machine::OnAlarm::stop && monitor_.alarms() > 0)
-      outcome_ = Outcome::alarm;
+      outcome_ = log::Outcome::alarm;
     else if (has_operator_)
       outcome_ = ended_by_operator();
     return std::nullopt;
@@ -113,11 +113,11 @@ class Session::Cycle {
     return true;
   }
 
-  tl::expected<RunSummary, RunFailure> finish(Outcome unfinished) {
-    if (!outcome_) outcome_ = at_program_end() ? Outcome::complete : unfinished;
+  tl::expected<log::RunSummary, RunFailure> finish(log::Outcome unfinished) {
+    if (!outcome_) outcome_ = at_program_end() ? log::Outcome::complete : unfinished;
     monitor_.finish(now());
     if (auto failure = log_happenings()) return tl::unexpected(*failure);
-    RunSummary made = summary();
+    log::RunSummary made = summary();
     if (auto failure = log_.end(made)) return tl::unexpected(*failure);
     return made;
   }
@@ -163,11 +163,11 @@ class Session::Cycle {
   }
 
   /// Why a run under an operator ends before the program does, or nothing.
-  std::optional<Outcome> ended_by_operator() {
+  std::optional<log::Outcome> ended_by_operator() {
     const double at_u = motion_.s_end_u, length_u = job_.read.path.length_u();
     if (source_->stopped()) {
       operator_alarm(Code::emergency_stopped, fmt::format("stands at {:.6g} of {:.6g}", at_u, length_u));
-      return Outcome::emergency_stop;
+      return log::Outcome::emergency_stop;
     }
     const bool held = motion_.limited_by == LimitedBy::hold && motion_.speed_end_u_s == 0 &&
                       motion_.s_end_u == motion_.s_begin_u;
@@ -175,7 +175,7 @@ class Session::Cycle {
     if (!held || options_.live_operator || !panel_.at_its_end()) return std::nullopt;
     operator_alarm(Code::held_to_the_end,
                    fmt::format("held at {:.6g} of {:.6g}, and no step releases it", at_u, length_u));
-    return Outcome::held;
+    return log::Outcome::held;
   }
   void operator_alarm(Code code, std::string text) {
     events_.alarm(now(), code, motion_.s_end_u, job_.read.path.length_u(), std::move(text));
@@ -183,22 +183,22 @@ class Session::Cycle {
   }
 
   std::optional<RunFailure> fail(const plant::PlantError& error) {
-    EventRecord e;
+    log::EventRecord e;
     e.tick = now();
-    e.kind = EventKind::alarm;
+    e.kind = log::EventKind::alarm;
     e.code = Code::plant_numerics;
     e.axis = error.axis;
     e.text = fmt::format("{}: {}", error.flag, error.detail);
     if (job_.read.path.size() > 0) e.span = job_.read.path.segments[segment()].span;
     events_.append(std::move(e));
     ++end_alarms_;
-    outcome_ = Outcome::plant_error;
+    outcome_ = log::Outcome::plant_error;
     return log_happenings();
   }
 
   std::optional<RunFailure> log_happenings();
   std::optional<RunFailure> log_tick();
-  RunSummary summary() const;
+  log::RunSummary summary() const;
 
   const Job& job_;
   const machine::MachineModel& machine_;
@@ -208,14 +208,14 @@ class Session::Cycle {
   const bool has_operator_;
   std::unique_ptr<planner::MotionSource> source_;
   EventList events_;
-  std::vector<BlockRecord> begun_;
-  std::vector<BlockEndRecord> block_ends_;
+  std::vector<log::BlockRecord> begun_;
+  std::vector<log::BlockEndRecord> block_ends_;
   OperatorPanel panel_;
   OperatorWatch operator_watch_;
   InputEvents inputs_;
   ProgramClock program_;
   BlockStarts block_starts_;
-  CrossingInterpolator interpolator_;
+  interpolator::CrossingInterpolator interpolator_;
   std::optional<plant::Plant> plant_;
   std::vector<plant::EnergyBalance> energy_;  // [axes]; empty unless log.energy
   Monitor monitor_;
@@ -224,7 +224,7 @@ class Session::Cycle {
   TickMotion motion_{};
   ControlTicks ticks_, motion_ticks_;
   std::size_t end_alarms_ = 0;  // that ended the run, and are no monitor's
-  std::optional<Outcome> outcome_;
+  std::optional<log::Outcome> outcome_;
 };
 
 std::optional<RunFailure> Session::Cycle::log_happenings() {
@@ -242,18 +242,18 @@ std::optional<RunFailure> Session::Cycle::log_happenings() {
 std::optional<RunFailure> Session::Cycle::log_tick() {
   if (auto failure = log_happenings()) return failure;
   // by name: a member without a default that is missing here does not compile
-  const TickRecord record{.tick = motion_.tick,
-                          .block = events_.block(),
-                          .motion = &motion_,
-                          .position_steps = &interpolator_.position_steps(),
-                          .axis = plant(),
-                          .has_override = has_operator_};
+  const log::TickRecord record{.tick = motion_.tick,
+                               .block = events_.block(),
+                               .motion = &motion_,
+                               .position_steps = &interpolator_.position_steps(),
+                               .axis = plant(),
+                               .has_override = has_operator_};
   return log_.tick(record, batch_);
 }
 
-RunSummary Session::Cycle::summary() const {
+log::RunSummary Session::Cycle::summary() const {
   const planner::Path& path = job_.read.path;
-  RunSummary summary;
+  log::RunSummary summary;
   summary.outcome = *outcome_;
   summary.ticks = now();
   summary.control_ticks = ticks_;
@@ -281,7 +281,7 @@ RunSummary Session::Cycle::summary() const {
   return summary;
 }
 
-Session::Session(const Job& job, RunLog* log, SessionOptions options)
+Session::Session(const Job& job, log::RunLog* log, SessionOptions options)
     : cycle_(std::make_unique<Cycle>(job, log, std::move(options))) {}
 Session::Session(Session&&) noexcept = default;
 Session::~Session() = default;
@@ -294,7 +294,7 @@ tl::expected<ControlTicks, RunFailure> Session::advance(ControlTicks n) {
 }
 
 bool Session::operate(const OperatorStep& step) { return cycle_->operate(step); }
-tl::expected<RunSummary, RunFailure> Session::finish(Outcome unfinished) {
+tl::expected<log::RunSummary, RunFailure> Session::finish(log::Outcome unfinished) {
   return cycle_->finish(unfinished);
 }
 bool Session::ended() const { return cycle_->ended(); }
@@ -304,4 +304,4 @@ const StepBatch& Session::batch() const { return cycle_->batch(); }
 const std::vector<AxisState>* Session::plant() const { return cycle_->plant(); }
 std::uint32_t Session::line() const { return cycle_->line(); }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

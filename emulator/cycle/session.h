@@ -5,7 +5,7 @@
 #include "emulator/emulator.h"
 #include "machine/tick_motion.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// A run that its caller advances: so many control ticks at a time, with a live operator if wanted. run() is
 /// a loop over it. Neither the size of the portions nor the time between them changes what is run and logged.
@@ -13,7 +13,7 @@ class Session {
  public:
   /// Begins the run, at rest at the path's beginning.
   /// @param job  prepared; outlives the session, as do log (may be null) and what options.exit_code refers to
-  Session(const Job& job, RunLog* log, SessionOptions options = {});
+  Session(const Job& job, log::RunLog* log, SessionOptions options = {});
   Session(Session&&) noexcept;
   ~Session();
 
@@ -28,7 +28,7 @@ class Session {
   bool operate(const OperatorStep& step);
   /// Ends the run and writes its summary.
   /// @param unfinished  outcome of a run that has not ended yet
-  tl::expected<RunSummary, RunFailure> finish(Outcome unfinished = Outcome::interrupted);
+  tl::expected<log::RunSummary, RunFailure> finish(log::Outcome unfinished = log::Outcome::interrupted);
 
   /// The program is at its end, or something has ended the run: an alarm (on_alarm = "stop"), the plant's
   /// numerics, an emergency stop, a hold that no step ends.
@@ -45,4 +45,4 @@ class Session {
   std::unique_ptr<Cycle> cycle_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 namespace {
 
 const char* limit_unit(const machine::AxisModel& axis) {
@@ -63,4 +63,4 @@ void check_soft_limits(const planner::Path& path, const machine::MachineModel& m
   }
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -6,9 +6,9 @@
 
 #include "machine/base/require.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
-void require_sound_nodes(ControlTicks control_tick, const CrossingInterpolator& interpolator,
+void require_sound_nodes(ControlTicks control_tick, const interpolator::CrossingInterpolator& interpolator,
                          const Job& job) {
   // half a step, plus the rounding of the moment of a slow crossing
   constexpr double kMost_steps = 0.5 + 1e-6;
@@ -26,4 +26,4 @@ void require_sound_nodes(ControlTicks control_tick, const CrossingInterpolator& 
       static_cast<double>(control_tick.value) * machine.clock.tau_s()));
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

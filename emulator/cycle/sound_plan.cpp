@@ -8,7 +8,7 @@
 #include "machine/base/require.h"
 #include "planner/planner.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 namespace {
 
 /// Of what verify() measures: "mm/s2", "s", "" ...; mm and deg count alike along the path.
@@ -69,4 +69,4 @@ void require_sound_plan(const JobInputs& given, const SourceSet& sources, const 
   if (!found.empty()) throw BrokenPromise(violation_text(found.front(), given, sources, read.path, plan.law));
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 Ticks base_tick_at(const TickMotion& m, double s_u, const machine::ClockModel& clock) {
   const std::int64_t begin = m.tick.value * clock.control_tick.value;
@@ -27,4 +27,4 @@ double feed_at_u_s(const TickMotion& m, double s_u) {
   return std::sqrt(std::max(0.0, v0 * v0 + (v1 * v1 - v0 * v0) * std::min(left_u / way_u, 1.0)));
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

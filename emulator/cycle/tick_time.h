@@ -2,7 +2,7 @@
 #include "machine/machine.h"
 #include "machine/tick_motion.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Base tick at which the path reaches s inside a control tick: the inverse of TickMotion's linear feed.
 /// @param s_u  path length; the tick's first or last moment if the tick does not pass it
@@ -16,4 +16,4 @@ inline Ticks begin_of(ControlTicks tick, const machine::ClockModel& clock) {
   return {tick.value * clock.control_tick.value};
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -5,7 +5,7 @@
 
 #include "machine/base/numbers.h"
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 namespace {
 
@@ -216,4 +216,4 @@ double ArcCrossings::bracketed_angle(double height) const {
   return chi;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

@@ -5,7 +5,7 @@
 #include "emulator/interpolator/crossing_run.h"
 #include "planner/path/path.h"
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 /// Half-crossings of one of the two plane axes of an arc, run by run in the order of the path.
 ///
@@ -64,4 +64,4 @@ class ArcCrossings : public CrossingRun {
   std::int64_t found_ = 0;  // crossings of this piece already found
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

@@ -12,7 +12,7 @@
 #include "machine/base/require.h"
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 namespace {
 
@@ -346,4 +346,4 @@ std::size_t CrossingInterpolator::worst_node_segment() const { return impl_->che
 void CrossingInterpolator::set_trace(bool on) { impl_->tracing = on; }
 const std::vector<StepEvent>& CrossingInterpolator::trace() const { return impl_->events; }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 /// Crossings found ahead of the motion, all in one direction.
 struct CrossingRun {
@@ -12,4 +12,4 @@ struct CrossingRun {
   int sign = 1;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

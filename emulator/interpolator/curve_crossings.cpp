@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 namespace {
 
 // a step of Newton's method below this changes t no more; a bracket below it can't be halved
@@ -78,4 +78,4 @@ double CurveCrossings::crossing(double level, double low, double high) const {
   return t;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

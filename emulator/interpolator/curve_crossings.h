@@ -6,7 +6,7 @@
 #include "emulator/interpolator/crossing_run.h"
 #include "planner/path/path.h"
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 /// Half-crossings of one axis of a curve, run by run in the order of the path.
 ///
@@ -38,4 +38,4 @@ class CurveCrossings : public CrossingRun {
   double s_last_u_ = 0;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

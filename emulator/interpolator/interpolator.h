@@ -17,10 +17,7 @@ struct MachineModel;
 
 /// From path and tick motion to step pulses. Which pulses, and in which order along the path, is geometry
 /// alone; the motion law only says when each fires.
-namespace kadr::emulator {
-
-using kadr::lattice_node;
-using kadr::StepHash;
+namespace kadr::interpolator {
 
 /// One pulse with its position: data that a drawing, a study or the self-check needs beyond the batch.
 struct StepEvent {
@@ -67,4 +64,4 @@ class CrossingInterpolator {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

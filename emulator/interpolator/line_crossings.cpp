@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 LineCrossings LineCrossings::between(double begin, double end, std::int64_t node_begin, std::int64_t node_end,
                                      double length_u) {
@@ -26,4 +26,4 @@ std::int64_t LineCrossings::reached(double s_end_u) const {
   return k;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

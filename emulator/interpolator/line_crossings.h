@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 /// Half-crossings of one axis that moves linearly along a segment: x(s) = begin + (end - begin) s/length, in
 /// steps. Crossing k = 0, 1, ... of the levels node_begin +- (k + 1/2) lies at s_k = (first_level + k) spacing_u.
@@ -23,4 +23,4 @@ struct LineCrossings {
   std::int64_t reached(double s_end_u) const;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

@@ -7,7 +7,7 @@
 #include "machine/machine.h"
 #include "planner/path/path.h"
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 namespace {
 
@@ -67,4 +67,4 @@ void NodeCheck::measure(std::size_t segment, std::size_t axis, std::int64_t node
   worst_segment_ = segment;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

@@ -4,7 +4,7 @@
 
 #include "emulator/interpolator/interpolator.h"
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 /// The interpolator's check of itself: |node - x(t_event)| <= 1/2 step for every axis at every event. It
 /// shares no formula with the crossings: s comes from the tick's motion at the event's unrounded moment, x
@@ -31,4 +31,4 @@ class NodeCheck {
   std::size_t worst_segment_ = 0;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

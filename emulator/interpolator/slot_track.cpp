@@ -8,7 +8,7 @@
 #include "machine/base/require.h"
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 namespace {
 
 using lattice::Method;
@@ -92,4 +92,4 @@ void SlotTrack::advance() {
   s_u_ = length_u_ * (static_cast<double>(passed_++) + 0.5) / static_cast<double>(slots_);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

@@ -7,7 +7,7 @@
 #include "emulator/interpolator/lattice/lattice.h"
 #include "planner/path/path.h"
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 /// The steps of a segment by one of the other methods of paper 002 (machine key interpolator.method), one
 /// clock slot after the other, the slots evenly over the segment's length. For study: it shows how such
@@ -43,4 +43,4 @@ class SlotTrack {
   bool has_next_ = false;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

@@ -2,7 +2,7 @@
 
 #include "machine/base/require.h"
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 namespace {
 
@@ -75,4 +75,4 @@ void keep_ascending(std::uint16_t* offset_ticks, std::size_t count) {
   for (std::size_t i = 1; i < count; ++i) offset_ticks[i] = std::max(offset_ticks[i], offset_ticks[i - 1]);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

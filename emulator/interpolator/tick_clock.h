@@ -5,7 +5,7 @@
 
 #include "planner/laws/motion_source.h"
 
-namespace kadr::emulator {
+namespace kadr::interpolator {
 
 /// Inverse of one control tick's motion s(t): the moment at which a position of the path is reached.
 ///
@@ -67,4 +67,4 @@ void stamp_list(const TickClock& clock, const double* s_u, std::size_t count, do
 /// Makes offsets never decrease, from `begin` on: two crossings within rounding of each other may swap base ticks.
 void keep_ascending(std::uint16_t* offset_ticks, std::size_t count);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::interpolator

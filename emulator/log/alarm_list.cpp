@@ -1,6 +1,6 @@
 #include "emulator/log/alarm_list.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 ForwardingLog::Written AlarmList::event(const EventRecord& record) {
   if (record.kind == EventKind::alarm) {
@@ -10,4 +10,4 @@ ForwardingLog::Written AlarmList::event(const EventRecord& record) {
   return ForwardingLog::event(record);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -6,7 +6,7 @@
 
 #include "emulator/log/forwarding_log.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// Keeps the alarms for the summary.
 class AlarmList final : public ForwardingLog {
@@ -26,4 +26,4 @@ class AlarmList final : public ForwardingLog {
   std::map<Code, std::size_t> counts_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

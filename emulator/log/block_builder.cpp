@@ -2,7 +2,7 @@
 
 #include "machine/base/require.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 BlockBuilder::BlockBuilder(const machine::MachineModel& machine)
     : machine_(machine), pulses_(machine.axis.size()), node_(machine.axis.size()) {
@@ -136,4 +136,4 @@ AxisSample BlockBuilder::axis_sample(const TickRecord& record, const StepBatch& 
   return m;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -7,7 +7,7 @@
 #include "emulator/log/pulse_code.h"
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 namespace detail {
 template <class List>
@@ -59,4 +59,4 @@ class BlockBuilder {
   double accel_u_s2_ = 0, jerk_u_s3_ = 0;  // of the tick added last
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -13,7 +13,7 @@
 
 /// A channel of the log: its name, the LCM type of its messages and the table of their fields. Written and
 /// read by that table alone.
-namespace kadr::emulator {
+namespace kadr::log {
 
 inline constexpr std::size_t kMaxChannelBytes = 63;  ///< LCM's limit for a channel name
 
@@ -164,4 +164,4 @@ tl::expected<Decoded<R>, std::string> decode(std::span<const std::uint8_t> data,
   return message;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -6,7 +6,7 @@
 
 #include "emulator/log/log_messages.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 namespace {
 
 constexpr std::size_t kWidth = 120, kCommentColumn = 36;
@@ -108,4 +108,4 @@ std::string field_tables() {
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

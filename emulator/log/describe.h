@@ -6,7 +6,7 @@
 #include "emulator/log/channel.h"
 
 /// The channels in words, from their tables: what tests keep emulator/log/kadr.lcm and docs/log_format.md to.
-namespace kadr::emulator {
+namespace kadr::log {
 
 struct ChannelDescription {
   ChannelTitle title;
@@ -24,4 +24,4 @@ std::string channel_table();
 /// Markdown: of each channel the table of its fields.
 std::string field_tables();
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -6,7 +6,7 @@
 #include "emulator/log/run_log.h"
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 namespace {
 
 /// One byte for a pulse at a constant rate, two where the interval changes by 64 base ticks or more.
@@ -113,4 +113,4 @@ std::int64_t estimate_log_bytes(const machine::MachineModel& machine, double pla
   return static_cast<std::int64_t>(std::min(bytes, kLargest));
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -8,7 +8,7 @@
 
 #include "emulator/log/wire.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 tl::expected<EventFile, std::string> EventFile::open(const std::string& path) {
   EventFile events;
@@ -75,4 +75,4 @@ EventFile::Next EventFile::next(LogEventView& view) {
   return Next::event;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -9,7 +9,7 @@
 
 #include "emulator/log/log_reader.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// The events of an LCM log file, one after the other, every length checked against the file before it is believed.
 class EventFile {
@@ -40,4 +40,4 @@ class EventFile {
   std::string detail_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

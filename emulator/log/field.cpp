@@ -3,7 +3,7 @@
 #include "emulator/log/channels/run.h"
 #include "emulator/log/tick_columns.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 std::string_view unit_symbol(FieldUnit unit) {
   switch (unit) {
@@ -76,4 +76,4 @@ bool begins_at_its_tick(Ticks begin, ControlTicks first, const LogHeader& header
          begin.value == first.value * header.control_tick_ticks;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

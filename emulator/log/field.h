@@ -12,7 +12,7 @@
 /// What one field of a log message is: its place on the wire, its unit, its meaning. A channel's table of
 /// them (emulator/log/channels/) is the only description of its message: writer, reader, `kadr diff`,
 /// signals, the size estimate, kadr.lcm and docs/log_format.md are made from it.
-namespace kadr::emulator {
+namespace kadr::log {
 
 struct LogHeader;
 
@@ -185,4 +185,4 @@ struct Field : FieldInfo {
   }
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

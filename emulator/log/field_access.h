@@ -14,7 +14,7 @@
 ///   field::i32<&R::span, &Span::line>("source_line", "from 1")
 ///   field::real<&R::axis, &AxisTicks::base_u>("base_u", FieldUnit::axis, "x0").by("n_axes", "n")
 /// A vector on the path is an array of the message.
-namespace kadr::emulator::field {
+namespace kadr::log::field {
 
 // ---- numbers and texts of the wire, and the types that hold them
 
@@ -312,4 +312,4 @@ std::size_t length(const Owner<kFirst>& record) {
     return (record.*kFirst).size();
 }
 
-}  // namespace kadr::emulator::field
+}  // namespace kadr::log::field

@@ -1,7 +1,7 @@
 #pragma once
 #include "emulator/log/run_log.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// Passes everything from the cycle to a log, which may be missing. A listener overrides the records it needs,
 /// and passes them on too.
@@ -29,4 +29,4 @@ class ForwardingLog : public RunLog {
   RunLog* next_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

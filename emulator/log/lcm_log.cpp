@@ -13,7 +13,7 @@
 #include "machine/base/require.h"
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 namespace {
 
 using Done = tl::expected<void, LogError>;
@@ -223,4 +223,4 @@ tl::expected<std::unique_ptr<RunLog>, LogError> open_lcm_log(const LcmLogOptions
   return log;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

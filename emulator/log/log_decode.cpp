@@ -4,7 +4,7 @@
 
 #include <optional>
 
-namespace kadr::emulator {
+namespace kadr::log {
 namespace {
 
 using Message = tl::expected<Decoded<LogMessage>, std::string>;
@@ -76,4 +76,4 @@ tl::expected<Decoded<LogMessage>, std::string> decode_message(const LogEventView
   return message ? std::move(*message) : Decoded<LogMessage>{UnknownMessage{}, false};
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

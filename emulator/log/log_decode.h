@@ -8,7 +8,7 @@
 
 #include "emulator/log/log_reader.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 struct HeaderFault {
   LogReadFault fault;
@@ -26,4 +26,4 @@ tl::expected<Decoded<LogMessage>, std::string> decode_message(const LogEventView
 /// Text of unknown origin for a message: other than printable ASCII becomes '?'.
 std::string printable(std::string_view text);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -9,7 +9,7 @@
 #include "machine/base/hash.h"
 #include "machine/step_hash.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 namespace {
 
 std::uint64_t hash_of_file(const std::string& path, std::int64_t bytes) {
@@ -164,4 +164,4 @@ std::string render_log_info(const LogInfo& info) {
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

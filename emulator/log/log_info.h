@@ -9,7 +9,7 @@
 #include "emulator/log/log_reader.h"
 
 /// What `kadr info LOG` reports, found by reading the whole file; nothing in it is taken on trust.
-namespace kadr::emulator {
+namespace kadr::log {
 
 struct ChannelInfo {
   std::string name;
@@ -45,4 +45,4 @@ std::string log_state_name(LogState state);
 /// Table for people, lines end in '\n'.
 std::string render_log_info(const LogInfo& info);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

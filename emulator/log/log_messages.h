@@ -14,7 +14,7 @@
 #include "emulator/log/channels/ticks.h"
 
 /// The channels of a log.
-namespace kadr::emulator {
+namespace kadr::log {
 
 template <class... R>
 struct Records {};
@@ -79,4 +79,4 @@ void for_each_channel(Records<R...>, F&& f) {
   (f.template operator()<R>(), ...);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -9,7 +9,7 @@
 #include "machine/base/hash.h"
 #include "machine/base/require.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 namespace {
 constexpr std::string_view kRunChannel = Channel<LogHeader>::info.name;
 }
@@ -178,4 +178,4 @@ const LogEnd& LogReader::end() const {
   return impl_->end;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -15,7 +15,7 @@
 
 /// Reads kadr logs (docs/log_format.md), whole, cut off or damaged: every message up to the first byte that
 /// is not a log's. Nothing in a file can make it crash, hang or allocate more than a small multiple of the file's size.
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// Why a file can't be read as a kadr log at all.
 enum class LogReadFault : std::uint8_t {
@@ -85,4 +85,4 @@ class LogReader {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -4,7 +4,7 @@
 
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 std::int64_t event_time_us(Ticks tick, std::int64_t base_hz) {
   constexpr std::int64_t kMicrosecondsPerSecond = 1'000'000;
@@ -20,4 +20,4 @@ std::int32_t viewer_every_ticks(const machine::MachineModel& machine) {
   return static_cast<std::int32_t>(every < 1 ? 1 : every > kLongest ? kLongest : every);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -8,7 +8,7 @@ struct MachineModel;
 }
 
 /// Names and numbers that the log's writer, reader and size estimate share (docs/log_format.md).
-namespace kadr::emulator {
+namespace kadr::log {
 
 inline constexpr std::int32_t kLogFormat = 2;            ///< of the logs that are written
 inline constexpr std::int32_t kOldestLogFormat = 2;      ///< that is read
@@ -23,4 +23,4 @@ std::int64_t event_time_us(Ticks tick, std::int64_t base_hz);
 /// Control ticks from one viewer message to the next: round(control rate / log.viewer_rate_hz), at least 1; 0: none.
 std::int32_t viewer_every_ticks(const machine::MachineModel& machine);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

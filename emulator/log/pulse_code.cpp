@@ -4,7 +4,7 @@
 
 #include "machine/base/require.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 namespace {
 
 constexpr std::size_t kMaxVarintBytes = 5;  // 32 bits, 7 in a byte
@@ -190,4 +190,4 @@ tl::expected<void, std::string> decode_pulses(std::span<const std::uint8_t> code
   return {};
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -18,7 +18,7 @@
 ///   code   = varint(zigzag(d_i - d_(i-1))) for each pulse, then varint(r_j - r_(j-1)) for each reversal
 ///   r_j    index of a pulse whose direction differs from the pulse before; before the first pulse it is +,
 ///   r_-1 = 0
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// Codes the pulses of one axis, tick by tick. Storage is reused from block to block.
 class PulseEncoder {
@@ -56,4 +56,4 @@ struct PulseCounts {
 tl::expected<void, std::string> decode_pulses(std::span<const std::uint8_t> code, const PulseCounts& counts,
                                               std::span<StepBatch> batches, std::size_t axis);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

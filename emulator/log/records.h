@@ -15,7 +15,7 @@ struct MachineModel;
 
 /// What the cycle reports to the log, in tick order; a pure function of the inputs: no
 /// clock, address, locale or thread.
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// First message: everything needed to run again and to compare.
 struct RunHeader {
@@ -130,4 +130,4 @@ struct RunSummary {
   int exit_code = 0;         ///< of the command that ran it, by RunOptions
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -7,7 +7,7 @@
 
 #include "emulator/log/records.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// An I/O error while writing: path, reason, and up to which tick the file is valid.
 struct LogError {
@@ -48,4 +48,4 @@ struct LcmLogOptions {
 /// more than the block under way. After an error every call gives that error again and nothing more is written.
 tl::expected<std::unique_ptr<RunLog>, LogError> open_lcm_log(const LcmLogOptions& options);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -4,7 +4,7 @@
 #include "machine/base/vocabulary.h"
 
 /// Words of the log's events and of its summary.
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// Subject of an event. Those up to `stop` are of the program.
 enum class EventKind : std::uint8_t {
@@ -92,4 +92,4 @@ inline constexpr Vocabulary<LostReason, 5> kLostReasons{{
 }};
 static_assert(kLostReasons.complete());
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

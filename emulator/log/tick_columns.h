@@ -4,7 +4,7 @@
 
 #include "emulator/log/records.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 struct LogHeader;
 
@@ -21,4 +21,4 @@ struct TickSource {
 /// Whether base tick and number of a block's first control tick agree.
 bool begins_at_its_tick(Ticks begin, ControlTicks first, const LogHeader& header);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

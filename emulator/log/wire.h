@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// Reads the big-endian fields of an LCM message. Never beyond its bytes: after the first field that does not
 /// fit, ok() is false, everything reads as zero and nothing is allocated.
@@ -97,4 +97,4 @@ class WireWriter {
   std::vector<std::uint8_t>& bytes_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

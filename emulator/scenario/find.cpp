@@ -4,7 +4,7 @@
 
 #include "emulator/scenario/scenario.h"
 
-namespace kadr::emulator {
+namespace kadr::scenario {
 namespace fs = std::filesystem;
 
 namespace {
@@ -40,4 +40,4 @@ std::vector<std::string> find_scenarios(const std::vector<std::string>& paths) {
   return found;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::scenario

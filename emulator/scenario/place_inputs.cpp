@@ -6,7 +6,7 @@
 #include "emulator/scenario/scenario.h"
 #include "machine/file/tree.h"
 
-namespace kadr::emulator {
+namespace kadr::scenario {
 namespace {
 
 // times are decimals: 0.3 s is 300 ticks of 1 ms up to rounding
@@ -14,7 +14,8 @@ constexpr double kSameTick = 1e-6;
 
 }  // namespace
 
-void place_inputs(const Scenario& scenario, std::uint32_t file, JobInputs& given, Diagnostics& diagnostics) {
+void place_inputs(const Scenario& scenario, std::uint32_t file, cycle::JobInputs& given,
+                  Diagnostics& diagnostics) {
   const double tau_s = given.machine.model.clock.tau_s();
   given.most_override = scenario.most_override;
   for (const ScenarioTechnology& point : scenario.technology) {
@@ -45,7 +46,7 @@ void place_inputs(const Scenario& scenario, std::uint32_t file, JobInputs& given
       diagnostics.add(std::move(d));
       return {};
     };
-    OperatorStep action;
+    cycle::OperatorStep action;
     action.place = step.place;
     if (!step.place) {
       const auto tick =
@@ -61,7 +62,7 @@ void place_inputs(const Scenario& scenario, std::uint32_t file, JobInputs& given
     action.value = step.value;
     action.span = span;
     given.operator_steps.push_back(action);
-    if (*step.action != OperatorAction::spindle_load) continue;
+    if (*step.action != cycle::OperatorAction::spindle_load) continue;
     if (step.for_s > 0) {
       const auto more = on_tick(step.for_s / tau_s, "for_s");
       if (!more) continue;
@@ -73,11 +74,12 @@ void place_inputs(const Scenario& scenario, std::uint32_t file, JobInputs& given
     }
   }
   std::stable_sort(given.inputs.begin(), given.inputs.end(),
-                   [](const InputStep& a, const InputStep& b) { return a.tick < b.tick; });
+                   [](const cycle::InputStep& a, const cycle::InputStep& b) { return a.tick < b.tick; });
   const auto placed = std::stable_partition(given.operator_steps.begin(), given.operator_steps.end(),
-                                            [](const OperatorStep& s) { return !s.place; });
-  std::stable_sort(given.operator_steps.begin(), placed,
-                   [](const OperatorStep& a, const OperatorStep& b) { return a.tick < b.tick; });
+                                            [](const cycle::OperatorStep& s) { return !s.place; });
+  std::stable_sort(
+      given.operator_steps.begin(), placed,
+      [](const cycle::OperatorStep& a, const cycle::OperatorStep& b) { return a.tick < b.tick; });
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::scenario

@@ -7,7 +7,7 @@
 #include "emulator/scenario/scenario.h"
 #include "emulator/text/text.h"
 
-namespace kadr::emulator {
+namespace kadr::scenario {
 namespace {
 
 std::size_t failures(const std::vector<ScenarioResult>& results) {
@@ -62,14 +62,14 @@ std::string render_junit(const std::vector<ScenarioResult>& results) {
       results.size(), failures(results), total_s);
   for (const ScenarioResult& r : results) {
     out += fmt::format("  <testcase classname=\"kadr.scenarios\" name=\"{}\" file=\"{}\" time=\"{:.6f}\"",
-                       xml_text(r.name), xml_text(r.file), r.machine_s);
+                       text::xml_text(r.name), text::xml_text(r.file), r.machine_s);
     if (r.passed()) {
       out += "/>\n";
       continue;
     }
     const std::string what = differences(r);
     out += fmt::format(">\n    <failure message=\"{}\">{}</failure>\n  </testcase>\n",
-                       xml_text(what.substr(0, what.find('\n'))), xml_text(what));
+                       text::xml_text(what.substr(0, what.find('\n'))), text::xml_text(what));
   }
   return out + "</testsuite>\n";
 }
@@ -90,4 +90,4 @@ std::string render_json(const std::vector<ScenarioResult>& results) {
   return list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::scenario

@@ -10,7 +10,7 @@
 #include "emulator/scenario/signals.h"
 #include "machine/base/hash.h"
 
-namespace kadr::emulator {
+namespace kadr::scenario {
 namespace {
 
 std::string codes_text(const std::vector<Code>& codes) {
@@ -45,14 +45,14 @@ void compare_bounds(std::vector<ScenarioCheck>& checks, const std::string& what,
 }
 
 void compare_axis(std::vector<ScenarioCheck>& checks, const AxisExpectation& expect,
-                  const machine::MachineModel& machine, const RunSummary& summary) {
+                  const machine::MachineModel& machine, const log::RunSummary& summary) {
   const int index = machine.find_axis(expect.letter);
   if (index < 0) {
     checks.push_back(
         {fmt::format("axis {}", expect.letter), "present", "the machine has no such axis", false});
     return;
   }
-  const AxisSummary& axis = summary.axis.at(static_cast<std::size_t>(index));
+  const log::AxisSummary& axis = summary.axis.at(static_cast<std::size_t>(index));
   if (expect.pulses)
     compare_count(checks, fmt::format("pulses {}", expect.letter), *expect.pulses, axis.pulses);
   if (expect.end_steps)
@@ -64,9 +64,9 @@ void compare_axis(std::vector<ScenarioCheck>& checks, const AxisExpectation& exp
 }
 
 void compare_run(ScenarioResult& result, const Expectations& expect, const machine::MachineModel& machine) {
-  const RunSummary& summary = *result.summary;
+  const log::RunSummary& summary = *result.summary;
   // an alarm is reported below, with its code
-  if (summary.outcome != Outcome::complete && summary.outcome != Outcome::alarm)
+  if (summary.outcome != log::Outcome::complete && summary.outcome != log::Outcome::alarm)
     result.checks.push_back({"outcome", "complete", summary.outcome.text(), false});
   if (expect.time_s)
     result.checks.push_back({"time", fmt::format("{:.7f} s within {:.7f} s", *expect.time_s, expect.within_s),
@@ -117,9 +117,9 @@ void render_into(ScenarioResult& result, const Diagnostics& diagnostics, const S
   }
 }
 
-void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions& options) {
+void run_into(ScenarioResult& result, const Scenario& scenario, const cycle::RunOptions& options) {
   SourceSet sources;
-  JobInputs given;
+  cycle::JobInputs given;
   Diagnostics diagnostics;
   const bool opened = open_job(scenario, given, sources, diagnostics);
   if (!opened) {
@@ -128,7 +128,7 @@ void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions
     return;
   }
   // as `kadr run` does: the run shows where a soft limit is exceeded
-  const auto job = prepare(given, sources, diagnostics, SoftLimitRule::warning);
+  const auto job = cycle::prepare(given, sources, diagnostics, cycle::SoftLimitRule::warning);
   render_into(result, diagnostics, sources);
   result.checks.push_back({"diagnostics", codes_text(scenario.expect.diagnostics), codes_text(result.codes),
                            scenario.expect.diagnostics == result.codes});
@@ -138,9 +138,9 @@ void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions
       result.checks.push_back({"run", "planned and run", "refused", false});
     return;
   }
-  AlarmList alarms(nullptr);
+  log::AlarmList alarms(nullptr);
   SignalRecorder signals(given.machine.model, &alarms);
-  auto summary = run(*job, &signals, options);
+  auto summary = cycle::run(*job, &signals, options);
   if (!summary) {
     result.failure = summary.error().what;
     return;
@@ -151,7 +151,7 @@ void run_into(ScenarioResult& result, const Scenario& scenario, const RunOptions
       static_cast<double>(summary->ticks.value) / static_cast<double>(given.machine.model.clock.base_hz);
   result.summary = std::move(*summary);
   const std::int64_t tau = given.machine.model.clock.control_tick.value;
-  for (const BlockRecord& r : signals.boundaries())
+  for (const log::BlockRecord& r : signals.boundaries())
     result.boundaries.push_back({r.block,
                                  r.tick.value / tau,
                                  r.tick.value % tau,
@@ -173,7 +173,8 @@ bool ScenarioResult::passed() const {
   return true;
 }
 
-bool open_job(const Scenario& scenario, JobInputs& given, SourceSet& sources, Diagnostics& diagnostics) {
+bool open_job(const Scenario& scenario, cycle::JobInputs& given, SourceSet& sources,
+              Diagnostics& diagnostics) {
   SourceText machine_text =
       scenario.machine_is_file
           ? SourceText::open(scenario.machine, kMostSettings_bytes)
@@ -199,7 +200,7 @@ bool open_job(const Scenario& scenario, JobInputs& given, SourceSet& sources, Di
   return diagnostics.errors() == errors;
 }
 
-ScenarioResult run_scenario(const Scenario& scenario, const RunOptions& options) {
+ScenarioResult run_scenario(const Scenario& scenario, const cycle::RunOptions& options) {
   ScenarioResult result;
   result.name = scenario.name;
   result.file = scenario.file;
@@ -211,7 +212,7 @@ ScenarioResult run_scenario(const Scenario& scenario, const RunOptions& options)
   return result;
 }
 
-ScenarioResult run_scenario(const std::string& path, const RunOptions& options) {
+ScenarioResult run_scenario(const std::string& path, const cycle::RunOptions& options) {
   ScenarioResult result;
   result.name = result.file = path;
   try {
@@ -226,4 +227,4 @@ ScenarioResult run_scenario(const std::string& path, const RunOptions& options) 
   return result;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::scenario

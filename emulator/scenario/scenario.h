@@ -14,7 +14,7 @@
 /// documents.
 ///
 /// A scenario is a folder with a scenario.toml; scenarios/README.md has its keys.
-namespace kadr::emulator {
+namespace kadr::scenario {
 
 /// Least and most of a measured value, axis units (mm or deg).
 struct ValueRange {
@@ -67,8 +67,8 @@ struct Expectations {
 struct ScenarioStep {
   double at_s = 0;  ///< the time, unless at_tick or place is given
   std::optional<std::int64_t> at_tick;
-  std::optional<PathPlace> place;
-  std::optional<OperatorAction> action;  ///< else an input
+  std::optional<cycle::PathPlace> place;
+  std::optional<cycle::OperatorAction> action;  ///< else an input
   bool analog = false;
   int number = 0;
   double value = 0;
@@ -118,12 +118,14 @@ tl::expected<Scenario, Diagnostics> read_scenario(SourceText text, SourceSet& so
 /// machine file and tool table are added.
 /// @return false if there were errors
 /// @throws std::system_error if a file can't be opened
-bool open_job(const Scenario& scenario, JobInputs& given, SourceSet& sources, Diagnostics& diagnostics);
+bool open_job(const Scenario& scenario, cycle::JobInputs& given, SourceSet& sources,
+              Diagnostics& diagnostics);
 
 /// Puts the steps of a scenario on the control ticks of the job's machine; a time between two ticks is an
 /// error. Steps at a position on the path keep it until prepare() knows the path.
 /// @param file  of the scenario's text in the sources
-void place_inputs(const Scenario& scenario, std::uint32_t file, JobInputs& given, Diagnostics& diagnostics);
+void place_inputs(const Scenario& scenario, std::uint32_t file, cycle::JobInputs& given,
+                  Diagnostics& diagnostics);
 
 /// One compared value.
 struct ScenarioCheck {
@@ -142,15 +144,15 @@ struct ScenarioResult {
   std::vector<Code> codes;  ///< of the program's errors and warnings, in order
   std::vector<std::pair<Code, std::int64_t>> alarms;  ///< code and count, ascending
   std::vector<BoundaryExpectation> boundaries;        ///< measured
-  std::optional<RunSummary> summary;                  ///< empty if the program was refused
+  std::optional<log::RunSummary> summary;             ///< empty if the program was refused
   double machine_s = 0;                               ///< machine time of the run
   bool passed() const;
 };
 
 /// Runs one scenario and compares. Never throws for a fault of the scenario: that becomes `failure`.
-ScenarioResult run_scenario(const Scenario& scenario, const RunOptions& options = {});
+ScenarioResult run_scenario(const Scenario& scenario, const cycle::RunOptions& options = {});
 /// The same from a path; a file that can't be read is a failed result.
-ScenarioResult run_scenario(const std::string& path, const RunOptions& options = {});
+ScenarioResult run_scenario(const std::string& path, const cycle::RunOptions& options = {});
 
 /// The scenario files under the given paths: a scenario.toml, its folder, or a folder of such folders.
 /// Sorted by path; with no paths those under "scenarios".
@@ -170,4 +172,4 @@ std::string render_json(const std::vector<ScenarioResult>& results);
 /// [expect] is missing, one is added with time, hash and pulses. Bounds stay: they are a person's judgement.
 std::string updated_text(const Scenario& scenario, const ScenarioResult& result);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::scenario

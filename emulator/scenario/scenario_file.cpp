@@ -11,7 +11,7 @@
 #include "machine/file/technology.h"
 #include "scenarios/generator/wind.h"
 
-namespace kadr::emulator {
+namespace kadr::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -174,18 +174,18 @@ class ScenarioReader {
 
   /// When or where a step is: one of kMomentKeys.
   void read_moment(TableReader& table, ScenarioStep& step) {
-    const auto place = [&](const NumberKey& key, PathPlace::Kind kind) {
+    const auto place = [&](const NumberKey& key, cycle::PathPlace::Kind kind) {
       const auto at = number(table, key);
-      step.place = PathPlace{kind, at.value};
+      step.place = cycle::PathPlace{kind, at.value};
       step.span = at.span;
     };
     if (table.has(kAtLine.name)) {
-      place(kAtLine, PathPlace::Kind::line);
+      place(kAtLine, cycle::PathPlace::Kind::line);
       if (table.has(kPass.name)) step.place->pass = static_cast<int>(number(table, kPass).value);
     } else if (table.has(kAtBlock.name)) {
-      place(kAtBlock, PathPlace::Kind::block);
+      place(kAtBlock, cycle::PathPlace::Kind::block);
     } else if (table.has(kAtPath.name)) {
-      place(kAtPath, PathPlace::Kind::length);
+      place(kAtPath, cycle::PathPlace::Kind::length);
     } else if (table.has(kAtTick.name)) {
       const auto tick = number(table, kAtTick);
       step.at_tick = static_cast<std::int64_t>(tick.value);
@@ -227,7 +227,7 @@ class ScenarioReader {
       names += fmt::format("{}{}", names.empty() ? "" : ", ", key.name);
       if (table.has(key.name) && ++actions == 1) read_action(table, key, step);
     }
-    if (step.action == OperatorAction::spindle_load && table.has(kForS.name))
+    if (step.action == cycle::OperatorAction::spindle_load && table.has(kForS.name))
       step.for_s = number(table, kForS).value;
     if (actions == 0) return tell(Code::scenario_step, node.span, "does nothing", "one of " + names);
     if (actions > 1)
@@ -250,7 +250,7 @@ class ScenarioReader {
     if (!most.valid) return;
     scenario_.most_override = most.value / 100;
     for (const ScenarioStep& step : scenario_.steps)
-      if (step.action == OperatorAction::feed_override && step.value > *scenario_.most_override)
+      if (step.action == cycle::OperatorAction::feed_override && step.value > *scenario_.most_override)
         tell(Code::scenario_step, step.span,
              fmt::format("an override of {:.6g} % is above {} = {:.6g}", 100 * step.value, kMostOverride.name,
                          most.value),
@@ -380,4 +380,4 @@ tl::expected<Scenario, Diagnostics> read_scenario(SourceText text, SourceSet& so
   return scenario;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::scenario

@@ -6,7 +6,7 @@
 
 /// The keys of a scenario file, each declared once: from here they are read, and documented in
 /// scenarios/README.md.
-namespace kadr::emulator {
+namespace kadr::scenario {
 
 inline constexpr machine::Bounds kWholeCount{0, 9e15, false, true};
 inline constexpr machine::Bounds kSignedCount{-9e15, 9e15, false, true};
@@ -61,7 +61,7 @@ struct ActionKey {
   std::string_view name;
   Takes takes;
   machine::Bounds bounds;  ///< of a percent or an input's number
-  std::optional<OperatorAction> action;
+  std::optional<cycle::OperatorAction> action;
   std::string_view sentence;
 };
 inline constexpr machine::Bounds kInputs{0, 63, false, true};
@@ -69,24 +69,24 @@ inline constexpr std::array kActionKeys{
     ActionKey{"override_pct",
               ActionKey::Takes::percent,
               {0, 200},
-              OperatorAction::feed_override,
+              cycle::OperatorAction::feed_override,
               "the operator's override"},
     ActionKey{"rapid_override_pct",
               ActionKey::Takes::percent,
               {0, 100},
-              OperatorAction::rapid_override,
+              cycle::OperatorAction::rapid_override,
               "the operator's override of rapids"},
-    ActionKey{"hold", ActionKey::Takes::flag, {}, OperatorAction::hold, "feed hold"},
-    ActionKey{"resume", ActionKey::Takes::flag, {}, OperatorAction::resume, "goes on after a hold"},
+    ActionKey{"hold", ActionKey::Takes::flag, {}, cycle::OperatorAction::hold, "feed hold"},
+    ActionKey{"resume", ActionKey::Takes::flag, {}, cycle::OperatorAction::resume, "goes on after a hold"},
     ActionKey{"spindle_load_pct",
               ActionKey::Takes::percent,
               {0, 1000},
-              OperatorAction::spindle_load,
+              cycle::OperatorAction::spindle_load,
               "what the spindle carries"},
     ActionKey{"emergency_stop",
               ActionKey::Takes::flag,
               {},
-              OperatorAction::emergency_stop,
+              cycle::OperatorAction::emergency_stop,
               "the run ends where it is"},
     ActionKey{"input", ActionKey::Takes::input, kInputs, std::nullopt, "a digital input of M66 changes"},
     ActionKey{"analog_input", ActionKey::Takes::input, kInputs, std::nullopt,
@@ -143,4 +143,4 @@ inline constexpr std::array kAxisRanges{
     RangeKey{"residual_um", "residual_mdeg", &AxisExpectation::residual, "after the worst stop"},
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::scenario

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kadr::emulator {
+namespace kadr::scenario {
 namespace {
 
 constexpr std::string_view kPathSignals[] = {"feed",         "acceleration",           "jerk",   "path",
@@ -33,8 +33,8 @@ std::string signal_unit(std::string_view signal, const machine::MachineModel& ma
   return rotary ? "deg/s" : "mm/s";
 }
 
-SignalRecorder::SignalRecorder(const machine::MachineModel& machine, RunLog* next)
-    : ForwardingLog(next), machine_(machine), columns_(kFirstAxis + machine.axis.size()) {}
+SignalRecorder::SignalRecorder(const machine::MachineModel& machine, log::RunLog* next)
+    : log::ForwardingLog(next), machine_(machine), columns_(kFirstAxis + machine.axis.size()) {}
 
 std::optional<ValueRange> SignalRecorder::range(std::string_view signal, double from_s, double to_s) const {
   const auto names = signal_names(machine_);
@@ -54,12 +54,12 @@ std::optional<ValueRange> SignalRecorder::range(std::string_view signal, double 
   return range;
 }
 
-ForwardingLog::Written SignalRecorder::block(const BlockRecord& record) {
+log::ForwardingLog::Written SignalRecorder::block(const log::BlockRecord& record) {
   boundaries_.push_back(record);
-  return ForwardingLog::block(record);
+  return log::ForwardingLog::block(record);
 }
 
-ForwardingLog::Written SignalRecorder::tick(const TickRecord& record, const StepBatch& batch) {
+log::ForwardingLog::Written SignalRecorder::tick(const log::TickRecord& record, const StepBatch& batch) {
   const TickMotion& m = *record.motion;
   const double tau_s = machine_.clock.tau_s();
   const double accel = (m.speed_end_u_s - m.speed_begin_u_s) / tau_s;
@@ -74,7 +74,7 @@ ForwardingLog::Written SignalRecorder::tick(const TickRecord& record, const Step
   for (std::size_t a = 0; a < machine_.axis.size(); ++a)
     columns_[kFirstAxis + a].push_back(
         (batch.axis[a].command.position_end_u - batch.axis[a].command.position_begin_u) / tau_s);
-  return ForwardingLog::tick(record, batch);
+  return log::ForwardingLog::tick(record, batch);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::scenario

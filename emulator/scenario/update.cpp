@@ -8,7 +8,7 @@
 #include "machine/base/parse_number.h"
 #include "machine/file/tree.h"
 
-namespace kadr::emulator {
+namespace kadr::scenario {
 namespace {
 
 using machine::Entry;
@@ -33,13 +33,15 @@ std::string diagnostics_text(const std::vector<Code>& codes) {
   return "[" + out + "]";
 }
 
-std::string quoted_hash(const RunSummary& summary) { return "\"" + hash_text(summary.steps_hash) + "\""; }
+std::string quoted_hash(const log::RunSummary& summary) {
+  return "\"" + hash_text(summary.steps_hash) + "\"";
+}
 
 void replace_axis(const Entry& axis, const ScenarioResult& result, const machine::MachineModel& machine,
                   std::vector<Replacement>& out) {
   const int index = axis.key.size() == 1 ? machine.find_axis(axis.key.front()) : -1;
   if (index < 0) return;
-  const AxisSummary& measured = result.summary->axis.at(static_cast<std::size_t>(index));
+  const log::AxisSummary& measured = result.summary->axis.at(static_cast<std::size_t>(index));
   if (const Entry* e = axis.value.find("pulses"))
     out.push_back({e->value.span, fmt::format("{}", measured.pulses)});
   if (const Entry* e = axis.value.find("end_steps"))
@@ -113,7 +115,7 @@ std::size_t value_end(const std::string& text, std::size_t at, std::size_t lengt
 std::string updated_text(const Scenario& scenario, const ScenarioResult& result) {
   if (!result.failure.empty()) return scenario.text;
   SourceSet sources;
-  JobInputs given;
+  cycle::JobInputs given;
   Diagnostics ignored;
   if (!open_job(scenario, given, sources, ignored)) return scenario.text;
   const std::uint32_t file = sources.add(SourceText(scenario.file, scenario.text));
@@ -135,4 +137,4 @@ std::string updated_text(const Scenario& scenario, const ScenarioResult& result)
   return text;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::scenario

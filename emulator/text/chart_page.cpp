@@ -4,7 +4,7 @@
 
 #include "emulator/text/text.h"
 
-namespace kadr::emulator {
+namespace kadr::text {
 namespace {
 
 constexpr std::string_view kBegin = R"html(<!DOCTYPE html>
@@ -38,4 +38,4 @@ std::string chart_page_head(std::string_view title, std::string_view style) {
   return fmt::format("{}{}{}<title>{}</title>\n</head>\n<body>\n", kBegin, style, kPrint, xml_text(title));
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::text

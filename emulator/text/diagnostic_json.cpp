@@ -1,6 +1,6 @@
 #include "emulator/text/json.h"
 
-namespace kadr::emulator {
+namespace kadr::text {
 namespace {
 
 Json place_json(const Span& span, const SourceSet& sources) {
@@ -39,4 +39,4 @@ Json json_of(const Diagnostics& diagnostics, const SourceSet& sources) {
 std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace); }
 std::string json_line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::text

@@ -6,7 +6,7 @@
 
 /// What the tables say, for programs: English keys in a fixed order, each real number with its unit in the
 /// key. `_u` is the unit that "unit" beside it names (mm or deg). No wall clock, so equal runs give equal bytes.
-namespace kadr::emulator {
+namespace kadr::text {
 
 using Json = nlohmann::ordered_json;
 
@@ -20,4 +20,4 @@ std::string json_text(const Json& json);
 /// The same on one line, without line end.
 std::string json_line(const Json& json);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::text

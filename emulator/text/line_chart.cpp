@@ -7,7 +7,7 @@
 
 #include "emulator/text/text.h"
 
-namespace kadr::emulator {
+namespace kadr::text {
 namespace {
 
 // pixels of the drawing
@@ -227,4 +227,4 @@ std::string tick_text(double value, double step) {
   return fixed(value, decimals);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::text

@@ -6,7 +6,7 @@
 
 /// Line charts as SVG text: no script, no embedded fonts, the same bytes for the same numbers. Colours
 /// and dashes come from the page's style sheet by class, so that a chart reads on light and on dark ground.
-namespace kadr::emulator {
+namespace kadr::text {
 
 struct ChartPoint {
   double x = 0, y = 0;
@@ -54,4 +54,4 @@ std::vector<double> nice_ticks(const ChartRange& range, int wanted);
 /// A tick with as many decimals as its neighbours need: "0", "250", "0.05".
 std::string tick_text(double value, double step);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::text

@@ -11,7 +11,7 @@
 #include "machine/base/hash.h"
 #include "machine/base/utf8.h"
 
-namespace kadr::emulator {
+namespace kadr::text {
 namespace {
 
 /// Cells of a source line that a snippet shows: generated programs have lines of any length.
@@ -192,4 +192,4 @@ Json SarifLog::document(int exit_code) const {
   return j;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::text

@@ -9,7 +9,7 @@
 #include "emulator/text/json.h"
 #include "machine/base/diagnostic.h"
 
-namespace kadr::emulator {
+namespace kadr::text {
 
 /// The diagnostics of a command as one document of SARIF 2.1.0, the form in which code hosts and editors take
 /// the findings of a checker: a rule for each code used, a result for each diagnostic, errors first. A pure
@@ -42,4 +42,4 @@ class SarifLog {
   std::map<std::tuple<Code, std::string, std::uint32_t, std::size_t>, std::string> line_hashes_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::text

@@ -7,7 +7,7 @@
 
 #include "machine/base/utf8.h"
 
-namespace kadr::emulator {
+namespace kadr::text {
 namespace {
 
 /// Puts a space between groups of three digits before the decimal point.
@@ -173,4 +173,4 @@ std::string xml_text(std::string_view text) {
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::text

@@ -6,7 +6,7 @@
 #include <vector>
 
 /// Numbers and tables for people: dot as decimal sign, a space between thousands, whatever the locale.
-namespace kadr::emulator {
+namespace kadr::text {
 
 /// "38 412", "-1 190"
 std::string grouped(std::int64_t value);
@@ -55,4 +55,4 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::text

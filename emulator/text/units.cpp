@@ -1,6 +1,6 @@
 #include "emulator/text/units.h"
 
-namespace kadr::emulator {
+namespace kadr::text {
 
 const char* axis_unit(const machine::AxisModel& axis) {
   return axis.kind == machine::AxisKind::rotary ? "deg" : "mm";
@@ -10,4 +10,4 @@ std::string speed_unit(const std::string& path_unit) {
   return path_unit == "mm+deg" ? "mm/s or deg/s" : path_unit + "/s";
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::text

@@ -53,9 +53,9 @@ void check_as_sarif(const std::string& text) {
   const auto file = sources.add(SourceText("p.ngc", text));
   gcode::interpret(
       sources, file, {}, [](const gcode::Block&) {}, diagnostics);
-  emulator::SarifLog log("/");
+  text::SarifLog log("/");
   for (const Diagnostic& d : diagnostics.list()) log.add(d, sources);
-  benchmark::DoNotOptimize(emulator::json_line(log.document(1)).size());
+  benchmark::DoNotOptimize(text::json_line(log.document(1)).size());
 }
 
 void format(const std::string& text) {

@@ -37,8 +37,8 @@ void play(benchmark::State& state, const planner::Path& path, const machine::Mac
   StepBatch batch;
   for (auto _ : state) {
     state.PauseTiming();
-    emulator::CrossingInterpolator interpolator(path, machine);
-    emulator::StepHash hash;
+    interpolator::CrossingInterpolator interpolator(path, machine);
+    StepHash hash;
     state.ResumeTiming();
     std::int64_t before = 0;
     for (std::size_t i = 0; i < motions.size(); ++i) {

@@ -10,7 +10,7 @@
 /// 10 M events/s of a Bezier in 3 axes, 20 ns a t(S).
 namespace {
 
-using namespace kadr::emulator::lattice;
+using namespace kadr::interpolator::lattice;
 
 constexpr std::int64_t kA = 1'000'003, kB = 618'035;
 

@@ -13,7 +13,7 @@
 namespace {
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::log;
 
 constexpr std::int64_t kTicks = 2048;
 constexpr std::int64_t kTau = 10'000;

@@ -43,27 +43,27 @@ void run_pipeline(benchmark::State& state, machine::MotorModel motor, bool plant
   machine::MachineModel model = bench_machine(motor);
   model.plant.integrator = integrator;
   SourceSet sources;
-  emulator::JobInputs given;
+  cycle::JobInputs given;
   given.program = sources.add(SourceText("bench.ngc", diagonals(moves)));
   given.machine.model = model;
   Diagnostics diagnostics;
-  const auto job = emulator::prepare(given, sources, diagnostics);
+  const auto job = cycle::prepare(given, sources, diagnostics);
   const std::string path = "/tmp/kadr_bench.lcmlog";
-  emulator::RunOptions options;
+  cycle::RunOptions options;
   options.plant = plant;
   options.threads = threads;
   double machine_s = 0, wall_s = 0, pulses = 0, ticks = 0;
   for (auto _ : state) {
     std::remove(path.c_str());  // giving back the disk space of the last log is not part of a run
     const double begin_s = bench::seconds_now();
-    std::unique_ptr<emulator::RunLog> file;
+    std::unique_ptr<log::RunLog> file;
     if (log) {
-      file = *emulator::open_lcm_log({path, ""});
-      emulator::RunHeader header;
+      file = *log::open_lcm_log({path, ""});
+      log::RunHeader header;
       header.machine = &model;
       if (!file->begin(header)) state.SkipWithError("log");
     }
-    const auto summary = emulator::run(*job, file.get(), options);
+    const auto summary = cycle::run(*job, file.get(), options);
     if (!summary) {
       state.SkipWithError("run");
       break;

@@ -70,7 +70,7 @@ Work wind_work(const char* kind) {
 
 struct Inputs {
   SourceSet sources;
-  emulator::JobInputs given;
+  cycle::JobInputs given;
 };
 
 Inputs inputs_of(const Work& work) {
@@ -78,8 +78,8 @@ Inputs inputs_of(const Work& work) {
   Diagnostics diagnostics;
   if (work.text.empty()) {
     const auto scenario =
-        emulator::read_scenario(std::string(KADR_SOURCE_DIR "/scenarios/") + work.name, in.sources);
-    emulator::open_job(*scenario, in.given, in.sources, diagnostics);
+        scenario::read_scenario(std::string(KADR_SOURCE_DIR "/scenarios/") + work.name, in.sources);
+    scenario::open_job(*scenario, in.given, in.sources, diagnostics);
     return in;
   }
   in.given.machine = *machine::read_machine(
@@ -94,14 +94,14 @@ void verify(benchmark::State& state, const Work& work) {
   for (auto _ : state) {
     const auto options = planner::production_check();
     std::optional<Inputs> in;
-    std::optional<emulator::Job> job;
+    std::optional<cycle::Job> job;
     const double begin_s = cpu_s();
     for (int round = 0; round < 3 || cpu_s() - begin_s < 0.25; ++round) {
       job.reset();
       in.emplace(inputs_of(work));
       Diagnostics diagnostics;
       const double from_s = cpu_s();
-      auto made = emulator::prepare(in->given, in->sources, diagnostics, emulator::SoftLimitRule::warning);
+      auto made = cycle::prepare(in->given, in->sources, diagnostics, cycle::SoftLimitRule::warning);
       if (!made) return state.SkipWithError("refused");
       prepare_s = std::min(prepare_s, cpu_s() - from_s);
       job.emplace(std::move(*made));
@@ -126,19 +126,19 @@ void node_check(benchmark::State& state, const Work& work) {
   for (auto _ : state) {
     Inputs in = inputs_of(work);
     Diagnostics diagnostics;
-    const auto job = emulator::prepare(in.given, in.sources, diagnostics, emulator::SoftLimitRule::warning);
+    const auto job = cycle::prepare(in.given, in.sources, diagnostics, cycle::SoftLimitRule::warning);
     const auto ticks_s = [&](bool check) {
       return least_s([&] {
-        emulator::CrossingInterpolator interpolator(job->read.path, in.given.machine.model);
+        interpolator::CrossingInterpolator interpolator(job->read.path, in.given.machine.model);
         interpolator.set_self_check(check);
         planner::LawSource source(job->planned.plan.law, in.given.machine.model);
         StepBatch batch;
         while (!source.finished()) interpolator.advance(source.advance({}), batch);
       });
     };
-    emulator::RunOptions options;
+    cycle::RunOptions options;
     options.plant = false;
-    const double run_s = least_s([&] { benchmark::DoNotOptimize(emulator::run(*job, nullptr, options)); });
+    const double run_s = least_s([&] { benchmark::DoNotOptimize(cycle::run(*job, nullptr, options)); });
     percent = 100 * (ticks_s(true) - ticks_s(false)) / kEvery / run_s;
   }
   state.counters["node_check_of_run_pct"] = percent;

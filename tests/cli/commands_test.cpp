@@ -243,12 +243,12 @@ TEST_CASE("the summary of a log has the warnings of the program and the answer o
   scratch.write("far.ngc", "G21 G90\nG1 X100000 F6000\nM2\n");
   scratch.write("square.ngc", test::kSquare);
   const auto summary = [&](const std::string& log) {
-    auto reader = kadr::emulator::LogReader::open(scratch.file(log));
+    auto reader = kadr::log::LogReader::open(scratch.file(log));
     REQUIRE(reader.has_value());
-    kadr::emulator::LogMessage message;
-    std::optional<kadr::emulator::RunSummary> found;
+    kadr::log::LogMessage message;
+    std::optional<kadr::log::RunSummary> found;
     while (reader->next(message))
-      if (const auto* last = std::get_if<kadr::emulator::LogSummary>(&message)) found = last->run;
+      if (const auto* last = std::get_if<kadr::log::LogSummary>(&message)) found = last->run;
     REQUIRE(found);
     return *found;
   };

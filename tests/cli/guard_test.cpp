@@ -32,11 +32,11 @@ TEST_CASE("a broken promise of kadr ends with 70, the world's faults with 2, and
 
 TEST_CASE("a broken plan ends a command with 70") {
   const char* argv[] = {"kadr", "check", "part.ngc"};
-  const auto end_of = [&](const emulator::PlanFunction& plan) {
+  const auto end_of = [&](const cycle::PlanFunction& plan) {
     return guarded(3, argv, [&] {
       test::TestInputs in = test::make_inputs("G1 X40 F1200\nM2\n", test::test_machine());
       Diagnostics diagnostics;
-      return in.prepare(diagnostics, emulator::SoftLimitRule::error, plan) ? 0 : 1;
+      return in.prepare(diagnostics, cycle::SoftLimitRule::error, plan) ? 0 : 1;
     });
   };
   CHECK(end_of(planner::plan) == 0);

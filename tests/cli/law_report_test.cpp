@@ -7,7 +7,8 @@
 #include "emulator/text/line_chart.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::studies;
+using namespace kadr::text;
 
 namespace {
 

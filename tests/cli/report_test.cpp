@@ -13,7 +13,9 @@
 #include "tests/cli/run_kadr.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::answers;
+using namespace kadr::log;
+using namespace kadr::text;
 using kadr::test::check_golden;
 
 namespace {
@@ -152,7 +154,7 @@ TEST_CASE("the summary of a run with alarms, without plant, by a scenario, with 
   c.log_path.clear();
   c.wall_s = 0.94;
   EventRecord alarm;
-  alarm.kind = emulator::EventKind::alarm;
+  alarm.kind = log::EventKind::alarm;
   alarm.code = Code::soft_limit_overrun;
   alarm.tick = Ticks{12'040'000};
   alarm.span.line = 512;
@@ -207,11 +209,11 @@ TEST_CASE("a diagnostic as JSON counts columns in code points") {
 TEST_CASE("alarms are counted beyond those that are kept") {
   AlarmList list(nullptr);
   EventRecord alarm;
-  alarm.kind = emulator::EventKind::alarm;
+  alarm.kind = log::EventKind::alarm;
   alarm.code = Code::lost_steps;
   for (std::size_t i = 0; i < AlarmList::kKept + 7; ++i) CHECK(list.event(alarm).has_value());
   EventRecord other;
-  other.kind = emulator::EventKind::spindle;
+  other.kind = log::EventKind::spindle;
   CHECK(list.event(other).has_value());
   CHECK(list.alarms().size() == AlarmList::kKept);
   CHECK(list.counts().at(Code::lost_steps) == AlarmList::kKept + 7);

@@ -178,9 +178,9 @@ TEST_CASE("a mistake inside a subroutine is a result with a stack, its columns i
   Diagnostic d{Code::division_by_zero, Severity::error, {sub, 2, 6, 3}, "", "label", {"note"}, "help"};
   // "(деталь) " is 9 code points and 15 bytes
   d.calls = {{part, 1, 16, 16}};
-  emulator::SarifLog log("/work shop");
+  text::SarifLog log("/work shop");
   log.add(d, sources);
-  const Json j = Json::parse(emulator::json_text(log.document(1)));
+  const Json j = Json::parse(text::json_text(log.document(1)));
   check_document(j);
   const Json& result = j["runs"][0]["results"][0];
   CHECK(result["message"]["text"] == "a division by zero: label\nnote\nhelp: help");
@@ -202,10 +202,10 @@ TEST_CASE("a mistake without a place, bytes that are not UTF-8 and a line of 60,
   using namespace kadr;
   SourceSet sources;
   const auto file = sources.add(SourceText("caf\xe9.ngc", "G0 X\xff" + std::string(60'000, 'y') + "\n"));
-  emulator::SarifLog log("");
+  text::SarifLog log("");
   log.add({Code::limit_not_plannable, Severity::warning, {}, "", "", {}, ""}, sources);
   log.add({Code::bad_character, Severity::error, {file, 1, 5, 60'001}, "", "\xff", {}, ""}, sources);
-  const std::string text = emulator::json_text(log.document(2));
+  const std::string text = text::json_text(log.document(2));
   CHECK(text.size() < 10'000);
   CHECK(is_utf8(text));
   const Json j = Json::parse(text);

@@ -154,7 +154,7 @@ TEST_CASE("the commands on the page of a winding scenario write the program that
     CAPTURE(written.err);
     REQUIRE(written.code == 0);
     SourceSet sources;
-    const auto scenario = emulator::read_scenario(folder, sources);
+    const auto scenario = scenario::read_scenario(folder, sources);
     REQUIRE(scenario.has_value());
     CHECK(!scenario->generated_program.empty());
     CHECK(scratch.read(words.back()) == scenario->generated_program);

@@ -24,7 +24,7 @@ void check_span(const Span& span, const SourceSet& sources) {
 }
 
 void check_diagnostics(const Diagnostics& diagnostics, const SourceSet& sources) {
-  emulator::SarifLog sarif("/");
+  text::SarifLog sarif("/");
   std::size_t formatted = 0;
   for (const Diagnostic& d : diagnostics.list()) {
     if (d.span.line != 0) check_span(d.span, sources);
@@ -35,10 +35,10 @@ void check_diagnostics(const Diagnostics& diagnostics, const SourceSet& sources)
     require(!render_human(d, sources, true).empty(), "people are told in colour");
     const std::string gcc = render_gcc(d, sources);
     require(!gcc.empty() && gcc.find('\0') == std::string::npos, "tools are told, without NUL");
-    require(!emulator::json_line(emulator::json_of(d, sources)).empty(), "JSON is told");
+    require(!text::json_line(text::json_of(d, sources)).empty(), "JSON is told");
     sarif.add(d, sources);
   }
-  if (formatted > 0) require(!emulator::json_line(sarif.document(1)).empty(), "SARIF is told");
+  if (formatted > 0) require(!text::json_line(sarif.document(1)).empty(), "SARIF is told");
 }
 
 }  // namespace kadr::fuzz

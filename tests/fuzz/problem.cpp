@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // a folder that is not there: no table and no program is found
   const auto file =
       sources.add(SourceText("/nowhere/problem.toml", {reinterpret_cast<const char*>(data), size}));
-  const auto read = emulator::read_time_law_problem(sources, file);
+  const auto read = studies::read_time_law_problem(sources, file);
   if (read) {
     require(!read->axes.empty(), "a problem has axes");
     return 0;

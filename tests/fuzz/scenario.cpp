@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size > kMaxText_bytes) return 0;
   SourceSet sources;
   // a folder that is not there: no file of a scenario is found
-  const auto read = emulator::read_scenario(
+  const auto read = scenario::read_scenario(
       SourceText("/nowhere/scenario.toml", {reinterpret_cast<const char*>(data), size}), sources);
   if (read) {
     for (const auto& step : read->steps)

@@ -6,9 +6,8 @@
 namespace kadr::test {
 
 /// A step of an operator's timeline at a control tick.
-inline emulator::OperatorStep operator_step(std::int64_t tick, emulator::OperatorAction action,
-                                            double value = 1) {
-  emulator::OperatorStep step;
+inline cycle::OperatorStep operator_step(std::int64_t tick, cycle::OperatorAction action, double value = 1) {
+  cycle::OperatorStep step;
   step.action = action;
   step.value = value;
   step.tick = ControlTicks{tick};

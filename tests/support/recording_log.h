@@ -8,57 +8,57 @@
 namespace kadr::test {
 
 /// Keeps every record in memory, in the order it came.
-class RecordingLog final : public emulator::RunLog {
+class RecordingLog final : public log::RunLog {
  public:
   struct Tick {
-    emulator::TickRecord record;
+    log::TickRecord record;
     TickMotion motion;
     std::vector<std::int64_t> steps;
     std::vector<AxisState> axis;
     StepBatch batch;
   };
-  std::vector<emulator::BlockRecord> blocks;
-  std::vector<emulator::BlockEndRecord> block_ends;
-  std::vector<emulator::EventRecord> events;
+  std::vector<log::BlockRecord> blocks;
+  std::vector<log::BlockEndRecord> block_ends;
+  std::vector<log::EventRecord> events;
   std::vector<Tick> ticks;
-  emulator::RunSummary summary;
+  log::RunSummary summary;
   std::vector<std::int64_t> order;  ///< base tick of each record as it came (a tick record: its end)
   std::int64_t tau = 10'000;
   bool ended = false;
 
-  using Done = tl::expected<void, emulator::LogError>;
-  Done begin(const emulator::RunHeader& h) override {
+  using Done = tl::expected<void, log::LogError>;
+  Done begin(const log::RunHeader& h) override {
     tau = h.machine->clock.control_tick.value;
     return {};
   }
-  Done block(const emulator::BlockRecord& r) override {
+  Done block(const log::BlockRecord& r) override {
     blocks.push_back(r);
     order.push_back(r.tick.value);
     return {};
   }
-  Done block_end(const emulator::BlockEndRecord& r) override {
+  Done block_end(const log::BlockEndRecord& r) override {
     block_ends.push_back(r);
     return {};
   }
-  Done event(const emulator::EventRecord& r) override {
+  Done event(const log::EventRecord& r) override {
     events.push_back(r);
     order.push_back(r.tick.value);
     return {};
   }
   Done diagnostic(const Diagnostic&, Ticks) override { return {}; }
-  Done tick(const emulator::TickRecord& r, const StepBatch& batch) override {
+  Done tick(const log::TickRecord& r, const StepBatch& batch) override {
     Tick t{r, *r.motion, *r.position_steps, r.axis ? *r.axis : std::vector<AxisState>{}, batch};
     ticks.push_back(std::move(t));
     return {};
   }
-  Done end(const emulator::RunSummary& s) override {
+  Done end(const log::RunSummary& s) override {
     summary = s;
     ended = true;
     return {};
   }
 
-  std::vector<emulator::EventRecord> of_kind(const std::string& kind) const {
-    std::vector<emulator::EventRecord> list;
+  std::vector<log::EventRecord> of_kind(const std::string& kind) const {
+    std::vector<log::EventRecord> list;
     for (const auto& e : events)
       if (e.kind.text() == kind) list.push_back(e);
     return list;

@@ -34,7 +34,7 @@ class StraightRun {
     motion_.tick = ControlTicks{-1};
   }
   /// The next control tick. The plant's states and energies are as the test has set them before.
-  emulator::TickView tick(double s_end_u, double speed_end_u_s, bool with_plant = true) {
+  cycle::TickView tick(double s_end_u, double speed_end_u_s, bool with_plant = true) {
     ++motion_.tick;
     motion_.s_begin_u = motion_.s_end_u;
     motion_.s_end_u = s_end_u;

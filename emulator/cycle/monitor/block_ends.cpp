@@ -6,9 +6,9 @@
 
 #include "planner/path/path.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
-BlockEnds::BlockEnds(const planner::Path& path, std::size_t axes, std::vector<BlockEndRecord>& records)
+BlockEnds::BlockEnds(const planner::Path& path, std::size_t axes, std::vector<log::BlockEndRecord>& records)
     : path_(path), records_(records), axes_(axes) {}
 
 void BlockEnds::tick(const TickView& view) {
@@ -33,7 +33,7 @@ void BlockEnds::tick(const TickView& view) {
 
 void BlockEnds::end_block(Ticks tick) {
   const planner::PathSegment& segment = path_.segments[segment_];
-  BlockEndRecord record{tick, segment.block, segment.span.line, {}, {}, {}, {}};
+  log::BlockEndRecord record{tick, segment.block, segment.span.line, {}, {}, {}, {}};
   for (Axis& axis : axes_) {
     record.peak_link_u.push_back(std::exchange(axis.peak_link_u, 0.0));
     record.peak_following_u.push_back(std::exchange(axis.peak_following_u, 0.0));
@@ -51,4 +51,4 @@ void BlockEnds::finish(Ticks end) {
   open_ = false;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

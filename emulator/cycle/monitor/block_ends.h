@@ -9,14 +9,14 @@ namespace kadr::planner {
 class Path;
 }
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Effect of each motion block on the machine: one record at the first control tick at whose end another block
 /// is under way. Blocks that pass within one tick have none.
 class BlockEnds {
  public:
   /// @param path, records  outlive this
-  BlockEnds(const planner::Path& path, std::size_t axes, std::vector<BlockEndRecord>& records);
+  BlockEnds(const planner::Path& path, std::size_t axes, std::vector<log::BlockEndRecord>& records);
   void tick(const TickView& view);
   /// Ends the last block.
   void finish(Ticks end);
@@ -30,11 +30,11 @@ class BlockEnds {
   void end_block(Ticks tick);
 
   const planner::Path& path_;
-  std::vector<BlockEndRecord>& records_;
+  std::vector<log::BlockEndRecord>& records_;
   std::vector<Axis> axes_;
   bool open_ = false;        // a block is under way
   bool has_energy_ = false;  // the last tick had
   std::size_t segment_ = 0;  // of the block under way, at the end of the last tick
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

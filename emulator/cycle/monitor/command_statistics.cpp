@@ -5,7 +5,7 @@
 
 #include "planner/path/path.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 CommandStatistics::CommandStatistics(const planner::Path& path, const CommandedMotion& commanded)
     : path_(path), commanded_(commanded), axes_(commanded.size()) {
@@ -39,10 +39,10 @@ void CommandStatistics::tick(const TickView& view) {
   held_error_u_ = std::max(held_error_u_, view.motion.held_error_u);
 }
 
-void CommandStatistics::summarize(RunSummary& summary) const {
+void CommandStatistics::summarize(log::RunSummary& summary) const {
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     const Axis& axis = axes_[a];
-    AxisSummary& s = summary.axis[a];
+    log::AxisSummary& s = summary.axis[a];
     s.pulses = axis.pulses;
     s.net_steps = axis.net_steps;
     s.end_u = commanded_[a].position_u;
@@ -58,4 +58,4 @@ void CommandStatistics::summarize(RunSummary& summary) const {
   summary.held_error_u = held_error_u_;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -4,7 +4,7 @@
 #include "emulator/cycle/monitor/commanded_motion.h"
 #include "emulator/log/records.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Counts pulses and keeps the extremes of the commanded motion, axis by axis and along the path.
 class CommandStatistics {
@@ -13,7 +13,7 @@ class CommandStatistics {
   CommandStatistics(const planner::Path& path, const CommandedMotion& commanded);
   void tick(const TickView& view);
   /// @param summary  with its axes [axes]
-  void summarize(RunSummary& summary) const;
+  void summarize(log::RunSummary& summary) const;
 
  private:
   struct Axis {
@@ -30,4 +30,4 @@ class CommandStatistics {
   double peak_feed_u_s_ = 0, held_error_u_ = 0;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

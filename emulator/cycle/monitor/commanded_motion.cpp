@@ -5,7 +5,7 @@
 #include "machine/machine.h"
 #include "planner/path/path.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 CommandedMotion::CommandedMotion(const planner::Path& path, const machine::MachineModel& machine)
     : path_(path), tau_s_(machine.clock.tau_s()), axes_(machine.axis.size()), tangent_(machine.axis.size()) {
@@ -37,4 +37,4 @@ void CommandedMotion::tick(const TickView& view) {
   }
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -12,7 +12,7 @@ namespace kadr::machine {
 struct MachineModel;
 }
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// One axis as commanded, at the end of a control tick; mm or deg.
 struct CommandedAxis {
@@ -46,4 +46,4 @@ class CommandedMotion {
   int ticks_since_joint_ = kLongAgo;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

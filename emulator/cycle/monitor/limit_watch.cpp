@@ -9,7 +9,7 @@
 #include "machine/base/codes.h"
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 namespace {
 
 /// Rounding of second differences over tau, relative to the limit watched.
@@ -77,19 +77,19 @@ void LimitWatch::watch(std::size_t axis, Limit kind, bool over, double value, do
   if (over && !overrun.open) {
     overrun = {true, value, limit};
     ++alarms_;
-    tell(axis, kind, EventKind::alarm, overrun, end, sentence("is"));
+    tell(axis, kind, log::EventKind::alarm, overrun, end, sentence("is"));
   } else if (over) {
     const bool worse = std::fabs(value - limit) > std::fabs(overrun.worst - overrun.limit);
     if (worse) overrun.worst = value, overrun.limit = limit;
   } else if (overrun.open) {
     overrun.open = false;
-    tell(axis, kind, EventKind::alarm_end, overrun, end, sentence("was at most"));
+    tell(axis, kind, log::EventKind::alarm_end, overrun, end, sentence("was at most"));
   }
 }
 
-void LimitWatch::tell(std::size_t axis, Limit kind, EventKind event, const Overrun& overrun, Ticks tick,
+void LimitWatch::tell(std::size_t axis, Limit kind, log::EventKind event, const Overrun& overrun, Ticks tick,
                       std::string text) {
-  EventRecord& e = events_.add(tick, event);
+  log::EventRecord& e = events_.add(tick, event);
   e.code = kWords[static_cast<std::size_t>(kind)].code;
   e.axis = static_cast<int>(axis);
   e.value = overrun.worst;
@@ -103,10 +103,10 @@ void LimitWatch::finish(Ticks end) {
       Overrun& overrun = overruns_[a][static_cast<std::size_t>(word.kind)];
       if (!overrun.open) continue;
       overrun.open = false;
-      tell(a, word.kind, EventKind::alarm_end, overrun, end,
+      tell(a, word.kind, log::EventKind::alarm_end, overrun, end,
            fmt::format("axis {} was still over its limit at the end, at most {:.6g}, allowed {:.6g}",
                        machine_.axis[a].letter, overrun.worst, overrun.limit));
     }
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

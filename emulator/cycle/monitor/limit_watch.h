@@ -5,7 +5,7 @@
 #include "emulator/cycle/event_list.h"
 #include "emulator/cycle/monitor/commanded_motion.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Watches the commanded motion for overruns of an axis's limits: position, speed, acceleration and jerk.
 ///
@@ -35,7 +35,7 @@ class LimitWatch {
   void watch_position(std::size_t axis, double position_u, Ticks end);
   void watch(std::size_t axis, Limit kind, double value, double limit, Ticks end);
   void watch(std::size_t axis, Limit kind, bool over, double value, double limit, Ticks end);
-  void tell(std::size_t axis, Limit kind, EventKind event, const Overrun& overrun, Ticks tick,
+  void tell(std::size_t axis, Limit kind, log::EventKind event, const Overrun& overrun, Ticks tick,
             std::string text);
 
   const machine::MachineModel& machine_;
@@ -45,4 +45,4 @@ class LimitWatch {
   std::size_t alarms_ = 0;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -2,10 +2,10 @@
 
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 Monitor::Monitor(const planner::Path& path, const machine::MachineModel& machine, EventList& events,
-                 std::vector<BlockEndRecord>& block_ends)
+                 std::vector<log::BlockEndRecord>& block_ends)
     : events_(events),
       axes_(machine.axis.size()),
       commanded_(path, machine),
@@ -32,8 +32,8 @@ void Monitor::finish(Ticks end) {
   blocks_.finish(end);
 }
 
-void Monitor::summarize(RunSummary& summary) const {
-  summary.axis.assign(axes_, AxisSummary{});
+void Monitor::summarize(log::RunSummary& summary) const {
+  summary.axis.assign(axes_, log::AxisSummary{});
   command_.summarize(summary);
   plant_.summarize(summary);
   residual_.summarize(summary);
@@ -41,4 +41,4 @@ void Monitor::summarize(RunSummary& summary) const {
   summary.alarms = alarms();
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

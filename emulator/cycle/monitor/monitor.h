@@ -11,7 +11,7 @@
 #include "emulator/cycle/monitor/stop_residual.h"
 #include "emulator/cycle/monitor/tick_view.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Watches a run, control tick by control tick: the command for overruns of limits, the plant for vibration
 /// and lost steps. Each subject is a class of its own; this one calls them in the order in
@@ -20,7 +20,7 @@ class Monitor {
  public:
   /// @param path, machine, events, block_ends  outlive this
   Monitor(const planner::Path& path, const machine::MachineModel& machine, EventList& events,
-          std::vector<BlockEndRecord>& block_ends);
+          std::vector<log::BlockEndRecord>& block_ends);
   /// @pre events.segment() == view.segment
   void tick(const TickView& view);
   /// After tick(): lost steps that the plant found in it.
@@ -28,7 +28,7 @@ class Monitor {
   /// Ends what is open: overruns, slips, the residual of the last stop, the last block.
   void finish(Ticks end);
   /// Fills in the axes, pulses, path error, peak feeds and number of alarms.
-  void summarize(RunSummary& summary) const;
+  void summarize(log::RunSummary& summary) const;
   std::size_t alarms() const { return limits_.alarms() + slips_.alarms(); }
 
  private:
@@ -43,4 +43,4 @@ class Monitor {
   BlockEnds blocks_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -5,7 +5,7 @@
 
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 PlantStatistics::PlantStatistics(const machine::MachineModel& machine, const CommandedMotion& commanded)
     : machine_(machine), commanded_(commanded), axes_(machine.axis.size()) {}
@@ -48,11 +48,11 @@ double PlantStatistics::path_error_u(const TickView& view) const {
   return std::sqrt(error_u2);
 }
 
-void PlantStatistics::summarize(RunSummary& summary) const {
+void PlantStatistics::summarize(log::RunSummary& summary) const {
   const double n = ticks_ > ControlTicks{} ? static_cast<double>(ticks_.value) : 1.0;
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     const Axis& axis = axes_[a];
-    AxisSummary& s = summary.axis[a];
+    log::AxisSummary& s = summary.axis[a];
     s.peak_vibration_u = axis.peak_vibration_u;
     s.peak_vibration_tick = axis.peak_vibration_tick;
     s.peak_vibration_line = axis.peak_vibration_line;
@@ -65,4 +65,4 @@ void PlantStatistics::summarize(RunSummary& summary) const {
   summary.path_error_u = path_error_u_;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

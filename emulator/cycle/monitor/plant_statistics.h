@@ -5,7 +5,7 @@
 #include "emulator/cycle/monitor/commanded_motion.h"
 #include "emulator/log/records.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Keeps how far the flexible machine strays from the command: vibration of the link, following error, the
 /// tool's distance from the path, and the work of the motors. Looks at control ticks' ends.
@@ -16,7 +16,7 @@ class PlantStatistics {
   /// @param line  of the program, at the tick's end
   void tick(const TickView& view, std::uint32_t line);
   /// @param summary  with its axes [axes]
-  void summarize(RunSummary& summary) const;
+  void summarize(log::RunSummary& summary) const;
 
  private:
   struct Axis {
@@ -35,4 +35,4 @@ class PlantStatistics {
   ControlTicks ticks_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -5,7 +5,7 @@
 #include "machine/base/codes.h"
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 namespace {
 
 /// A motor that has kept up for so long is no longer slipping.
@@ -28,7 +28,7 @@ void SlipWatch::tick(const std::vector<plant::LostSteps>& lost, Ticks end) {
     axis.slip += l.steps;
     if (!axis.ticks_of_grip) {
       ++alarms_;
-      EventRecord& e = events_.add(end, EventKind::alarm);
+      log::EventRecord& e = events_.add(end, log::EventKind::alarm);
       e.code = Code::lost_steps;
       e.axis = l.axis;
       e.value = static_cast<double>(l.steps.value);
@@ -47,7 +47,7 @@ void SlipWatch::end_slips(ControlTicks grip, Ticks now) {
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     Axis& axis = axes_[a];
     if (!axis.ticks_of_grip || *axis.ticks_of_grip < grip) continue;
-    EventRecord& e = events_.add(now, EventKind::alarm_end);
+    log::EventRecord& e = events_.add(now, log::EventKind::alarm_end);
     e.code = Code::lost_steps;
     e.axis = static_cast<int>(a);
     e.value = static_cast<double>(axis.slip.value);
@@ -57,8 +57,8 @@ void SlipWatch::end_slips(ControlTicks grip, Ticks now) {
   }
 }
 
-void SlipWatch::summarize(RunSummary& summary) const {
+void SlipWatch::summarize(log::RunSummary& summary) const {
   for (std::size_t a = 0; a < axes_.size(); ++a) summary.axis[a].lost_steps = axes_[a].lost;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

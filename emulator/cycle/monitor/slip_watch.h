@@ -9,7 +9,7 @@ namespace kadr::machine {
 struct MachineModel;
 }
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Turns the lost steps that the plant finds into alarms. A motor that keeps slipping is one alarm: it ends
 /// after 0.1 s without a loss, with the steps lost in all.
@@ -24,7 +24,7 @@ class SlipWatch {
   /// Ends the slips that are still open.
   void finish(Ticks end);
   /// @param summary  with its axes [axes]
-  void summarize(RunSummary& summary) const;
+  void summarize(log::RunSummary& summary) const;
   std::size_t alarms() const { return alarms_; }
 
  private:
@@ -42,4 +42,4 @@ class SlipWatch {
   std::size_t alarms_ = 0;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

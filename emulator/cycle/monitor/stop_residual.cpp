@@ -7,7 +7,7 @@
 
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 StopResidual::StopResidual(const machine::MachineModel& machine, EventList& events)
     : machine_(machine), events_(events), axes_(machine.axis.size()) {
@@ -56,7 +56,7 @@ void StopResidual::report(Ticks now) {
     Axis& axis = axes_[a];
     if (axis.moved && axis.omega_rad_s > 0) {
       const machine::AxisModel& model = machine_.axis[a];
-      EventRecord& e = events_.add_at(stop_segment_, now, EventKind::residual);
+      log::EventRecord& e = events_.add_at(stop_segment_, now, log::EventKind::residual);
       e.axis = static_cast<int>(a);
       e.value = axis.residual_u;
       e.text = fmt::format("residual vibration of axis {} after the stop {:.3f} {}", model.letter,
@@ -72,8 +72,8 @@ void StopResidual::finish(Ticks end) {
   if (stopped_) report(end);
 }
 
-void StopResidual::summarize(RunSummary& summary) const {
+void StopResidual::summarize(log::RunSummary& summary) const {
   for (std::size_t a = 0; a < axes_.size(); ++a) summary.axis[a].residual_u = axes_[a].worst_u;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -9,7 +9,7 @@ namespace kadr::machine {
 struct MachineModel;
 }
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Residual vibration after each stop, of the axes that moved before it and have a link: the larger of the
 /// envelope of the free link at the stop,
@@ -24,7 +24,7 @@ class StopResidual {
   /// Reports the last stop.
   void finish(Ticks end);
   /// @param summary  with its axes [axes]
-  void summarize(RunSummary& summary) const;
+  void summarize(log::RunSummary& summary) const;
 
  private:
   struct Axis {
@@ -43,4 +43,4 @@ class StopResidual {
   std::size_t stop_segment_ = 0;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

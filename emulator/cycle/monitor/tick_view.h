@@ -7,7 +7,7 @@
 #include "machine/tick_motion.h"
 #include "plant/plant.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// One control tick after it was advanced, for the monitors.
 struct TickView {
@@ -29,4 +29,4 @@ inline double tool_error_u(const AxisState& state, const AxisPulses& pulses) {
 /// Work of the motor while driving minus its total work: the work that the load gave back, J.
 inline double recuperated_J(const plant::EnergyBalance& e) { return e.positive_work_J - e.motor_work_J; }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 namespace {
 
@@ -46,7 +46,7 @@ const planner::OperatorInput& OperatorPanel::advance(ControlTicks tick, double s
   const double before = spindle_override_;
   spindle_override_ = reactor_.advance(load_);
   if (spindle_override_ != before)
-    tell(begin, EventKind::spindle_override, spindle_override_ * 100,
+    tell(begin, log::EventKind::spindle_override, spindle_override_ * 100,
          fmt::format("spindle load {:.6g} %: feed at {:.6g} %", load_ * 100, spindle_override_ * 100));
   input_.feed_override = or_standstill(operator_override_ * spindle_override_);
   return input_;
@@ -57,27 +57,29 @@ void OperatorPanel::take(const OperatorStep& step, Ticks tick) {
   switch (step.action) {
     case OperatorAction::feed_override:
       operator_override_ = step.value;
-      return tell(tick, EventKind::feed_override, percent, fmt::format("feed override {:.6g} %", percent));
+      return tell(tick, log::EventKind::feed_override, percent,
+                  fmt::format("feed override {:.6g} %", percent));
     case OperatorAction::rapid_override:
       input_.rapid_override = or_standstill(step.value);
-      return tell(tick, EventKind::rapid_override, percent, fmt::format("rapid override {:.6g} %", percent));
+      return tell(tick, log::EventKind::rapid_override, percent,
+                  fmt::format("rapid override {:.6g} %", percent));
     case OperatorAction::hold:
       input_.hold = true;
-      return tell(tick, EventKind::hold, 1, "feed hold");
+      return tell(tick, log::EventKind::hold, 1, "feed hold");
     case OperatorAction::resume:
       input_.hold = false;
-      return tell(tick, EventKind::resume, 0, "feed goes on");
+      return tell(tick, log::EventKind::resume, 0, "feed goes on");
     case OperatorAction::spindle_load:
       load_ = step.value;
-      return tell(tick, EventKind::spindle_load, percent, fmt::format("spindle load {:.6g} %", percent));
+      return tell(tick, log::EventKind::spindle_load, percent, fmt::format("spindle load {:.6g} %", percent));
     case OperatorAction::emergency_stop:
       input_.emergency_stop = true;
-      return tell(tick, EventKind::emergency_stop, 1, "emergency stop");
+      return tell(tick, log::EventKind::emergency_stop, 1, "emergency stop");
   }
 }
 
-void OperatorPanel::tell(Ticks tick, EventKind kind, double value, std::string text) {
-  EventRecord e;
+void OperatorPanel::tell(Ticks tick, log::EventKind kind, double value, std::string text) {
+  log::EventRecord e;
   e.tick = tick;
   e.kind = kind;
   e.value = value;
@@ -96,4 +98,4 @@ double most_override(const std::vector<OperatorStep>& steps) {
   return most;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

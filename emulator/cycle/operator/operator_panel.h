@@ -7,7 +7,7 @@
 #include "emulator/emulator.h"
 #include "planner/laws/motion_source.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Requests of the operator's panel and the spindle for each control tick: steps of a timeline, and live ones.
 class OperatorPanel {
@@ -30,7 +30,7 @@ class OperatorPanel {
 
  private:
   void take(const OperatorStep& step, Ticks tick);
-  void tell(Ticks tick, EventKind kind, double value, std::string text);
+  void tell(Ticks tick, log::EventKind kind, double value, std::string text);
 
   const std::vector<OperatorStep>& steps_;
   std::vector<double> places_u_;
@@ -47,4 +47,4 @@ class OperatorPanel {
 /// Highest feed override that a timeline requests, ratio, at least 1.
 double most_override(const std::vector<OperatorStep>& steps);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

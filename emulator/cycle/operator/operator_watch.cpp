@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 using planner::LimitedBy;
 using planner::OverrideNote;
@@ -33,15 +33,15 @@ void OperatorWatch::tick(const TickMotion& motion, const planner::OperatorInput&
 void OperatorWatch::name_reason(const TickMotion& motion, const planner::OperatorInput& input,
                                 double spindle_override) {
   if (input.hold || motion.limited_by == LimitedBy::hold)
-    reason_ = LostReason::hold;
+    reason_ = log::LostReason::hold;
   else if (motion.note == OverrideNote::deferred)
-    reason_ = LostReason::deferral;
+    reason_ = log::LostReason::deferral;
   else if (motion.limiter < 1)
-    reason_ = LostReason::limiter;
+    reason_ = log::LostReason::limiter;
   else if (spindle_override < 1)
-    reason_ = LostReason::spindle_load;
+    reason_ = log::LostReason::spindle_load;
   else if (motion.override_used != 1 || input.rapid_override != 1)
-    reason_ = LostReason::feed_override;
+    reason_ = log::LostReason::feed_override;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -5,7 +5,7 @@
 #include "emulator/cycle/lost_time.h"
 #include "planner/planner.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Watches a run under an operator: how long a change of the override waits, the time lost against the plan
 /// and why, and a spindle overload that a lock keeps waiting (an alarm).
@@ -19,7 +19,7 @@ class OperatorWatch {
             Ticks begin);
   /// Control ticks that a change has been waiting for the motion before it.
   ControlTicks deferred_ticks() const { return deferred_ticks_; }
-  std::vector<LimitShare> lost_by() const { return lost_.shares(); }
+  std::vector<log::LimitShare> lost_by() const { return lost_.shares(); }
   std::size_t alarms() const { return alarms_; }
 
  private:
@@ -29,8 +29,8 @@ class OperatorWatch {
   EventList& events_;
   ControlTicks deferred_ticks_;
   bool locked_overload_ = false;  // in the last tick
-  LostReason reason_ = LostReason::feed_override;
+  log::LostReason reason_ = log::LostReason::feed_override;
   std::size_t alarms_ = 0;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -8,7 +8,7 @@
 
 #include "machine/file/tree.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 namespace {
 
 /// First segment of the motion that a step names, or nothing.
@@ -80,4 +80,4 @@ std::vector<double> place_on_path(const std::vector<OperatorStep>& steps, const 
   return places_u;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -3,7 +3,7 @@
 
 #include "emulator/emulator.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// Finds the steps of a timeline at a position on the path.
 /// @param blocks       motion blocks of the program
@@ -13,4 +13,4 @@ namespace kadr::emulator {
 std::vector<double> place_on_path(const std::vector<OperatorStep>& steps, const planner::Path& path,
                                   std::uint32_t blocks, std::uint32_t program, Diagnostics& diagnostics);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

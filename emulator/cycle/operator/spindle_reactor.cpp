@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 namespace {
 
 /// Nearest number of control ticks, at least one.
@@ -42,4 +42,4 @@ bool SpindleReactor::unsettled(double load) const {
   return (load > high_load_ && override_pct_ > least_pct_) || (load < low_load_ && override_pct_ < 100);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -2,7 +2,7 @@
 #include "machine/base/count.h"
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::cycle {
 
 /// The feed override that the spindle's load requests, control tick by control tick (machine::SpindleReaction):
 /// down step by step while the load is high, up again while it is low.
@@ -21,4 +21,4 @@ class SpindleReactor {
   double override_pct_ = 100;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::cycle

@@ -2,7 +2,7 @@
 
 #include "emulator/interpolator/lattice/steppers.h"
 
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 
 int quadrant_of(PlaneNode n, Turn turn) {
   if (turn == Turn::ccw)
@@ -220,4 +220,4 @@ MadeStepper chord_arc(const ArcCurve& arc, double tolerance) {
   return std::make_unique<ChordArc>(arc, tolerance);
 }
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

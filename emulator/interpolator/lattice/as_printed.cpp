@@ -1,6 +1,6 @@
 #include "emulator/interpolator/lattice/steppers.h"
 
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 namespace {
 
 /// Compares F at the two neighbours of a node, a + b slots long. Text at Fig. 2 of paper 002.
@@ -72,4 +72,4 @@ MadeStepper printed_difference_line(const LineCurve& line) {
 MadeStepper magnitude_line(const LineCurve& line) { return std::make_unique<NeighbourLine>(line, true); }
 MadeStepper printed_half_step_arc(const ArcCurve& arc) { return std::make_unique<PrintedHalfStepArc>(arc); }
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

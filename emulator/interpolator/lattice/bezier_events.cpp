@@ -4,7 +4,7 @@
 
 #include "emulator/interpolator/lattice/steppers.h"
 
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 namespace {
 
 // a step of Newton's method below this changes t no more; a bracket below it can't be halved
@@ -138,4 +138,4 @@ bool BezierEvents::next(Event& event) {
 
 MadeStepper bezier_events(const BezierCurve& curve) { return std::make_unique<EventStepper>(curve); }
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

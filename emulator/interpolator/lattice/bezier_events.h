@@ -1,7 +1,7 @@
 #pragma once
 #include "emulator/interpolator/lattice/curve.h"
 
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 
 /// Half-crossings of one axis of a Bezier curve: the moments t at which x(t) = i + 1/2, in order.
 ///
@@ -55,4 +55,4 @@ class BezierEvents {
   std::array<AxisCrossings, kMostAxes> axis_;
 };
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 namespace {
 
 /// The node x nearest to y^2 / 2p; from a half upwards.
@@ -136,4 +136,4 @@ Point end_of(const Curve& curve) {
   return bezier.control[static_cast<std::size_t>(bezier.degree)];
 }
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

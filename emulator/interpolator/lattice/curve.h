@@ -4,7 +4,7 @@
 
 #include "emulator/interpolator/lattice/slot.h"
 
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 
 /// Straight from the origin to delta.
 struct LineCurve {
@@ -88,4 +88,4 @@ int axes_of(const Curve& curve);
 Point begin_of(const Curve& curve);
 Point end_of(const Curve& curve);
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

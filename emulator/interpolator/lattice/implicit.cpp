@@ -1,6 +1,6 @@
 #include "emulator/interpolator/lattice/steppers.h"
 
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 namespace {
 
 /// F(x, y) = 0 by the signs of F and its gradient, in any quadrant; everything in doubled coordinates.
@@ -86,4 +86,4 @@ MadeStepper rule_curve(const ImplicitCurve& curve, CurveRule rule, std::int64_t 
   return std::make_unique<RuleCurve>(curve, rule, reach);
 }
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

@@ -5,7 +5,7 @@
 
 #include "emulator/interpolator/lattice/steppers.h"
 
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 namespace {
 
 constexpr std::int64_t kMostLine = std::int64_t{1} << 60;
@@ -195,4 +195,4 @@ Trace run(Stepper& stepper, const Curve& curve, std::int64_t most_slots) {
   return trace;
 }
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

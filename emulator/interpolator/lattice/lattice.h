@@ -10,7 +10,7 @@
 #include "emulator/interpolator/lattice/slot.h"
 
 /// One door to all interpolators of paper 002: a curve and a method make a Stepper.
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 
 enum class Refusal : std::uint8_t {
   none,
@@ -48,4 +48,4 @@ struct Trace {
 };
 Trace run(Stepper& stepper, const Curve& curve, std::int64_t most_slots);
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

@@ -1,7 +1,7 @@
 #include "emulator/interpolator/lattice/line_kernels.h"
 #include "emulator/interpolator/lattice/steppers.h"
 
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 namespace {
 
 /// A line's lengths and directions by axis.
@@ -239,4 +239,4 @@ MadeStepper progression_line(const LineCurve& line, int fraction_bits) {
   return std::make_unique<ProgressionLine>(line, fraction_bits);
 }
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

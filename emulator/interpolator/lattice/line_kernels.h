@@ -5,7 +5,7 @@
 
 /// The inner loops of the line methods: an addition and a test of a sign per slot. a = |dx|, b = |dy|; the
 /// deviation is F = a y - b x in coordinates that grow along the line.
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 
 /// Basic evaluation function (paper 002, Fig. 1): the sign of F at the node decides. F stays in [-b, a).
 struct ClassicLine {
@@ -91,4 +91,4 @@ struct QuarterCircle {
   }
 };
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

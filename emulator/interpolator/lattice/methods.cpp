@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 namespace {
 
 using Options = MethodOptions;
@@ -173,4 +173,4 @@ std::optional<Method> method_of(std::string_view name) { return machine::kStepMe
 
 const MethodEntry& entry_of(Method method) { return kMethods[kPlaceOf[static_cast<std::size_t>(method)]]; }
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

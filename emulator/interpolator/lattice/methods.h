@@ -8,7 +8,7 @@
 #include "machine/step_method.h"
 
 /// All that is said of a method of paper 002 beside its word: a row of methods.cpp.
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 
 /// One enumeration for machines and laboratory; words and meanings: machine::kStepMethods.
 using Method = machine::StepMethod;
@@ -74,4 +74,4 @@ std::span<const MethodEntry> methods();
 std::optional<Method> method_of(std::string_view name);
 const MethodEntry& entry_of(Method method);
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

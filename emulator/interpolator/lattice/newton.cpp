@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 
 ForwardDifferences::ForwardDifferences(std::vector<double> values) : d_(std::move(values)) {
   for (std::size_t k = 1; k < d_.size(); ++k)
@@ -42,4 +42,4 @@ int march_bits(std::size_t degree, double points, double tolerance) {
   return bits;
 }
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

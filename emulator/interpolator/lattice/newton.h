@@ -4,7 +4,7 @@
 
 #include "emulator/interpolator/lattice/slot.h"
 
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 
 /// Newton's polynomial through equally spaced values (paper 002, eq. 1):
 ///   P(q) = sum_k D^k f0 / k! q (q-1) ... (q-k+1),   q = (x - x0)/h
@@ -40,4 +40,4 @@ class FixedMarch {
 /// Least number of fraction bits for an error of `tolerance` after that many points: log2(N^n/n!/tolerance) - 1.
 int march_bits(std::size_t degree, double points, double tolerance);
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

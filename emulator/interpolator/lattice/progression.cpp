@@ -2,7 +2,7 @@
 
 #include "emulator/interpolator/lattice/steppers.h"
 
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 namespace {
 
 /// Half-step rule on y^2 = 2px by additions alone. N = F' - 1/4 = F + sy y - p sx; an X step lowers F by the
@@ -199,4 +199,4 @@ MadeStepper newton_parabola(const ParabolaCurve& parabola, int fraction_bits) {
   return std::make_unique<NewtonParabola>(parabola, fraction_bits);
 }
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

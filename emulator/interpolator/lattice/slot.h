@@ -4,7 +4,7 @@
 
 /// Interpolators on the lattice of motor steps, in integers: which axis steps in which clock slot. All
 /// numbers are in steps (h in paper 002). Nothing here allocates while it steps, throws, or knows a machine.
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 
 inline constexpr int kMostAxes = 9;
 
@@ -45,4 +45,4 @@ class Stepper {
   virtual bool next(Slot& slot) = 0;
 };
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

@@ -4,7 +4,7 @@
 #include "emulator/interpolator/lattice/curve.h"
 
 /// Makers of the steppers of each method; make_stepper() (lattice.h) has checked curve and range before.
-namespace kadr::emulator::lattice {
+namespace kadr::interpolator::lattice {
 
 using MadeStepper = std::unique_ptr<Stepper>;
 
@@ -64,4 +64,4 @@ struct Signs {
 };
 Signs signs_of(int quadrant, Turn turn);
 
-}  // namespace kadr::emulator::lattice
+}  // namespace kadr::interpolator::lattice

@@ -2,7 +2,7 @@
 
 #include "emulator/log/channels/run.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 const char* check_message(AxisSample& sample, std::string_view channel, const LogHeader& header) {
   const std::string_view letter = channel.substr(Channel<AxisSample>::info.name.size());
@@ -11,4 +11,4 @@ const char* check_message(AxisSample& sample, std::string_view channel, const Lo
   return sample.axis >= 0 ? nullptr : "the header has no such axis";
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

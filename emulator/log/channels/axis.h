@@ -4,7 +4,7 @@
 
 #include "emulator/log/channel.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// KADR_AXIS_*
 struct AxisSample {
@@ -43,4 +43,4 @@ struct Channel<R> {
   };
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

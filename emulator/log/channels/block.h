@@ -4,7 +4,7 @@
 #include "emulator/log/channel.h"
 #include "emulator/log/records.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 template <std::same_as<BlockRecord> R>
 struct Channel<R> {
@@ -33,4 +33,4 @@ struct Channel<R> {
   };
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -5,7 +5,7 @@
 
 #include "emulator/log/channel.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// KADR_DIAG
 struct LogDiagnostic {
@@ -39,4 +39,4 @@ struct Channel<R> {
   };
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -4,7 +4,7 @@
 #include "emulator/log/channel.h"
 #include "emulator/log/records.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 template <std::same_as<EventRecord> R>
 struct Channel<R> {
@@ -28,4 +28,4 @@ struct Channel<R> {
   };
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -4,7 +4,7 @@
 
 #include "emulator/log/channel.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// KADR_FEED
 struct FeedSample {
@@ -36,4 +36,4 @@ struct Channel<R> {
   };
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -5,7 +5,7 @@
 #include "machine/base/hash.h"
 #include "machine/machine.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 LogHeader log_header(const RunHeader& run) {
   const machine::MachineModel& machine = *run.machine;
@@ -44,4 +44,4 @@ const char* check_message(LogHeader& h, std::string_view, const LogHeader&) {
   return sane ? nullptr : "its numbers are not those of a run";
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -7,7 +7,7 @@
 #include "emulator/log/channel.h"
 #include "emulator/log/records.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 struct LogAxis {
   std::string name;  ///< "X"
@@ -79,4 +79,4 @@ struct Channel<R> {
   };
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

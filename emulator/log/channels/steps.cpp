@@ -5,7 +5,7 @@
 #include "emulator/log/channels/run.h"
 #include "emulator/log/pulse_code.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 const char* check_message(PulseBlock& b, std::string_view, const LogHeader& header) {
   if (!begins_at_its_tick(b.begin, b.first, header)) return "its control tick does not begin at its tick";
@@ -40,4 +40,4 @@ tl::expected<StepBlock, std::string> decode_steps(const PulseBlock& coded, const
   return b;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -10,7 +10,7 @@
 #include "emulator/log/tick_columns.h"
 #include "machine/step_batch.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// KADR_STEPS as it stands in the log: the pulses of a block of control ticks as code (pulse_code.h).
 struct PulseBlock {
@@ -54,4 +54,4 @@ struct Channel<R> {
   };
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -5,7 +5,7 @@
 #include "emulator/log/channel.h"
 #include "emulator/log/records.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// KADR_SUMMARY
 struct LogSummary {
@@ -119,4 +119,4 @@ struct Channel<R> {
   };
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

@@ -2,7 +2,7 @@
 
 #include "emulator/log/channels/run.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 std::string_view field::limit_word(std::int64_t number) {
   const auto reason = kLimitedBy.at(number);
@@ -51,4 +51,4 @@ const char* check_message(TickBlock& b, std::string_view, const LogHeader& heade
   return nullptr;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

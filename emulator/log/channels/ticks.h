@@ -7,7 +7,7 @@
 #include "emulator/log/tick_columns.h"
 #include "machine/tick_motion.h"
 
-namespace kadr::emulator {
+namespace kadr::log {
 
 /// One axis of a TickBlock; the plant's columns are empty in a run without plant.
 struct AxisTicks {
@@ -160,4 +160,4 @@ struct Channel<R> {
   };
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log

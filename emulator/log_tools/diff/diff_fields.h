@@ -10,7 +10,7 @@
 #include "machine/base/vocabulary.h"
 
 /// What of a log is compared, by the tables of its channels (emulator/log/channels/).
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// Where a difference is, in the order of comparison within a control tick.
 enum class DiffChannel : std::uint8_t {
@@ -31,9 +31,9 @@ template <class Record>
 struct LogField {
   std::string
       name;  ///< as in kadr.lcm; outside of KADR_TICKS, of other exact data, with the channel: "KADR_X/y"
-  FieldUnit unit = FieldUnit::none;
-  FieldValue (*get)(const Record&) = nullptr;
-  ToleranceKey key = ToleranceKey::none;                    ///< of a plant state
+  log::FieldUnit unit = log::FieldUnit::none;
+  log::FieldValue (*get)(const Record&) = nullptr;
+  log::ToleranceKey key = log::ToleranceKey::none;          ///< of a plant state
   std::string_view (*word)(std::int64_t number) = nullptr;  ///< name of a coded number
   std::string signal{};  ///< of exact data that is a signal as it stands: "load.torque_Nm"; else empty
 };
@@ -49,29 +49,31 @@ struct AxisAt {
   std::size_t index;
 };
 struct AxisSummaryAt {
-  const LogSummary& summary;
+  const log::LogSummary& summary;
   std::size_t axis;
 };
 
 /// What one log does not have: a channel that the kadr that wrote it did not know. It is not compared.
-inline bool is_absent(const FieldValue& of_ticks) { return std::holds_alternative<std::string>(of_ticks); }
+inline bool is_absent(const log::FieldValue& of_ticks) {
+  return std::holds_alternative<std::string>(of_ticks);
+}
 
 std::span<const LogField<TickAt>> tick_fields();
 std::span<const LogField<AxisAt>> axis_fields();  ///< with a key: plant states, else commands
-std::span<const LogField<EventRecord>> event_fields();
-std::span<const LogField<BlockRecord>> block_fields();
-std::span<const LogField<LogDiagnostic>> diagnostic_fields();
-std::span<const LogField<LogSummary>> summary_fields();
+std::span<const LogField<log::EventRecord>> event_fields();
+std::span<const LogField<log::BlockRecord>> block_fields();
+std::span<const LogField<log::LogDiagnostic>> diagnostic_fields();
+std::span<const LogField<log::LogSummary>> summary_fields();
 std::span<const LogField<AxisSummaryAt>> axis_summary_fields();
 /// KADR_STEPS, per axis: "pulses", "offset_ticks", "sign". They have no accessor: pulses are compared one by one.
 std::span<const std::string_view> step_fields();
 
 /// Equal to the last bit: 0 and -0 differ, a NaN equals itself.
-bool same_value(const FieldValue& a, const FieldValue& b);
+bool same_value(const log::FieldValue& a, const log::FieldValue& b);
 /// Shortest text that reads back as the same value.
-std::string value_text(const FieldValue& value);
+std::string value_text(const log::FieldValue& value);
 template <class Record>
-std::string value_text(const LogField<Record>& field, const FieldValue& value) {
+std::string value_text(const LogField<Record>& field, const log::FieldValue& value) {
   if (field.word != nullptr)
     if (const auto* number = std::get_if<std::int64_t>(&value)) return std::string(field.word(*number));
   return value_text(value);
@@ -79,8 +81,8 @@ std::string value_text(const LogField<Record>& field, const FieldValue& value) {
 /// "mm", "deg/s" ...; empty if there is none.
 /// @param path_unit  unit of path length: "mm", "deg", "mm+deg"
 /// @param axis_unit  unit of the field's axis
-std::string unit_text(FieldUnit unit, const std::string& path_unit, const std::string& axis_unit);
+std::string unit_text(log::FieldUnit unit, const std::string& path_unit, const std::string& axis_unit);
 /// Unit of path length by the log's axes: "mm", "deg", or "mm+deg" if it has axes of both kinds.
-std::string path_unit(const LogHeader& header);
+std::string path_unit(const log::LogHeader& header);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -9,7 +9,7 @@
 #include "machine/base/hash.h"
 #include "machine/base/parse_number.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 constexpr std::size_t kShownWidth = 48;  // cells of a quoted line
@@ -26,7 +26,7 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   return lines;
 }
 
-std::string in_quotes(std::string_view line) { return "'" + one_line(line, kShownWidth) + "'"; }
+std::string in_quotes(std::string_view line) { return "'" + text::one_line(line, kShownWidth) + "'"; }
 
 std::string_view without_indent(std::string_view line) {
   const auto begin = line.find_first_not_of(" \t");
@@ -39,9 +39,9 @@ std::string section_of(const std::vector<std::string_view>& lines, std::size_t a
   std::string section, name;
   for (std::size_t i = std::min(at, lines.size()); i-- > 0;) {
     const std::string_view line = without_indent(lines[i]);
-    if (line.starts_with("name =") && name.empty()) name = one_line(line.substr(6), kShownWidth);
+    if (line.starts_with("name =") && name.empty()) name = text::one_line(line.substr(6), kShownWidth);
     if (!line.starts_with('[')) continue;
-    if (section.empty()) section = one_line(line, kShownWidth);
+    if (section.empty()) section = text::one_line(line, kShownWidth);
     const bool entry = line.starts_with("[[");
     if (entry && !name.empty()) return section + " of " + name + " ";
     // the table of an array's entry is indented or has the array's name before a dot
@@ -75,7 +75,7 @@ InputDifference text_input(const char* name, const std::string& a, const std::st
   return {name, false, text_difference(a, b, true)};
 }
 
-InputDifference program_input(const LogHeader& a, const LogHeader& b) {
+InputDifference program_input(const log::LogHeader& a, const log::LogHeader& b) {
   if (a.program_hash == b.program_hash && a.program_bytes == b.program_bytes &&
       a.program_text == b.program_text) {
     // the same text under another name moves the same
@@ -84,22 +84,23 @@ InputDifference program_input(const LogHeader& a, const LogHeader& b) {
   }
   if (a.program_text.empty() || b.program_text.empty())
     return {"program", false,
-            fmt::format("{} | {} bytes", grouped(a.program_bytes), grouped(b.program_bytes))};
+            fmt::format("{} | {} bytes", text::grouped(a.program_bytes), text::grouped(b.program_bytes))};
   return {"program", false, text_difference(a.program_text, b.program_text, false)};
 }
 
-InputDifference clock_input(const LogHeader& a, const LogHeader& b) {
+InputDifference clock_input(const log::LogHeader& a, const log::LogHeader& b) {
   if (same_clock(a, b)) return {"clock", true, ""};
-  const auto text = [](const LogHeader& h) {
-    return fmt::format("{} Hz, control tick {}", grouped(h.base_hz), grouped(h.control_tick_ticks));
+  const auto text = [](const log::LogHeader& h) {
+    return fmt::format("{} Hz, control tick {}", text::grouped(h.base_hz),
+                       text::grouped(h.control_tick_ticks));
   };
   return {"clock", false, text(a) + " | " + text(b)};
 }
 
-InputDifference axes_input(const LogHeader& a, const LogHeader& b) {
-  const auto text = [](const LogHeader& h) {
+InputDifference axes_input(const log::LogHeader& a, const log::LogHeader& b) {
+  const auto text = [](const log::LogHeader& h) {
     std::string list;
-    for (const LogAxis& axis : h.axis)
+    for (const log::LogAxis& axis : h.axis)
       list += fmt::format("{}{} {} {}{}", list.empty() ? "" : ", ", axis.name, number_text(axis.step_u),
                           axis.unit, axis.has_plant ? "" : " (no plant)");
     return list;
@@ -114,8 +115,8 @@ InputDifference axes_input(const LogHeader& a, const LogHeader& b) {
   return {"axes", true, ""};
 }
 
-InputDifference channels_input(const LogHeader& a, const LogHeader& b) {
-  const auto text = [](const LogHeader& h) {
+InputDifference channels_input(const log::LogHeader& a, const log::LogHeader& b) {
+  const auto text = [](const log::LogHeader& h) {
     return h.logs_ticks && h.logs_steps ? "KADR_TICKS and KADR_STEPS"
            : h.logs_ticks               ? "KADR_TICKS"
            : h.logs_steps               ? "KADR_STEPS"
@@ -127,11 +128,11 @@ InputDifference channels_input(const LogHeader& a, const LogHeader& b) {
 
 }  // namespace
 
-bool same_clock(const LogHeader& a, const LogHeader& b) {
+bool same_clock(const log::LogHeader& a, const log::LogHeader& b) {
   return a.base_hz == b.base_hz && a.control_tick_ticks == b.control_tick_ticks;
 }
 
-std::vector<InputDifference> compare_inputs(const LogHeader& a, const LogHeader& b) {
+std::vector<InputDifference> compare_inputs(const log::LogHeader& a, const log::LogHeader& b) {
   std::vector<InputDifference> list = {program_input(a, b),
                                        text_input("machine", a.machine_toml, b.machine_toml),
                                        text_input("settings", a.settings_toml, b.settings_toml),
@@ -150,7 +151,7 @@ std::string ProgramPlace::name() const {
   return file.empty() ? fmt::format("line {} of a called file", line) : fmt::format("{}:{}", file, line);
 }
 
-ProgramPlace place_of(const LogHeader& header, std::uint32_t line) {
+ProgramPlace place_of(const log::LogHeader& header, std::uint32_t line) {
   if (line == 0) return {};
   std::string_view text = header.program_text;
   for (std::uint32_t n = 1; n < line; ++n) {
@@ -163,7 +164,7 @@ ProgramPlace place_of(const LogHeader& header, std::uint32_t line) {
   return {header.program_name, line, std::string(text)};
 }
 
-ProgramPlace place_of(const LogHeader& header, const BlockRecord& block) {
+ProgramPlace place_of(const log::LogHeader& header, const log::BlockRecord& block) {
   const ProgramPlace place = place_of(header, block.span.line);
   std::string text = block.text;
   if (!text.empty() && text.back() == '\r') text.pop_back();
@@ -172,4 +173,4 @@ ProgramPlace place_of(const LogHeader& header, const BlockRecord& block) {
   return {"", place.line, std::move(text)};
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -4,7 +4,7 @@
 
 #include "emulator/log/log_reader.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// One input of a run, as both logs hold it.
 struct InputDifference {
@@ -14,10 +14,10 @@ struct InputDifference {
 };
 
 /// The inputs in the order above.
-std::vector<InputDifference> compare_inputs(const LogHeader& a, const LogHeader& b);
+std::vector<InputDifference> compare_inputs(const log::LogHeader& a, const log::LogHeader& b);
 
 /// A control tick of one log is as long as one of the other: ticks can be put side by side.
-bool same_clock(const LogHeader& a, const LogHeader& b);
+bool same_clock(const log::LogHeader& a, const log::LogHeader& b);
 
 /// A line of the program.
 struct ProgramPlace {
@@ -29,8 +29,8 @@ struct ProgramPlace {
   bool operator==(const ProgramPlace&) const = default;
 };
 /// Place of a block.
-ProgramPlace place_of(const LogHeader& header, const BlockRecord& block);
+ProgramPlace place_of(const log::LogHeader& header, const log::BlockRecord& block);
 /// Position of a line of the main program.
-ProgramPlace place_of(const LogHeader& header, std::uint32_t line);
+ProgramPlace place_of(const log::LogHeader& header, std::uint32_t line);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

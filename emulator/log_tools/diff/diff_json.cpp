@@ -5,8 +5,10 @@
 #include "emulator/log_tools/diff/diff_report.h"
 #include "machine/base/hash.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
+
+using text::Json;
 
 /// JSON has no NaN and no infinity.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -18,7 +20,7 @@ Json place_json(const ProgramPlace& place) {
           {"text", place.text}};
 }
 
-Json field_json(const FieldDifference& f, const LogHeader& header) {
+Json field_json(const FieldDifference& f, const log::LogHeader& header) {
   Json j;
   j["channel"] = channel_name(f.channel);
   j["field"] = f.field;
@@ -32,13 +34,13 @@ Json field_json(const FieldDifference& f, const LogHeader& header) {
   return j;
 }
 
-Json fields_json(const std::vector<FieldDifference>& fields, const LogHeader& header) {
+Json fields_json(const std::vector<FieldDifference>& fields, const log::LogHeader& header) {
   Json list = Json::array();
   for (const FieldDifference& f : fields) list.push_back(field_json(f, header));
   return list;
 }
 
-Json first_json(const FirstDifference& first, const LogHeader& header) {
+Json first_json(const FirstDifference& first, const log::LogHeader& header) {
   Json j = json_of(first.tick, header);
   j["input_before"] = first.input.empty() ? Json(nullptr) : Json(first.input);
   j["event_before"] = first.event.empty() ? Json(nullptr) : Json(first.event);
@@ -49,7 +51,7 @@ Json first_json(const FirstDifference& first, const LogHeader& header) {
   return j;
 }
 
-Json point_json(const FeedPoint& p, const LogHeader& header) {
+Json point_json(const FeedPoint& p, const log::LogHeader& header) {
   return {{"feed_u_s", number(p.feed_u_s)},
           {"override_used", number(p.override_used)},
           {"limited_by", p.limited_by},
@@ -58,7 +60,7 @@ Json point_json(const FeedPoint& p, const LogHeader& header) {
 
 /// How the logs end, which is known only after they have been read.
 Json end_json(const LogSide& side) {
-  return {{"state", log_state_name(side.end.state)},
+  return {{"state", log::log_state_name(side.end.state)},
           {"detail", side.end.detail},
           {"valid_until_tick", side.end.valid_until.value},
           {"control_ticks", side.control_ticks}};
@@ -85,7 +87,7 @@ Json json_of(const LogSide& side) {
           {"inputs_hash", hash_text(side.header.inputs_hash)}};
 }
 
-Json json_of(const TickDifference& d, const LogHeader& header) {
+Json json_of(const TickDifference& d, const log::LogHeader& header) {
   Json j;
   j["control_tick"] = d.control_tick;
   j["from_s"] = header.seconds(Ticks{d.control_tick * header.control_tick_ticks});
@@ -98,7 +100,7 @@ Json json_of(const TickDifference& d, const LogHeader& header) {
 }
 
 Json json_of(const LogDiff& diff) {
-  const LogHeader& header = diff.a.header;
+  const log::LogHeader& header = diff.a.header;
   Json j;
   j["differ"] = diff.differ();
   j["inputs_differ"] = diff.inputs_differ();
@@ -132,7 +134,7 @@ Json json_of(const LogDiff& diff) {
   return j;
 }
 
-Json json_of(const BlockDifference& d, const LogHeader& header) {
+Json json_of(const BlockDifference& d, const log::LogHeader& header) {
   Json j;
   j["block"] = d.a.block;
   j["place"] = place_json(place_of(header, d.a));
@@ -145,7 +147,7 @@ Json json_of(const BlockDifference& d, const LogHeader& header) {
   return j;
 }
 
-Json json_of(const FeedSpan& span, const LogHeader& header) {
+Json json_of(const FeedSpan& span, const log::LogHeader& header) {
   Json j;
   j["from_u"] = number(span.from_u);
   j["to_u"] = number(span.to_u);
@@ -159,7 +161,7 @@ Json json_of(const FeedSpan& span, const LogHeader& header) {
 }
 
 Json json_of(const PathDiff& d) {
-  const LogHeader& header = d.a.header;
+  const log::LogHeader& header = d.a.header;
   Json j;
   j["differ"] = d.differ();
   j["inputs_differ"] = d.inputs_differ();
@@ -195,4 +197,4 @@ Json json_of(const PathDiff& d) {
   return j;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

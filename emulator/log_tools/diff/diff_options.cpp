@@ -7,10 +7,10 @@
 
 #include "machine/base/parse_number.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
-using Key = ToleranceKey;
+using Key = log::ToleranceKey;
 
 /// Kind of quantity that a key takes.
 enum class Quantity : std::uint8_t { position, rate, force };
@@ -57,7 +57,7 @@ std::string units_of(Quantity quantity) {
 /// The keys that a name means.
 std::vector<Key> keys_of(std::string_view name) {
   if (name == "load") return {Key::base, Key::link};
-  const auto key = kToleranceWords.find(name);
+  const auto key = log::kToleranceWords.find(name);
   return key && *key != Key::none ? std::vector{*key} : std::vector<Key>{};
 }
 
@@ -104,7 +104,7 @@ bool in_group(std::string_view text, const KnownField& field) {
   if (text == "load") return field.channel == DiffChannel::load;
   if (text == "feed")
     return field.channel == DiffChannel::command && (field.name == "feed_u_s" || field.name == "accel_u_s2");
-  return field.key != Key::none && text == kToleranceWords.word(field.key);
+  return field.key != Key::none && text == log::kToleranceWords.word(field.key);
 }
 
 /// "feed_u_s, accel_u_s2, ..." of a channel.
@@ -128,7 +128,7 @@ tl::expected<void, std::string> add_tolerance(Tolerances& tolerances, std::strin
   const std::vector<Key> keys = keys_of(name);
   if (keys.empty() || equals == std::string_view::npos)
     return fault(fmt::format("takes KEY=VALUE with KEY one of load, {}; got '{}'",
-                             kToleranceWords.up_to<Key::feed>().list(), text));
+                             log::kToleranceWords.up_to<Key::feed>().list(), text));
   std::string_view value = text.substr(equals + 1);
   const Quantity quantity = quantity_of(keys.front());
   const auto end = value.find_last_of("0123456789.");
@@ -171,4 +171,4 @@ tl::expected<void, std::string> add_ignored(DiffOptions& options, std::string_vi
                   text));
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

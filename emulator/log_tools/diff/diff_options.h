@@ -12,7 +12,7 @@
 #include "emulator/log_tools/diff/diff_fields.h"
 #include "machine/base/vocabulary.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// The compared items: control ticks of the same number, or positions of the same path length.
 enum class DiffAlign : std::uint8_t { tick, path };
@@ -24,10 +24,10 @@ static_assert(kDiffAligns.complete());
 
 /// Allowed differences, [ToleranceKey]; not given: to the last bit.
 struct Tolerances {
-  std::array<std::optional<double>, kToleranceKeys> linear;  ///< mm, mm/s, N
-  std::array<std::optional<double>, kToleranceKeys> rotary;  ///< deg, deg/s, N m
-  std::optional<double> of(ToleranceKey key, bool rotary_axis) const {
-    if (key == ToleranceKey::none) return std::nullopt;
+  std::array<std::optional<double>, log::kToleranceKeys> linear;  ///< mm, mm/s, N
+  std::array<std::optional<double>, log::kToleranceKeys> rotary;  ///< deg, deg/s, N m
+  std::optional<double> of(log::ToleranceKey key, bool rotary_axis) const {
+    if (key == log::ToleranceKey::none) return std::nullopt;
     return (rotary_axis ? rotary : linear)[static_cast<std::size_t>(key)];
   }
 };
@@ -54,4 +54,4 @@ tl::expected<void, std::string> add_tolerance(Tolerances& tolerances, std::strin
 /// @return the error in the text
 tl::expected<void, std::string> add_ignored(DiffOptions& options, std::string_view text);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

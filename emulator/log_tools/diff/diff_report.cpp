@@ -9,10 +9,10 @@
 #include "emulator/text/text.h"
 #include "machine/base/parse_number.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
-using Align = TextTable::Align;
+using Align = text::TextTable::Align;
 
 constexpr std::size_t kValueWidth = 64;  // cells of an event's text
 constexpr std::size_t kNameWidth = 24;   // cells of a log's name in a table
@@ -22,8 +22,8 @@ std::string file_name(const std::string& path) { return path.substr(path.rfind('
 /// Titles of the columns of both logs: their file names, if they differ and are short.
 std::pair<std::string, std::string> log_titles(const LogDiff& diff) {
   const std::string a = file_name(diff.a.path), b = file_name(diff.b.path);
-  if (a == b || display_width(a) > kNameWidth || display_width(b) > kNameWidth) return {"A", "B"};
-  return {one_line(a, kNameWidth), one_line(b, kNameWidth)};
+  if (a == b || text::display_width(a) > kNameWidth || text::display_width(b) > kNameWidth) return {"A", "B"};
+  return {text::one_line(a, kNameWidth), text::one_line(b, kNameWidth)};
 }
 
 std::string difference_text(const std::optional<double>& difference) {
@@ -39,15 +39,16 @@ std::string where(const TickDifference& d) {
   return text;
 }
 
-std::string seconds_text(const LogHeader& header, Ticks tick) {
+std::string seconds_text(const log::LogHeader& header, Ticks tick) {
   return fmt::format("{:.6f} s", header.seconds(tick));
 }
 
 /// The program's line, or both logs' lines where they are not the same.
 std::string source_lines(const TickDifference& d) {
   const auto line = [](const ProgramPlace& place) {
-    return place.text.empty() ? ""
-                              : fmt::format("  {} | {}\n", place.line, one_line(place.text, kValueWidth));
+    return place.text.empty()
+               ? ""
+               : fmt::format("  {} | {}\n", place.line, text::one_line(place.text, kValueWidth));
   };
   if (d.place_a == d.place_b) return line(d.place_a);
   return line(d.place_a) + line(d.place_b);
@@ -56,10 +57,10 @@ std::string source_lines(const TickDifference& d) {
 std::string field_table(const std::vector<FieldDifference>& differing,
                         const std::vector<FieldDifference>& same, const LogDiff& diff) {
   const auto [a, b] = log_titles(diff);
-  TextTable table({{"field", Align::left}, {"unit", Align::left}, {a}, {b}, {"difference"}});
+  text::TextTable table({{"field", Align::left}, {"unit", Align::left}, {a}, {b}, {"difference"}});
   for (const auto* list : {&differing, &same})
     for (const FieldDifference& f : *list)
-      table.add({f.name(), f.unit, one_line(f.a, kValueWidth), one_line(f.b, kValueWidth),
+      table.add({f.name(), f.unit, text::one_line(f.a, kValueWidth), text::one_line(f.b, kValueWidth),
                  difference_text(f.difference)});
   return table.render("  ");
 }
@@ -69,10 +70,10 @@ std::string context_table(const FirstDifference& first, const LogDiff& diff) {
                                   [](const ContextRow& row) { return row.a != "-" || row.b != "-"; });
   if (first.rows.size() < 2 || !values) return "";
   const auto [a, b] = log_titles(diff);
-  TextTable table({{"", Align::left}, {"control tick"}, {"end s"}, {"line", Align::left}, {a}, {b}});
+  text::TextTable table({{"", Align::left}, {"control tick"}, {"end s"}, {"line", Align::left}, {a}, {b}});
   const std::int64_t tau = diff.a.header.control_tick_ticks;
   for (const ContextRow& row : first.rows)
-    table.add({row.control_tick == first.tick.control_tick ? ">" : "", grouped(row.control_tick),
+    table.add({row.control_tick == first.tick.control_tick ? ">" : "", text::grouped(row.control_tick),
                fmt::format("{:.6f}", diff.a.header.seconds(Ticks{(row.control_tick + 1) * tau})), row.place,
                row.a, row.b});
   return fmt::format("around it: {}{}\n", first.context_name,
@@ -87,18 +88,18 @@ std::string headline(const LogDiff& diff) {
   if (diff.first) {
     const TickDifference& d = diff.first->tick;
     const Ticks begin{d.control_tick * diff.a.header.control_tick_ticks};
-    return fmt::format("logs differ: first at control tick {} (from {}), {}\n", grouped(d.control_tick),
+    return fmt::format("logs differ: first at control tick {} (from {}), {}\n", text::grouped(d.control_tick),
                        seconds_text(diff.a.header, begin), where(d));
   }
   if (diff.lengths_differ()) {
     const LogSide& longer = diff.a.control_ticks > diff.b.control_ticks ? diff.a : diff.b;
     const LogSide& shorter = diff.a.control_ticks > diff.b.control_ticks ? diff.b : diff.a;
     return fmt::format("logs differ: {} has {} more than {}; the {} of both are the same\n", longer.path,
-                       counted(longer.control_ticks - shorter.control_ticks, "control tick"), shorter.path,
-                       grouped(diff.both));
+                       text::counted(longer.control_ticks - shorter.control_ticks, "control tick"),
+                       shorter.path, text::grouped(diff.both));
   }
   if (!diff.summary.empty()) return "logs differ: in KADR_SUMMARY alone\n";
-  return fmt::format("no difference in {}\n", counted(diff.both, "control tick"));
+  return fmt::format("no difference in {}\n", text::counted(diff.both, "control tick"));
 }
 
 std::string inputs_line(const std::vector<InputDifference>& inputs) {
@@ -112,7 +113,7 @@ std::string inputs_line(const std::vector<InputDifference>& inputs) {
 }
 
 std::string totals(const LogDiff& diff) {
-  TextTable table(
+  text::TextTable table(
       {{"channel", Align::left}, {"control ticks that differ"}, {"first at"}, {"what", Align::left}});
   for (std::size_t c = 0; c < kDiffChannels; ++c) {
     const ChannelTotals& t = diff.channels[c];
@@ -120,11 +121,12 @@ std::string totals(const LogDiff& diff) {
     const auto channel = static_cast<DiffChannel>(c);
     const FieldDifference& f = *t.first;
     const std::string difference = difference_text(f.difference);
-    table.add(
-        {std::string(channel_name(channel)) + (channel == DiffChannel::load ? " load" : ""),
-         fmt::format("{} of {}", grouped(t.differing), grouped(diff.both)), grouped(t.first_control_tick),
-         fmt::format("{} {} | {}{}{}", f.name(), one_line(f.a, kNameWidth * 2), one_line(f.b, kNameWidth * 2),
-                     f.unit.empty() ? "" : " " + f.unit, difference.empty() ? "" : " (" + difference + ")")});
+    table.add({std::string(channel_name(channel)) + (channel == DiffChannel::load ? " load" : ""),
+               fmt::format("{} of {}", text::grouped(t.differing), text::grouped(diff.both)),
+               text::grouped(t.first_control_tick),
+               fmt::format("{} {} | {}{}{}", f.name(), text::one_line(f.a, kNameWidth * 2),
+                           text::one_line(f.b, kNameWidth * 2), f.unit.empty() ? "" : " " + f.unit,
+                           difference.empty() ? "" : " (" + difference + ")")});
   }
   return table.empty() ? "" : "totals\n" + table.render("  ");
 }
@@ -132,10 +134,11 @@ std::string totals(const LogDiff& diff) {
 /// Largest differences of the plant's states: the tolerance that would be needed.
 std::string peaks(const LogDiff& diff) {
   if (diff.load_peaks.empty()) return "";
-  TextTable table(
+  text::TextTable table(
       {{"plant state", Align::left}, {"unit", Align::left}, {"largest difference"}, {"control tick"}});
   for (const LoadPeak& p : diff.load_peaks)
-    table.add({p.axis + " " + p.field, p.unit, fmt::format("{:.6g}", p.difference), grouped(p.control_tick)});
+    table.add(
+        {p.axis + " " + p.field, p.unit, fmt::format("{:.6g}", p.difference), text::grouped(p.control_tick)});
   return table.render("  ");
 }
 
@@ -148,8 +151,8 @@ std::string ends(const LogDiff& diff) {
     return text + "end (KADR_SUMMARY)\n" + field_table(diff.summary, {}, diff);
   }
   if (diff.lengths_differ())
-    text += fmt::format("control ticks: {} | {}, compared as far as both go\n", grouped(diff.a.control_ticks),
-                        grouped(diff.b.control_ticks));
+    text += fmt::format("control ticks: {} | {}, compared as far as both go\n",
+                        text::grouped(diff.a.control_ticks), text::grouped(diff.b.control_ticks));
   return text;
 }
 
@@ -160,7 +163,7 @@ std::string end_text(const LogSide& side) {
 }
 
 std::string render_input_differences(const std::vector<InputDifference>& inputs) {
-  TextTable table({{"inputs differ", Align::left}, {"", Align::left}});
+  text::TextTable table({{"inputs differ", Align::left}, {"", Align::left}});
   for (const InputDifference& input : inputs)
     if (!input.same) table.add({"  " + input.name, input.detail});
   return table.empty() ? "" : table.render();
@@ -174,7 +177,7 @@ std::string render_tick_difference(const TickDifference& d, const LogDiff& logs)
     text +=
         fmt::format("{} {} {} {} {} {} | {}{}{}\n", d.control_tick, seconds_text(logs.a.header, f.tick),
                     place.line > 0 ? place.name() : "-", channel_name(f.channel), f.name(),
-                    one_line(f.a, kValueWidth), one_line(f.b, kValueWidth),
+                    text::one_line(f.a, kValueWidth), text::one_line(f.b, kValueWidth),
                     f.unit.empty() ? "" : " " + f.unit, difference.empty() ? "" : " (" + difference + ")");
   }
   return text;
@@ -187,9 +190,9 @@ std::string render_log_diff(const LogDiff& diff) {
     text += field_table(diff.first->tick.fields, diff.first->same, diff);
     text += context_table(*diff.first, diff);
     if (!diff.first->input.empty())
-      text += "nearest input before: " + one_line(diff.first->input, 100) + "\n";
+      text += "nearest input before: " + text::one_line(diff.first->input, 100) + "\n";
     if (!diff.first->event.empty())
-      text += "nearest event before: " + one_line(diff.first->event, 100) + "\n";
+      text += "nearest event before: " + text::one_line(diff.first->event, 100) + "\n";
   }
   text += inputs_line(diff.inputs);
   if (!diff.compared) return text;
@@ -199,4 +202,4 @@ std::string render_log_diff(const LogDiff& diff) {
   return text;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

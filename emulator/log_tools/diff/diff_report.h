@@ -6,7 +6,7 @@
 #include "emulator/text/json.h"
 
 /// The output of `kadr diff`; lines end in '\n'.
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// "inputs differ:" with a line for each that does; empty if all are the same.
 std::string render_input_differences(const std::vector<InputDifference>& inputs);
@@ -16,21 +16,21 @@ std::string render_tick_difference(const TickDifference& difference, const LogDi
 /// First difference with its surroundings, inputs, totals.
 std::string render_log_diff(const LogDiff& diff);
 
-std::string render_block_difference(const BlockDifference& difference, const LogHeader& header);
+std::string render_block_difference(const BlockDifference& difference, const log::LogHeader& header);
 std::string render_feed_span(const FeedSpan& span, const PathDiff& diff);
 std::string render_path_diff(const PathDiff& diff);
 
 /// The same for programs; keys carry units, `_u` is mm or deg, as its "unit" says.
-Json json_of(const std::vector<InputDifference>& inputs);
-Json json_of(const LogSide& side);
-Json json_of(const TickDifference& difference, const LogHeader& header);
-Json json_of(const BlockDifference& difference, const LogHeader& header);
-Json json_of(const FeedSpan& span, const LogHeader& header);
+text::Json json_of(const std::vector<InputDifference>& inputs);
+text::Json json_of(const LogSide& side);
+text::Json json_of(const TickDifference& difference, const log::LogHeader& header);
+text::Json json_of(const BlockDifference& difference, const log::LogHeader& header);
+text::Json json_of(const FeedSpan& span, const log::LogHeader& header);
 /// "differ", "first", "totals" ...: all but the logs and their inputs.
-Json json_of(const LogDiff& diff);
-Json json_of(const PathDiff& diff);
+text::Json json_of(const LogDiff& diff);
+text::Json json_of(const PathDiff& diff);
 
 /// How a log ends, one line; empty if it is complete.
 std::string end_text(const LogSide& side);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

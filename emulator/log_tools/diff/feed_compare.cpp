@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 /// The point of a log at path length s_u, between two of its control ticks.
@@ -91,4 +91,4 @@ std::vector<FeedSpan> FeedCompare::take() {
   return list;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

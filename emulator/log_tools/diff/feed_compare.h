@@ -7,7 +7,7 @@
 
 #include "emulator/log/log_reader.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// Path and feed at the end of a control tick.
 struct FeedPoint {
@@ -18,7 +18,7 @@ struct FeedPoint {
   Ticks tick;        ///< its end
   double override_used = 1;
   std::int8_t limited_by = 0;
-  std::shared_ptr<const BlockRecord> block;  ///< under way
+  std::shared_ptr<const log::BlockRecord> block;  ///< under way
 };
 
 /// A stretch of the path on which the feeds differ by more than the tolerance.
@@ -63,4 +63,4 @@ class FeedCompare {
   double length_u_ = 0;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

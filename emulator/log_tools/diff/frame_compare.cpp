@@ -6,16 +6,16 @@
 #include <cmath>
 #include <type_traits>
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
-std::optional<double> number_of(const FieldValue& value) {
+std::optional<double> number_of(const log::FieldValue& value) {
   if (const auto* real = std::get_if<double>(&value)) return *real;
   if (const auto* number = std::get_if<std::int64_t>(&value)) return static_cast<double>(*number);
   return std::nullopt;
 }
 
-std::optional<double> difference_of(const FieldValue& a, const FieldValue& b) {
+std::optional<double> difference_of(const log::FieldValue& a, const log::FieldValue& b) {
   if (const auto* x = std::get_if<std::int64_t>(&a), *y = std::get_if<std::int64_t>(&b); x && y)
     return static_cast<double>(*y - *x);
   const auto p = number_of(a), q = number_of(b);
@@ -25,11 +25,15 @@ std::optional<double> difference_of(const FieldValue& a, const FieldValue& b) {
 
 /// An item in one line, for a log that has it where the other has none.
 struct Describe {
-  std::string operator()(const EventRecord& e) const {
+  std::string operator()(const log::EventRecord& e) const {
     return e.text.empty() ? e.kind.text() : fmt::format("{}: {}", e.kind.text(), e.text);
   }
-  std::string operator()(const BlockRecord& b) const { return fmt::format("block {}: {}", b.block, b.text); }
-  std::string operator()(const LogDiagnostic& d) const { return fmt::format("{}: {}", d.code, d.message); }
+  std::string operator()(const log::BlockRecord& b) const {
+    return fmt::format("block {}: {}", b.block, b.text);
+  }
+  std::string operator()(const log::LogDiagnostic& d) const {
+    return fmt::format("{}: {}", d.code, d.message);
+  }
 };
 
 /// The items of one type, in the log's order.
@@ -46,7 +50,7 @@ AxisAt axis_at(const LogFrame& frame, std::size_t axis) { return {*frame.ticks, 
 
 }  // namespace
 
-std::vector<AxisPair> common_axes(const LogHeader& a, const LogHeader& b) {
+std::vector<AxisPair> common_axes(const log::LogHeader& a, const log::LogHeader& b) {
   std::vector<AxisPair> pairs;
   for (std::size_t i = 0; i < a.axis.size(); ++i)
     for (std::size_t j = 0; j < b.axis.size(); ++j)
@@ -68,8 +72,8 @@ struct FrameCompare::Sink {
     return list != nullptr;
   }
   template <class Record>
-  void add(DiffChannel channel, const LogField<Record>& field, const AxisPair* axis, const FieldValue& a,
-           const FieldValue& b, Ticks tick) {
+  void add(DiffChannel channel, const LogField<Record>& field, const AxisPair* axis, const log::FieldValue& a,
+           const log::FieldValue& b, Ticks tick) {
     if (!wants(channel)) return;
     list->push_back({channel, std::string(field.name), axis ? axis->name : "",
                      unit_text(field.unit, compare.path_unit_, axis ? axis->unit : ""), value_text(field, a),
@@ -86,11 +90,11 @@ struct FrameCompare::Sink {
   void fields(DiffChannel channel, std::span<const LogField<Record>> table, const Record& a, const Record& b,
               const AxisPair* axis, Ticks tick) {
     bool tolerated = false;
-    if constexpr (std::is_same_v<Record, EventRecord>) tolerated = compare.within_tolerance(a, b);
+    if constexpr (std::is_same_v<Record, log::EventRecord>) tolerated = compare.within_tolerance(a, b);
     for (const auto& field : table) {
       if (!compare.compares(channel, field.name)) continue;
       if (tolerated && (field.name == "value" || field.name == "text")) continue;
-      const FieldValue x = field.get(a), y = field.get(b);
+      const log::FieldValue x = field.get(a), y = field.get(b);
       if (!same_value(x, y)) add(channel, field, axis, x, y, tick);
     }
   }
@@ -114,7 +118,7 @@ struct FrameCompare::Sink {
   }
 };
 
-FrameCompare::FrameCompare(const LogHeader& a, const LogHeader& b, const DiffOptions& options)
+FrameCompare::FrameCompare(const log::LogHeader& a, const log::LogHeader& b, const DiffOptions& options)
     : options_(options),
       axes_(common_axes(a, b)),
       control_tick_ticks_(a.control_tick_ticks),
@@ -128,7 +132,7 @@ FrameCompare::FrameCompare(const LogHeader& a, const LogHeader& b, const DiffOpt
     tick_ignored_.push_back(options.ignores(DiffChannel::command, field.name));
   for (const auto& field : axis_fields())
     axis_ignored_.push_back(options.ignores(
-        field.key == ToleranceKey::none ? DiffChannel::command : DiffChannel::load, field.name));
+        field.key == log::ToleranceKey::none ? DiffChannel::command : DiffChannel::load, field.name));
   for (const AxisPair& axis : axes_)
     for (const auto& field : axis_fields())
       peaks_.push_back(
@@ -144,12 +148,12 @@ ChannelMask FrameCompare::compare(const LogFrame& a, const LogFrame& b, std::vec
   return sink.mask;
 }
 
-bool FrameCompare::within_tolerance(const EventRecord& a, const EventRecord& b) const {
-  if (a.kind != EventKind::residual || b.kind != EventKind::residual) return false;
+bool FrameCompare::within_tolerance(const log::EventRecord& a, const log::EventRecord& b) const {
+  if (a.kind != log::EventKind::residual || b.kind != log::EventKind::residual) return false;
   if (options_.ignores(DiffChannel::load, "link_u")) return true;
   for (const AxisPair& axis : axes_)
     if (a.axis == static_cast<int>(axis.a) && b.axis == static_cast<int>(axis.b)) {
-      const auto tolerance = options_.tolerance.of(ToleranceKey::link, axis.rotary);
+      const auto tolerance = options_.tolerance.of(log::ToleranceKey::link, axis.rotary);
       return tolerance && std::fabs(b.value - a.value) <= *tolerance;
     }
   return false;
@@ -174,15 +178,15 @@ void FrameCompare::compare_commands(const LogFrame& a, const LogFrame& b, Sink& 
   const auto table = tick_fields();
   for (std::size_t f = 0; f < table.size(); ++f) {
     if (tick_ignored_[f]) continue;
-    const FieldValue p = table[f].get(x), q = table[f].get(y);
+    const log::FieldValue p = table[f].get(x), q = table[f].get(y);
     if (is_absent(p) || is_absent(q)) continue;
     if (!same_value(p, q)) sink.add(DiffChannel::command, table[f], nullptr, p, q, end);
   }
   const auto of_axis = axis_fields();
   for (const AxisPair& axis : axes_)
     for (std::size_t f = 0; f < of_axis.size(); ++f) {
-      if (of_axis[f].key != ToleranceKey::none || axis_ignored_[f]) continue;
-      const FieldValue p = of_axis[f].get(axis_at(a, axis.a)), q = of_axis[f].get(axis_at(b, axis.b));
+      if (of_axis[f].key != log::ToleranceKey::none || axis_ignored_[f]) continue;
+      const log::FieldValue p = of_axis[f].get(axis_at(a, axis.a)), q = of_axis[f].get(axis_at(b, axis.b));
       if (is_absent(p) || is_absent(q)) continue;
       if (!same_value(p, q)) sink.add(DiffChannel::command, of_axis[f], &axis, p, q, end);
     }
@@ -242,9 +246,9 @@ void FrameCompare::compare_load(const LogFrame& a, const LogFrame& b, Sink& sink
   for (std::size_t n = 0; n < axes_.size(); ++n)
     for (std::size_t f = 0; f < table.size(); ++f) {
       const auto& field = table[f];
-      if (field.key == ToleranceKey::none || axis_ignored_[f]) continue;
+      if (field.key == log::ToleranceKey::none || axis_ignored_[f]) continue;
       const AxisPair& axis = axes_[n];
-      const FieldValue p = field.get(axis_at(a, axis.a)), q = field.get(axis_at(b, axis.b));
+      const log::FieldValue p = field.get(axis_at(a, axis.a)), q = field.get(axis_at(b, axis.b));
       if (is_absent(p) || is_absent(q) || same_value(p, q)) continue;
       const double size = std::fabs(difference_of(p, q).value_or(0));
       LoadPeak& peak = peaks_[n * table.size() + f];
@@ -257,7 +261,7 @@ void FrameCompare::compare_load(const LogFrame& a, const LogFrame& b, Sink& sink
     }
 }
 
-ChannelMask FrameCompare::compare_summaries(const LogSummary& a, const LogSummary& b,
+ChannelMask FrameCompare::compare_summaries(const log::LogSummary& a, const log::LogSummary& b,
                                             std::vector<FieldDifference>& list) const {
   Sink sink{&list, *this};
   const Ticks tick = std::min(a.run.ticks, b.run.ticks);
@@ -273,7 +277,7 @@ std::vector<FieldDifference> FrameCompare::same_fields(const LogFrame& a, const 
   std::vector<FieldDifference> list;
   if (!a.ticks || !b.ticks) return list;
   for (const auto& field : tick_fields()) {
-    const FieldValue p = field.get(tick_at(a)), q = field.get(tick_at(b));
+    const log::FieldValue p = field.get(tick_at(a)), q = field.get(tick_at(b));
     if (!same_value(p, q)) continue;
     const std::string text = value_text(field, p);
     list.push_back({DiffChannel::command, std::string(field.name), "", unit_text(field.unit, path_unit_, ""),
@@ -296,9 +300,10 @@ std::string FrameCompare::value(const LogFrame& frame, bool first, const std::st
     if (axis.empty() && f.name == field) return value_text(f, f.get(tick_at(frame)));
   for (const AxisPair& pair : axes_)
     for (const auto& f : axis_fields())
-      if (pair.name == axis && f.name == field && (f.key == ToleranceKey::none || frame.ticks->has_plant))
+      if (pair.name == axis && f.name == field &&
+          (f.key == log::ToleranceKey::none || frame.ticks->has_plant))
         return value_text(f, f.get(axis_at(frame, first ? pair.a : pair.b)));
   return "-";
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

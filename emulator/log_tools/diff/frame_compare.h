@@ -8,7 +8,7 @@
 #include "emulator/log_tools/diff/diff_options.h"
 #include "emulator/log_tools/diff/log_frames.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// One value that is not the same in both logs.
 struct FieldDifference {
@@ -35,7 +35,7 @@ struct AxisPair {
   std::string name, unit;
   bool rotary = false;
 };
-std::vector<AxisPair> common_axes(const LogHeader& a, const LogHeader& b);
+std::vector<AxisPair> common_axes(const log::LogHeader& a, const log::LogHeader& b);
 
 using ChannelMask = std::uint32_t;
 constexpr ChannelMask mask_of(DiffChannel channel) { return 1u << static_cast<unsigned>(channel); }
@@ -43,7 +43,7 @@ constexpr ChannelMask mask_of(DiffChannel channel) { return 1u << static_cast<un
 /// Compares one control tick of two logs. Allocates nothing for ticks and pulses that are the same.
 class FrameCompare {
  public:
-  FrameCompare(const LogHeader& a, const LogHeader& b, const DiffOptions& options);
+  FrameCompare(const log::LogHeader& a, const log::LogHeader& b, const DiffOptions& options);
 
   const std::vector<AxisPair>& axes() const { return axes_; }
   /// @param list  if not null, the differences are appended in the order of DiffChannel
@@ -51,7 +51,7 @@ class FrameCompare {
   ChannelMask compare(const LogFrame& a, const LogFrame& b, std::vector<FieldDifference>* list = nullptr);
   /// The fields of the path that two frames have in common; axes are left out.
   std::vector<FieldDifference> same_fields(const LogFrame& a, const LogFrame& b) const;
-  ChannelMask compare_summaries(const LogSummary& a, const LogSummary& b,
+  ChannelMask compare_summaries(const log::LogSummary& a, const log::LogSummary& b,
                                 std::vector<FieldDifference>& list) const;
   /// Plant states that differed by more than nothing, in the order of axes and fields.
   std::vector<LoadPeak> load_peaks() const;
@@ -67,7 +67,7 @@ class FrameCompare {
 
   /// True if value and text of an event that is in both logs are not compared: the residual vibration of an
   /// axis, whose value follows from the plant, within the tolerance of `link`, or with `link` ignored.
-  bool within_tolerance(const EventRecord& a, const EventRecord& b) const;
+  bool within_tolerance(const log::EventRecord& a, const log::EventRecord& b) const;
 
  private:
   struct Sink;
@@ -88,4 +88,4 @@ class FrameCompare {
   std::vector<LoadPeak> peaks_;  // [axes * axis_fields]
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

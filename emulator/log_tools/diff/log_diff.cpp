@@ -7,15 +7,15 @@
 
 #include "emulator/text/text.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 struct FramePair {
   LogFrame a, b;
 };
 
-bool whole(const LogEnd& end) {
-  return end.state == LogState::complete || end.state == LogState::interrupted;
+bool whole(const log::LogEnd& end) {
+  return end.state == log::LogState::complete || end.state == log::LogState::interrupted;
 }
 bool exact(const LogFrame& frame) { return frame.ticks || frame.steps; }
 
@@ -109,11 +109,11 @@ class TickDiff {
   }
 
   struct KnownPlace {
-    std::shared_ptr<const BlockRecord> block;
+    std::shared_ptr<const log::BlockRecord> block;
     ProgramPlace place;
   };
   /// Position of the current block; looked up once per block.
-  static ProgramPlace place(const LogFrame& frame, const LogHeader& header, KnownPlace& known) {
+  static ProgramPlace place(const LogFrame& frame, const log::LogHeader& header, KnownPlace& known) {
     if (!frame.block) return {};
     if (known.block != frame.block) known = {frame.block, place_of(header, *frame.block)};
     return known.place;
@@ -123,7 +123,7 @@ class TickDiff {
   void place_event(const FramePair& pair, TickDifference& d) const {
     const auto line = [&](const LogFrame& frame) {
       for (const LogItem& item : frame.items)
-        if (const auto* e = std::get_if<EventRecord>(&item); e && e->tick == d.fields.front().tick)
+        if (const auto* e = std::get_if<log::EventRecord>(&item); e && e->tick == d.fields.front().tick)
           return e->span.line;
       return std::uint32_t{0};
     };
@@ -146,7 +146,7 @@ class TickDiff {
       break;
     }
     if (first.context_unit.empty() && context_field_ == "feed_u_s")
-      first.context_unit = unit_text(FieldUnit::path_speed, path_unit(result_.a.header), "");
+      first.context_unit = unit_text(log::FieldUnit::path_speed, path_unit(result_.a.header), "");
     first.context_name = context_axis_.empty() ? context_field_ : context_axis_ + " " + context_field_;
     first.input = input_;
     first.event = event_;
@@ -161,7 +161,7 @@ class TickDiff {
     ContextRow row;
     row.control_tick = pair.a.control_tick;
     const LogFrame& named = pair.a.block ? pair.a : pair.b;
-    const LogHeader& header = pair.a.block ? result_.a.header : result_.b.header;
+    const log::LogHeader& header = pair.a.block ? result_.a.header : result_.b.header;
     if (named.block) row.place = place_of(header, *named.block).name();
     row.a = compare_.value(pair.a, true, context_field_, context_axis_);
     row.b = compare_.value(pair.b, false, context_field_, context_axis_);
@@ -180,15 +180,15 @@ class TickDiff {
 
   void note_events(const LogFrame& frame) {
     for (const LogItem& item : frame.items) {
-      const auto* e = std::get_if<EventRecord>(&item);
+      const auto* e = std::get_if<log::EventRecord>(&item);
       if (e == nullptr) continue;
       const std::string text =
-          fmt::format("base tick {} ({:.6f} s): {}{}", grouped(e->tick.value),
+          fmt::format("base tick {} ({:.6f} s): {}{}", text::grouped(e->tick.value),
                       result_.a.header.seconds(e->tick), e->text.empty() ? e->kind.text() : e->text,
                       e->span.line > 0 ? ", " + place_of(result_.a.header, e->span.line).name() : "");
       // actions of the operator or the scenario have no position in the program
-      const bool found_by_kadr = e->kind == EventKind::alarm || e->kind == EventKind::residual;
-      if (e->kind == EventKind::input || (e->span.line == 0 && !found_by_kadr))
+      const bool found_by_kadr = e->kind == log::EventKind::alarm || e->kind == log::EventKind::residual;
+      if (e->kind == log::EventKind::input || (e->span.line == 0 && !found_by_kadr))
         input_ = text;
       else
         event_ = text;
@@ -223,7 +223,7 @@ class TickDiff {
 }  // namespace
 
 bool LogDiff::lengths_differ() const {
-  const auto exact_data = [](const LogHeader& h) { return h.logs_ticks || h.logs_steps; };
+  const auto exact_data = [](const log::LogHeader& h) { return h.logs_ticks || h.logs_steps; };
   return exact_data(a.header) && exact_data(b.header) && a.control_ticks != b.control_ticks;
 }
 
@@ -231,8 +231,8 @@ bool LogDiff::inputs_differ() const {
   return std::any_of(inputs.begin(), inputs.end(), [](const InputDifference& input) { return !input.same; });
 }
 
-tl::expected<LogDiff, LogReadError> diff_logs(const std::string& a, const std::string& b,
-                                              const DiffOptions& options, const TickDiffSinks& sinks) {
+tl::expected<LogDiff, log::LogReadError> diff_logs(const std::string& a, const std::string& b,
+                                                   const DiffOptions& options, const TickDiffSinks& sinks) {
   auto of_a = LogFrames::open(a);
   if (!of_a) return tl::unexpected(of_a.error());
   auto of_b = LogFrames::open(b);
@@ -249,4 +249,4 @@ tl::expected<LogDiff, LogReadError> diff_logs(const std::string& a, const std::s
   return result;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

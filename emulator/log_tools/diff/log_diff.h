@@ -14,7 +14,7 @@
 #include "emulator/log_tools/diff/frame_compare.h"
 
 /// `kadr diff`: two logs side by side, control tick by control tick (docs/diff.md). Memory does not grow with the logs.
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// A control tick that is not the same in both logs.
 struct TickDifference {
@@ -49,10 +49,10 @@ struct ChannelTotals {
 
 struct LogSide {
   std::string path;
-  LogHeader header;
-  LogEnd end;
+  log::LogHeader header;
+  log::LogEnd end;
   std::int64_t control_ticks = 0;  ///< valid ones
-  std::optional<LogSummary> summary;
+  std::optional<log::LogSummary> summary;
 };
 
 struct LogDiff {
@@ -81,7 +81,8 @@ struct TickDiffSinks {
 
 /// Compares two logs by control tick.
 /// @return the reason why a file can't be read as a log
-tl::expected<LogDiff, LogReadError> diff_logs(const std::string& a, const std::string& b,
-                                              const DiffOptions& options, const TickDiffSinks& sinks = {});
+tl::expected<LogDiff, log::LogReadError> diff_logs(const std::string& a, const std::string& b,
+                                                   const DiffOptions& options,
+                                                   const TickDiffSinks& sinks = {});
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

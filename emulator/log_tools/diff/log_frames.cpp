@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 Ticks tick_of(const LogItem& item) {
   return sane_tick(std::visit([](const auto& record) { return record.tick; }, item));
@@ -14,8 +14,8 @@ Ticks sane_tick(Ticks tick) {
   return std::clamp(tick, Ticks{0}, Ticks{kLatest});
 }
 
-tl::expected<LogFrames, LogReadError> LogFrames::open(const std::string& path) {
-  auto reader = LogReader::open(path);
+tl::expected<LogFrames, log::LogReadError> LogFrames::open(const std::string& path) {
+  auto reader = log::LogReader::open(path);
   if (!reader) return tl::unexpected(reader.error());
   return LogFrames(std::move(*reader));
 }
@@ -34,9 +34,9 @@ bool LogFrames::next(LogFrame& frame) {
 
 /// Reads one message. Returns false at the end, after turning what is buffered into frames.
 bool LogFrames::read() {
-  LogMessage message;
+  log::LogMessage message;
   if (!reader_.next(message)) {
-    const bool whole = end().state == LogState::complete || end().state == LogState::interrupted;
+    const bool whole = end().state == log::LogState::complete || end().state == log::LogState::interrupted;
     // exact data without their other half, and events after the last whole block, are not complete
     if (whole) {
       flush_block();
@@ -49,31 +49,31 @@ bool LogFrames::read() {
     if (!exact) flush_items(control_tick_of(item));
     items_.push_back(std::move(item));
   };
-  if (auto* b = std::get_if<BlockRecord>(&message)) add_item(std::move(*b));
-  if (auto* e = std::get_if<EventRecord>(&message)) add_item(std::move(*e));
-  if (auto* d = std::get_if<LogDiagnostic>(&message)) add_item(std::move(*d));
-  if (auto* s = std::get_if<LogSummary>(&message)) summary_ = std::move(*s);
-  for_each_channel(TickChannels{}, [&]<class R>() {
+  if (auto* b = std::get_if<log::BlockRecord>(&message)) add_item(std::move(*b));
+  if (auto* e = std::get_if<log::EventRecord>(&message)) add_item(std::move(*e));
+  if (auto* d = std::get_if<log::LogDiagnostic>(&message)) add_item(std::move(*d));
+  if (auto* s = std::get_if<log::LogSummary>(&message)) summary_ = std::move(*s);
+  log::for_each_channel(log::TickChannels{}, [&]<class R>() {
     auto* columns = std::get_if<R>(&message);
     if (columns == nullptr) return;
-    if constexpr (std::same_as<R, TickBlock>)
+    if constexpr (std::same_as<R, log::TickBlock>)
       take_ticks(std::move(*columns));
     else
       std::get<std::optional<R>>(waiting_) = std::move(*columns);
   });
-  if (auto* s = std::get_if<StepBlock>(&message)) {
+  if (auto* s = std::get_if<log::StepBlock>(&message)) {
     if (steps_) flush_block();
-    steps_ = std::make_shared<const StepBlock>(std::move(*s));
+    steps_ = std::make_shared<const log::StepBlock>(std::move(*s));
     if (!header().logs_ticks || ticks_) flush_block();
   }
   return true;
 }
 
-void LogFrames::take_ticks(TickBlock ticks) {
+void LogFrames::take_ticks(log::TickBlock ticks) {
   if (ticks_) flush_block();
   auto exact = std::make_shared<ExactTicks>(ExactTicks{std::move(ticks), std::move(waiting_)});
   waiting_ = {};
-  for_each_channel(TickChannels{}, [&]<class R>() {
+  log::for_each_channel(log::TickChannels{}, [&]<class R>() {
     auto& columns = std::get<std::optional<R>>(exact->others);
     if (columns && (columns->first != exact->first || columns->size() != exact->size())) columns.reset();
   });
@@ -116,8 +116,8 @@ void LogFrames::flush_items(std::int64_t before_tick) {
 /// Takes the items of the frame's control tick along.
 void LogFrames::add_frame(LogFrame frame) {
   while (!items_.empty() && control_tick_of(items_.front()) <= frame.control_tick) {
-    if (const auto* b = std::get_if<BlockRecord>(&items_.front()))
-      block_ = std::make_shared<const BlockRecord>(*b);
+    if (const auto* b = std::get_if<log::BlockRecord>(&items_.front()))
+      block_ = std::make_shared<const log::BlockRecord>(*b);
     frame.items.push_back(std::move(items_.front()));
     items_.pop_front();
   }
@@ -125,4 +125,4 @@ void LogFrames::add_frame(LogFrame frame) {
   ready_.push_back(std::move(frame));
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

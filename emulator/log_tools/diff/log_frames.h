@@ -12,20 +12,20 @@
 #include "emulator/log/log_reader.h"
 #include "emulator/log_tools/diff/exact_ticks.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// Records between the ticks of a log, compared in order.
-using LogItem = std::variant<BlockRecord, EventRecord, LogDiagnostic>;
+using LogItem = std::variant<log::BlockRecord, log::EventRecord, log::LogDiagnostic>;
 
 /// Everything that a log says of one control tick. Copies are cheap: the exact data are shared.
 struct LogFrame {
   std::int64_t control_tick = 0;
-  std::shared_ptr<const ExactTicks> ticks;   ///< null: KADR_TICKS does not hold this tick
-  std::size_t tick_index = 0;                ///< in `ticks`
-  std::shared_ptr<const StepBlock> steps;    ///< null: KADR_STEPS does not hold this tick
-  std::size_t step_index = 0;                ///< in `steps`
-  std::vector<LogItem> items;                ///< in the log's order
-  std::shared_ptr<const BlockRecord> block;  ///< the motion block begun last; null before the first
+  std::shared_ptr<const ExactTicks> ticks;        ///< null: KADR_TICKS does not hold this tick
+  std::size_t tick_index = 0;                     ///< in `ticks`
+  std::shared_ptr<const log::StepBlock> steps;    ///< null: KADR_STEPS does not hold this tick
+  std::size_t step_index = 0;                     ///< in `steps`
+  std::vector<LogItem> items;                     ///< in the log's order
+  std::shared_ptr<const log::BlockRecord> block;  ///< the motion block begun last; null before the first
 
   const StepBatch* batch() const { return steps ? &steps->batches[step_index] : nullptr; }
 };
@@ -35,32 +35,32 @@ struct LogFrame {
 /// exact data are complete are given.
 class LogFrames {
  public:
-  static tl::expected<LogFrames, LogReadError> open(const std::string& path);
+  static tl::expected<LogFrames, log::LogReadError> open(const std::string& path);
 
-  const LogHeader& header() const { return reader_.header(); }
+  const log::LogHeader& header() const { return reader_.header(); }
   /// The next control tick; nothing at the end of the valid part.
   bool next(LogFrame& frame);
   /// How the log ends, and its summary; only after next() said no.
-  const LogEnd& end() const { return reader_.end(); }
-  const std::optional<LogSummary>& summary() const { return summary_; }
+  const log::LogEnd& end() const { return reader_.end(); }
+  const std::optional<log::LogSummary>& summary() const { return summary_; }
 
  private:
-  explicit LogFrames(LogReader reader) : reader_(std::move(reader)) {}
+  explicit LogFrames(log::LogReader reader) : reader_(std::move(reader)) {}
   bool read();
-  void take_ticks(TickBlock ticks);
+  void take_ticks(log::TickBlock ticks);
   void flush_block();
   void flush_items(std::int64_t before_tick);
   void add_frame(LogFrame frame);
   std::int64_t control_tick_of(const LogItem& item) const;
 
-  LogReader reader_;
+  log::LogReader reader_;
   std::shared_ptr<const ExactTicks> ticks_;  // read, its frames not given yet
-  std::shared_ptr<const StepBlock> steps_;
+  std::shared_ptr<const log::StepBlock> steps_;
   TickMessages waiting_;  // other exact data: KADR_TICKS of the same control ticks follows
   std::deque<LogItem> items_;
   std::deque<LogFrame> ready_;
-  std::shared_ptr<const BlockRecord> block_;
-  std::optional<LogSummary> summary_;
+  std::shared_ptr<const log::BlockRecord> block_;
+  std::optional<log::LogSummary> summary_;
   bool ended_ = false;
 };
 
@@ -69,4 +69,4 @@ Ticks tick_of(const LogItem& item);
 /// A stamp of a log of unknown origin, brought into 0 to 2^62.
 Ticks sane_tick(Ticks tick);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

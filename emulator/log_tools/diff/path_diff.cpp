@@ -9,12 +9,12 @@
 
 #include "machine/base/parse_number.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 /// Actions of the program at a position of its path, under any override: the kinds of its events.
-bool is_program_event(const EventRecord& e) {
-  return e.span.line > 0 && e.kind.value() && is_of_program(*e.kind.value());
+bool is_program_event(const log::EventRecord& e) {
+  return e.span.line > 0 && e.kind.value() && log::is_of_program(*e.kind.value());
 }
 
 class PathCompare {
@@ -63,17 +63,17 @@ class PathCompare {
   void take(int side) {
     if (result_.events_compared)
       for (const LogItem& item : frame_.items)
-        if (const auto* e = std::get_if<EventRecord>(&item); e && is_program_event(*e))
+        if (const auto* e = std::get_if<log::EventRecord>(&item); e && is_program_event(*e))
           events_[side].push_back(*e);
     if (result_.steps_compared) steps_.add(side, frame_);
     if (!frame_.ticks) return;
     ++side_[side]->control_ticks;
-    const TickBlock& t = *frame_.ticks;
+    const log::TickBlock& t = *frame_.ticks;
     const std::size_t i = frame_.tick_index;
     // a damaged log may hold any number: the path never runs back
     if (t.path_u[i] > path_u_[side]) path_u_[side] = t.path_u[i];
     if (!result_.feed_compared) return;
-    const LogHeader& header = side_[side]->header;
+    const log::LogHeader& header = side_[side]->header;
     FeedPoint point;
     point.path_u = t.path_u[i];
     point.feed_u_s = t.feed_u_s[i];
@@ -111,7 +111,7 @@ class PathCompare {
   }
 
   /// @param a, b  null: that log has no more events
-  void compare_events(const EventRecord* a, const EventRecord* b) {
+  void compare_events(const log::EventRecord* a, const log::EventRecord* b) {
     if (result_.event) return;
     const auto differs = [&](std::string_view name) {
       if (options_.ignores(DiffChannel::event, name)) return false;
@@ -121,12 +121,12 @@ class PathCompare {
     };
     if (a && b && !differs("kind") && !differs("source_line") && !differs("block") && !differs("value"))
       return;
-    const auto text = [](const EventRecord* e) {
+    const auto text = [](const log::EventRecord* e) {
       if (e == nullptr) return std::string("-");
       return fmt::format("{} {}, line {}, after block {}", e->kind.text(), number_text(e->value),
                          e->span.line, e->block);
     };
-    const LogHeader& header = a ? result_.a.header : result_.b.header;
+    const log::LogHeader& header = a ? result_.a.header : result_.b.header;
     result_.event = {std::max<std::int64_t>(result_.events, 1), place_of(header, (a ? a : b)->span.line),
                      text(a), text(b)};
   }
@@ -137,7 +137,7 @@ class PathCompare {
     for (int side = 0; side < 2; ++side) {
       if (events_[side].empty()) continue;
       ++result_.events;
-      const EventRecord* e = &events_[side].front();
+      const log::EventRecord* e = &events_[side].front();
       compare_events(side == 0 ? e : nullptr, side == 0 ? nullptr : e);
     }
   }
@@ -153,7 +153,7 @@ class PathCompare {
   LogFrame frame_;
   bool more_[2] = {true, true};
   double path_u_[2] = {0, 0};
-  std::deque<EventRecord> events_[2];
+  std::deque<log::EventRecord> events_[2];
 };
 
 }  // namespace
@@ -162,8 +162,8 @@ bool PathDiff::inputs_differ() const {
   return std::any_of(inputs.begin(), inputs.end(), [](const InputDifference& input) { return !input.same; });
 }
 
-tl::expected<PathDiff, LogReadError> diff_paths(const std::string& a, const std::string& b,
-                                                const DiffOptions& options, const PathDiffSinks& sinks) {
+tl::expected<PathDiff, log::LogReadError> diff_paths(const std::string& a, const std::string& b,
+                                                     const DiffOptions& options, const PathDiffSinks& sinks) {
   auto of_a = LogFrames::open(a);
   if (!of_a) return tl::unexpected(of_a.error());
   auto of_b = LogFrames::open(b);
@@ -175,12 +175,13 @@ tl::expected<PathDiff, LogReadError> diff_paths(const std::string& a, const std:
   result.b.header = of_b->header();
   for (const LogSide* side : {&result.a, &result.b})
     if (!side->header.logs_ticks)
-      return tl::unexpected(LogReadError{LogReadFault::other_log, side->path,
-                                         "has no path to align by: it was written with log.ticks = false"});
+      return tl::unexpected(
+          log::LogReadError{log::LogReadFault::other_log, side->path,
+                            "has no path to align by: it was written with log.ticks = false"});
   result.inputs = compare_inputs(result.a.header, result.b.header);
   result.unit = path_unit(result.a.header);
   const bool rotary = result.unit == "deg";
-  result.tolerance_u_s = options.tolerance.of(ToleranceKey::feed, rotary).value_or(kFeedTolerance_u_s);
+  result.tolerance_u_s = options.tolerance.of(log::ToleranceKey::feed, rotary).value_or(kFeedTolerance_u_s);
   result.steps_compared = result.a.header.logs_steps && result.b.header.logs_steps &&
                           !options.ignores(DiffChannel::steps, "pulses");
   result.feed_compared = !options.ignores(DiffChannel::command, "feed_u_s");
@@ -190,4 +191,4 @@ tl::expected<PathDiff, LogReadError> diff_paths(const std::string& a, const std:
   return result;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

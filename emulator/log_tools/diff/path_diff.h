@@ -11,7 +11,7 @@
 #include "emulator/log_tools/diff/step_sequence.h"
 
 /// `kadr diff --align path`: compares two logs at the same path length, whenever they get there (docs/diff.md).
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// The first event of the program that is not the same in both logs; "-": one has no more events.
 struct EventDifference {
@@ -57,7 +57,8 @@ struct PathDiffSinks {
 
 /// Compares two logs by path length. Memory does not grow with the logs.
 /// @return the reason why a file can't be read as a log, or has no path in it
-tl::expected<PathDiff, LogReadError> diff_paths(const std::string& a, const std::string& b,
-                                                const DiffOptions& options, const PathDiffSinks& sinks = {});
+tl::expected<PathDiff, log::LogReadError> diff_paths(const std::string& a, const std::string& b,
+                                                     const DiffOptions& options,
+                                                     const PathDiffSinks& sinks = {});
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

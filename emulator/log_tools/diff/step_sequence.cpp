@@ -7,7 +7,7 @@
 
 #include "machine/base/parse_number.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 /// A block's stamp and a pulse's are both rounded down: they may be one base tick apart at the same position.
@@ -21,7 +21,7 @@ bool all_at_most(const std::vector<std::int64_t>& a, const std::vector<std::int6
   return true;
 }
 
-std::string geometry_difference(const BlockRecord& a, const BlockRecord& b) {
+std::string geometry_difference(const log::BlockRecord& a, const log::BlockRecord& b) {
   if (a.block != b.block) return fmt::format("running numbers {} | {}", a.block, b.block);
   if (a.motion != b.motion) return fmt::format("{} | {}", a.motion, b.motion);
   if (a.length_u != b.length_u)
@@ -61,7 +61,7 @@ void StepSequence::add(int number, const LogFrame& frame) {
 
 void StepSequence::add_marks(Side& side, const LogFrame& frame) {
   for (const LogItem& item : frame.items)
-    if (const auto* block = std::get_if<BlockRecord>(&item))
+    if (const auto* block = std::get_if<log::BlockRecord>(&item))
       side.marks.push_back({*block, sane_tick(block->tick), {}, {}});
 }
 
@@ -249,4 +249,4 @@ std::vector<BlockDifference> StepSequence::take() {
   return list;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -9,11 +9,11 @@
 #include "emulator/log_tools/diff/frame_compare.h"
 #include "emulator/log_tools/diff/log_frames.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// A block whose pulses are not the same in both logs.
 struct BlockDifference {
-  BlockRecord a, b;  ///< the block as each log has it
+  log::BlockRecord a, b;  ///< the block as each log has it
   struct Count {
     std::string axis;
     std::int64_t a = 0, b = 0;  ///< pulses, both directions
@@ -55,7 +55,7 @@ class StepSequence {
     Counts after;  // pulses per axis since the beginning of the log
   };
   struct Mark {
-    BlockRecord block;
+    log::BlockRecord block;
     Ticks stamp;
     Counts low, high;  // pulses before the block surely begins, and before it surely has begun
     bool known = false;
@@ -68,7 +68,7 @@ class StepSequence {
     std::vector<std::deque<std::int8_t>> signs;  // [axes] not matched yet
     Counts matched;                              // signs matched since the base
     std::deque<Mark> marks;                      // beginnings of the blocks to come
-    BlockRecord block;                           // under way
+    log::BlockRecord block;                      // under way
     bool begun = false;
   };
 
@@ -92,4 +92,4 @@ class StepSequence {
   bool given_up_ = false;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

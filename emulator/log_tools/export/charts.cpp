@@ -10,7 +10,7 @@
 #include "emulator/log_tools/export/export.h"
 #include "emulator/text/text.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 constexpr std::size_t kPieces = 2048;  ///< of a line: at least one per pixel column
@@ -29,8 +29,8 @@ text.x { text-anchor: middle; } text.y { text-anchor: end; } text.name { fill: #
 
 /// Lowest and highest value of every piece, at its first and second half: as a pen would draw it. It lifts
 /// where there is no value.
-std::vector<ChartPoint> points_of(const std::vector<Envelope::Piece>& pieces) {
-  std::vector<ChartPoint> points;
+std::vector<text::ChartPoint> points_of(const std::vector<Envelope::Piece>& pieces) {
+  std::vector<text::ChartPoint> points;
   points.reserve(2 * pieces.size());
   double before = 0;
   for (const Envelope::Piece& p : pieces) {
@@ -66,22 +66,22 @@ std::vector<Envelope> read_envelopes(LogSamples& log, double from_s, std::size_t
   return out;
 }
 
-std::vector<LineChart> charts_of(const std::vector<Signal>& signals,
-                                 const std::vector<std::vector<Envelope::Piece>>& pieces) {
-  std::vector<LineChart> charts;
+std::vector<text::LineChart> charts_of(const std::vector<Signal>& signals,
+                                       const std::vector<std::vector<Envelope::Piece>>& pieces) {
+  std::vector<text::LineChart> charts;
   std::map<std::string, std::size_t> place;
   for (std::size_t k = 0; k < signals.size(); ++k) {
     const Signal& signal = signals[k];
     const auto [it, fresh] = place.try_emplace(chart_key(signal), charts.size());
     if (fresh) {
-      LineChart chart;
+      text::LineChart chart;
       chart.id = "chart" + std::string(1, static_cast<char>('a' + charts.size() % 26)) +
                  std::string(charts.size() / 26, 'z');
       chart.x_label = "t, s";
       chart.y_label = signal.unit.empty() ? signal.name : signal.unit;
       charts.push_back(std::move(chart));
     }
-    LineChart& chart = charts[it->second];
+    text::LineChart& chart = charts[it->second];
     chart.description += (chart.lines.empty() ? "Over time: " : ", ") + signal.name;
     chart.lines.push_back(
         {signal.name, fmt::format("s{}", chart.lines.size() % kStyles), points_of(pieces[k]), 1});
@@ -89,12 +89,12 @@ std::vector<LineChart> charts_of(const std::vector<Signal>& signals,
   return charts;
 }
 
-std::string svg_document(const std::string& title, const std::vector<LineChart>& charts) {
+std::string svg_document(const std::string& title, const std::vector<text::LineChart>& charts) {
   constexpr double kTop = 30;
   double y = kTop;
   std::string body;
-  for (const LineChart& chart : charts) {
-    const SvgChart drawn = draw_svg(chart);
+  for (const text::LineChart& chart : charts) {
+    const text::SvgChart drawn = text::draw_svg(chart);
     body += fmt::format("<svg y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\"{}", y, drawn.width,
                         drawn.height, drawn.text.substr(4));
     y += drawn.height + kGap;
@@ -103,7 +103,7 @@ std::string svg_document(const std::string& title, const std::vector<LineChart>&
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 960 {:.0f}\" width=\"960\" "
       "height=\"{:.0f}\">\n"
       "<style>{}</style>\n<text x=\"76\" y=\"20\" font-size=\"14\">{}</text>\n{}</svg>\n",
-      y, y, kStyle, xml_text(title), body);
+      y, y, kStyle, text::xml_text(title), body);
 }
 
 void write_svg(LogSamples& log, const std::string& title, const Sink& sink) {
@@ -114,4 +114,4 @@ void write_svg(LogSamples& log, const std::string& title, const Sink& sink) {
   sink(svg_document(title, charts_of(signals, pieces)));
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -5,7 +5,7 @@
 
 #include "emulator/log_tools/export/export.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -37,4 +37,4 @@ void write_csv(LogSamples& log, CsvForm form, const Sink& sink) {
   }
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

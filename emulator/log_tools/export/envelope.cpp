@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 Envelope::Envelope(double first_s, double piece_s, std::size_t most)
     : first_s_(first_s), piece_s_(piece_s), most_(most) {
@@ -45,4 +45,4 @@ std::vector<Envelope::Piece> Envelope::pieces() const {
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

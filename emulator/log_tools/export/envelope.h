@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// Lowest and highest value of a signal in equal pieces of time, built while the signal is read: when the
 /// pieces run out, each two become one, so a run of any length ends with between half of `most` and `most`.
@@ -33,4 +33,4 @@ class Envelope {
   std::vector<Range> ranges_;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

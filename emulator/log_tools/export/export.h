@@ -7,7 +7,7 @@
 
 /// Logs in the forms that other tools read. Everything is written as it is read, so a log may be of any size,
 /// and the same log gives the same bytes.
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// Takes the next piece of text.
 using Sink = std::function<void(std::string_view)>;
@@ -34,4 +34,4 @@ std::string render_plot(LogSamples& log, const PlotForm& form);
 /// The commanded path seen along Z (of the first two linear axes), in true proportion.
 std::string render_path_plot(LogSamples& log, const PlotForm& form);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

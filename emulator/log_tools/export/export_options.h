@@ -4,7 +4,7 @@
 #include <string>
 
 /// Options of exports and plots; in a header of their own, so that the command line needs no more.
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// Selection from a log.
 struct SampleChoice {
@@ -27,4 +27,4 @@ struct PlotForm {
   bool ascii = false;  ///< `#` instead of Braille dots
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

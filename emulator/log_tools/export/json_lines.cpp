@@ -4,12 +4,14 @@
 #include "emulator/text/json.h"
 #include "machine/base/hash.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
-Json run_json(const LogHeader& h, const LogSamples& log) {
+using text::Json;
+
+Json run_json(const log::LogHeader& h, const LogSamples& log) {
   Json axes = Json::array();
-  for (const LogAxis& axis : h.axis)
+  for (const log::LogAxis& axis : h.axis)
     axes.push_back(
         {{"axis", axis.name}, {"unit", axis.unit}, {"step_u", axis.step_u}, {"home_u", axis.home_u}});
   Json units = Json::object();
@@ -27,12 +29,12 @@ Json run_json(const LogHeader& h, const LogSamples& log) {
 }
 
 /// The axis that a record names, as its letter; null: none.
-Json axis_json(int axis, const LogHeader& h) {
+Json axis_json(int axis, const log::LogHeader& h) {
   if (axis < 0 || static_cast<std::size_t>(axis) >= h.axis.size()) return nullptr;
   return h.axis[static_cast<std::size_t>(axis)].name;
 }
 
-Json json_of(const BlockRecord& b, const LogHeader& h) {
+Json json_of(const log::BlockRecord& b, const log::LogHeader& h) {
   return {{"channel", "KADR_BLOCK"},
           {"tick", b.tick.value},
           {"t_s", h.seconds(b.tick)},
@@ -48,7 +50,7 @@ Json json_of(const BlockRecord& b, const LogHeader& h) {
           {"limited_by", b.limited_by}};
 }
 
-Json json_of(const EventRecord& e, const LogHeader& h) {
+Json json_of(const log::EventRecord& e, const log::LogHeader& h) {
   Json j = {{"channel", "KADR_EVENT"}, {"tick", e.tick.value}, {"t_s", h.seconds(e.tick)},
             {"block", e.block},        {"line", e.span.line},  {"kind", e.kind.text()}};
   j["code"] = static_cast<int>(e.code) == 0 ? Json(nullptr) : Json(code_name(e.code));
@@ -59,7 +61,7 @@ Json json_of(const EventRecord& e, const LogHeader& h) {
   return j;
 }
 
-Json json_of(const LogDiagnostic& d, const LogHeader& h) {
+Json json_of(const log::LogDiagnostic& d, const log::LogHeader& h) {
   // a log may hold a number that is no severity
   const Severity severity = kSeverities.at(static_cast<std::int64_t>(d.severity)).value_or(Severity::error);
   Json j = {{"channel", "KADR_DIAG"}, {"tick", d.tick.value}};
@@ -74,10 +76,10 @@ Json json_of(const LogDiagnostic& d, const LogHeader& h) {
   return j;
 }
 
-Json json_of(const LogSummary& s, const LogHeader& h) {
-  const RunSummary& r = s.run;
+Json json_of(const log::LogSummary& s, const log::LogHeader& h) {
+  const log::RunSummary& r = s.run;
   Json limits = Json::object();
-  for (const LimitShare& share : r.limited_by) limits[share.limited_by] = share.time_s;
+  for (const log::LimitShare& share : r.limited_by) limits[share.limited_by] = share.time_s;
   Json j = {{"channel", "KADR_SUMMARY"},
             {"tick", r.ticks.value},
             {"t_s", h.seconds(r.ticks)},
@@ -98,8 +100,8 @@ Json json_of(const LogSummary& s, const LogHeader& h) {
 }  // namespace
 
 void write_json_lines(LogSamples& log, const Sink& sink) {
-  const LogHeader& header = log.header();
-  const auto line = [&](const Json& json) { sink(json_line(json) + '\n'); };
+  const log::LogHeader& header = log.header();
+  const auto line = [&](const Json& json) { sink(text::json_line(json) + '\n'); };
   line(run_json(header, log));
   // events are written at full rate, also where a lower rate leaves out their control ticks
   log.watch([&](const LogFrame& frame) {
@@ -119,4 +121,4 @@ void write_json_lines(LogSamples& log, const Sink& sink) {
   if (log.summary()) line(json_of(*log.summary(), header));
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -7,7 +7,7 @@
 
 #include "emulator/log_tools/export/signal_table.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 bool matches_pattern(std::string_view name, std::string_view pattern) {
   const auto star = pattern.find('*');
@@ -63,15 +63,15 @@ LogSamples::LogSamples(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 LogSamples::LogSamples(LogSamples&&) noexcept = default;
 LogSamples::~LogSamples() = default;
 
-tl::expected<LogSamples, LogReadError> LogSamples::open(const std::string& path) {
+tl::expected<LogSamples, log::LogReadError> LogSamples::open(const std::string& path) {
   auto frames = LogFrames::open(path);
   if (!frames) return tl::unexpected(frames.error());
   auto impl = std::make_unique<Impl>(std::move(*frames));
-  const LogHeader& header = impl->frames.header();
+  const log::LogHeader& header = impl->frames.header();
   if (!header.logs_ticks)
     return tl::unexpected(
-        LogReadError{LogReadFault::not_a_log, path,
-                     "the log has no KADR_TICKS; run with log.ticks = true in the machine file"});
+        log::LogReadError{log::LogReadFault::not_a_log, path,
+                          "the log has no KADR_TICKS; run with log.ticks = true in the machine file"});
   impl->context.header = &header;
   impl->tau_s = header.seconds(Ticks{header.control_tick_ticks});
   LogFrame first;
@@ -84,15 +84,15 @@ tl::expected<LogSamples, LogReadError> LogSamples::open(const std::string& path)
   return LogSamples(std::move(impl));
 }
 
-const LogHeader& LogSamples::header() const { return impl_->frames.header(); }
+const log::LogHeader& LogSamples::header() const { return impl_->frames.header(); }
 const std::vector<Signal>& LogSamples::signals() const { return impl_->all; }
 const std::vector<Signal>& LogSamples::chosen() const { return impl_->chosen; }
 double LogSamples::control_tick_s() const { return impl_->tau_s; }
 double LogSamples::from_s() const { return impl_->from_s; }
 std::int64_t LogSamples::every() const { return impl_->every; }
 void LogSamples::watch(std::function<void(const LogFrame&)> each) { impl_->each = std::move(each); }
-const LogEnd* LogSamples::end() const { return impl_->stopped ? nullptr : &impl_->frames.end(); }
-const std::optional<LogSummary>& LogSamples::summary() const { return impl_->frames.summary(); }
+const log::LogEnd* LogSamples::end() const { return impl_->stopped ? nullptr : &impl_->frames.end(); }
+const std::optional<log::LogSummary>& LogSamples::summary() const { return impl_->frames.summary(); }
 
 tl::expected<void, std::string> LogSamples::choose(const SampleChoice& choice) {
   Impl& m = *impl_;
@@ -151,4 +151,4 @@ bool LogSamples::next(Sample& sample) {
   return false;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

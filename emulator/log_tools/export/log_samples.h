@@ -12,7 +12,7 @@
 #include "emulator/log_tools/export/export_options.h"
 
 /// A log as named signals over time, for exports, plots and the report page (docs/report.md).
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// One column. Names are those of the viewer channels in lower case, the unit at the end:
 /// KADR_FEED.commanded is "feed.commanded_mm_s", KADR_AXIS_X.load is "axis.X.load_mm".
@@ -36,11 +36,11 @@ struct Sample {
 /// Reads one log from its beginning, a control tick a step; memory is that of one log block.
 class LogSamples {
  public:
-  static tl::expected<LogSamples, LogReadError> open(const std::string& path);
+  static tl::expected<LogSamples, log::LogReadError> open(const std::string& path);
   LogSamples(LogSamples&&) noexcept;
   ~LogSamples();
 
-  const LogHeader& header() const;
+  const log::LogHeader& header() const;
   /// All that the log can tell: without plant nothing of the load, without an operator's steps nothing of
   /// what was asked for.
   const std::vector<Signal>& signals() const;
@@ -57,8 +57,8 @@ class LogSamples {
   /// Is called for every control tick that is read, also for those that the choice leaves out.
   void watch(std::function<void(const LogFrame&)> each);
   /// How the log ends, once next() said no; null: it stopped at the window's end, the rest was not read.
-  const LogEnd* end() const;
-  const std::optional<LogSummary>& summary() const;
+  const log::LogEnd* end() const;
+  const std::optional<log::LogSummary>& summary() const;
 
  private:
   struct Impl;
@@ -69,4 +69,4 @@ class LogSamples {
 /// Whether a name fits a pattern in which `*` matches any text.
 bool matches_pattern(std::string_view name, std::string_view pattern);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -9,7 +9,7 @@
 #include "emulator/log_tools/diff/diff_fields.h"
 #include "machine/tick_motion.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -45,7 +45,7 @@ class Table {
 void add_feed(Table& table, const std::string& unit, bool has_override) {
   table.real("feed.commanded", unit + "/s", [](const TickContext& c) { return c.ticks().feed_u_s[c.at()]; });
   table.real("feed.programmed", unit + "/s", [](const TickContext& c) {
-    const BlockRecord* block = c.frame->block.get();
+    const log::BlockRecord* block = c.frame->block.get();
     return block != nullptr && block->programmed_u_s > 0 ? block->programmed_u_s : kNone;
   });
   table.real("feed.acceleration", unit + "/s2",
@@ -71,7 +71,7 @@ void add_feed(Table& table, const std::string& unit, bool has_override) {
 
 /// Distance of the tool from the command over the axes X Y Z, across the motion of the control tick: what lies
 /// along it is delay, not a wrong contour. At rest all of it.
-void add_path_error(Table& table, const LogHeader& header) {
+void add_path_error(Table& table, const log::LogHeader& header) {
   std::vector<std::size_t> axes;
   for (std::size_t a = 0; a < header.axis.size(); ++a)
     if (header.axis[a].has_plant && header.axis[a].unit == "mm" &&
@@ -81,7 +81,7 @@ void add_path_error(Table& table, const LogHeader& header) {
   table.real("path.error", "um", [axes](const TickContext& c) {
     double sum = 0, along = 0, way = 0;
     for (const std::size_t a : axes) {
-      const AxisTicks& axis = c.ticks().axis[a];
+      const log::AxisTicks& axis = c.ticks().axis[a];
       const double off = axis.base_u[c.at()] + axis.link_u[c.at()] - axis.command_u[c.at()];
       const double speed = c.axis[a].speed_u_s;
       sum += off * off;
@@ -93,8 +93,8 @@ void add_path_error(Table& table, const LogHeader& header) {
   });
 }
 
-void add_axis(Table& table, const LogHeader& header, std::size_t a, bool plant, bool pulses) {
-  const LogAxis& axis = header.axis[a];
+void add_axis(Table& table, const log::LogHeader& header, std::size_t a, bool plant, bool pulses) {
+  const log::LogAxis& axis = header.axis[a];
   const std::string name = "axis." + axis.name + ".", &unit = axis.unit;
   const std::string small = unit == "deg" ? "mdeg" : "um";  // thousandths
   table.whole(name + "steps",
@@ -118,7 +118,7 @@ void add_axis(Table& table, const LogHeader& header, std::size_t a, bool plant, 
     return c.ticks().axis[a].base_u_s[c.at()] + c.ticks().axis[a].link_u_s[c.at()];
   });
   table.real(name + "following", small, [a](const TickContext& c) {
-    const AxisTicks& x = c.ticks().axis[a];
+    const log::AxisTicks& x = c.ticks().axis[a];
     return 1000 * (x.base_u[c.at()] + x.link_u[c.at()] - x.command_u[c.at()]);
   });
   table.real(name + "vibration", small,
@@ -131,7 +131,7 @@ void add_axis(Table& table, const LogHeader& header, std::size_t a, bool plant, 
 template <class At>
 std::function<double(const At&)> number_of(const LogField<At>& field) {
   return [get = field.get](const At& at) {
-    const FieldValue value = get(at);
+    const log::FieldValue value = get(at);
     if (const auto* real = std::get_if<double>(&value)) return *real;
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
     return kNone;
@@ -139,8 +139,8 @@ std::function<double(const At&)> number_of(const LogField<At>& field) {
 }
 
 /// What has no signal above: the columns of other channels, and those appended to KADR_TICKS.
-void add_further(Table& table, const LogHeader& header, const LogFrame& first) {
-  const auto add = [&](std::string name, std::string unit, const FieldValue& sample,
+void add_further(Table& table, const log::LogHeader& header, const LogFrame& first) {
+  const auto add = [&](std::string name, std::string unit, const log::FieldValue& sample,
                        std::function<double(const TickContext&)> value) {
     if (is_absent(sample)) return;
     const bool whole = std::holds_alternative<std::int64_t>(sample);
@@ -165,7 +165,7 @@ void add_further(Table& table, const LogHeader& header, const LogFrame& first) {
 
 }  // namespace
 
-std::vector<SignalSource> signal_table(const LogHeader& header, const LogFrame& first) {
+std::vector<SignalSource> signal_table(const log::LogHeader& header, const LogFrame& first) {
   Table table;
   const bool plant = first.ticks->has_plant;
   add_feed(table, path_unit(header), !first.ticks->override_requested.empty());
@@ -193,4 +193,4 @@ void advance(TickContext& c, const LogFrame& frame, double tau_s) {
   }
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -9,7 +9,7 @@
 #include "emulator/log_tools/export/export.h"
 #include "emulator/text/text.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 constexpr int kMargin = 11;  ///< cells of the axis' numbers
@@ -78,15 +78,15 @@ class Canvas {
 };
 
 /// Rows of a picture with numbers to the left of the first, middle and last one.
-std::string framed(const Canvas& canvas, int rows, const ChartRange& y) {
+std::string framed(const Canvas& canvas, int rows, const text::ChartRange& y) {
   std::string out;
   for (int r = 0; r < rows; ++r) {
     const double value = r == 0          ? y.high
                          : r == rows - 1 ? y.low
                                          : y.low + (y.high - y.low) * (rows - 1 - r) / (rows - 1);
     const bool labelled = r == 0 || r == rows - 1 || 2 * r == rows - 1;
-    out +=
-        pad_left(labelled ? significant(value) : "", kMargin - 2) + (labelled ? " ┤" : " │") + canvas.row(r);
+    out += text::pad_left(labelled ? text::significant(value) : "", kMargin - 2) + (labelled ? " ┤" : " │") +
+           canvas.row(r);
     while (!out.empty() && out.back() == ' ') out.pop_back();
     out += '\n';
   }
@@ -95,19 +95,19 @@ std::string framed(const Canvas& canvas, int rows, const ChartRange& y) {
 
 std::string footing(const std::string& left, const std::string& right, int width) {
   const std::size_t inner = static_cast<std::size_t>(width - kMargin);
-  const std::size_t used = display_width(left) + display_width(right);
+  const std::size_t used = text::display_width(left) + text::display_width(right);
   return std::string(kMargin, ' ') + left + std::string(used < inner ? inner - used : 1, ' ') + right + '\n';
 }
 
 /// An end of a range that is zero except for rounding, compared with the other end.
-ChartRange without_dust(ChartRange range) {
+text::ChartRange without_dust(text::ChartRange range) {
   const double least = kNoDigit * (range.high - range.low);
   if (std::fabs(range.low) < least) range.low = 0;
   if (std::fabs(range.high) < least) range.high = 0;
   return range;
 }
 
-ChartRange not_empty(ChartRange range) {
+text::ChartRange not_empty(text::ChartRange range) {
   if (!(range.high > range.low)) {
     const double half = range.low == 0 ? 1 : std::fabs(range.low) * 0.1;
     range = {range.low - half, range.high + half};
@@ -116,19 +116,20 @@ ChartRange not_empty(ChartRange range) {
 }
 
 std::string picture(const Signal& signal, const std::vector<Envelope::Piece>& pieces, const PlotForm& form) {
-  ChartRange y{0, 0}, t{0, 0};
+  text::ChartRange y{0, 0}, t{0, 0};
   bool first = true;
   for (const Envelope::Piece& p : pieces) {
     if (p.empty) continue;
-    y = first ? ChartRange{p.low, p.high} : ChartRange{std::min(y.low, p.low), std::max(y.high, p.high)};
+    y = first ? text::ChartRange{p.low, p.high}
+              : text::ChartRange{std::min(y.low, p.low), std::max(y.high, p.high)};
     t = {first ? p.begin_s : t.low, p.end_s};
     first = false;
   }
   const std::string unit = signal.unit.empty() ? "" : " " + signal.unit;
   if (first) return signal.name + "   nothing to draw\n";
   y = without_dust(y);
-  std::string out =
-      fmt::format("{}   {} .. {}{}\n", signal.name, significant(y.low), significant(y.high), unit);
+  std::string out = fmt::format("{}   {} .. {}{}\n", signal.name, text::significant(y.low),
+                                text::significant(y.high), unit);
   y = not_empty(y);
   const int rows = form.height > 0 ? form.height : kRows;
   Canvas canvas(form.width - kMargin, rows, form.ascii);
@@ -155,7 +156,8 @@ std::string picture(const Signal& signal, const std::vector<Envelope::Piece>& pi
     last_high = down(p.high);
   }
   return out + framed(canvas, rows, y) +
-         footing(fmt::format("{} s", fixed(t.low, 3)), fmt::format("{} s", fixed(t.high, 3)), form.width);
+         footing(fmt::format("{} s", text::fixed(t.low, 3)), fmt::format("{} s", text::fixed(t.high, 3)),
+                 form.width);
 }
 
 }  // namespace
@@ -173,7 +175,7 @@ std::string render_plot(LogSamples& log, const PlotForm& form) {
 }
 
 std::string render_path_plot(LogSamples& log, const PlotForm& form) {
-  const LogHeader& header = log.header();
+  const log::LogHeader& header = log.header();
   std::vector<std::size_t> axes;
   for (std::size_t a = 0; a < header.axis.size() && axes.size() < 2; ++a)
     if (header.axis[a].unit == "mm") axes.push_back(a);
@@ -194,14 +196,14 @@ std::string render_path_plot(LogSamples& log, const PlotForm& form) {
     every *= 2;
   }
   if (points.empty()) return "nothing to draw\n";
-  ChartRange x{points[0][0], points[0][0]}, y{points[0][1], points[0][1]};
+  text::ChartRange x{points[0][0], points[0][0]}, y{points[0][1], points[0][1]};
   for (const auto& p : points) {
     x = {std::min(x.low, p[0]), std::max(x.high, p[0])};
     y = {std::min(y.low, p[1]), std::max(y.high, p[1])};
   }
   std::string out = fmt::format("path in {0} and {1}   {0} {2} .. {3} mm, {1} {4} .. {5} mm\n",
-                                header.axis[axes[0]].name, header.axis[axes[1]].name, fixed(x.low, 3),
-                                fixed(x.high, 3), fixed(y.low, 3), fixed(y.high, 3));
+                                header.axis[axes[0]].name, header.axis[axes[1]].name, text::fixed(x.low, 3),
+                                text::fixed(x.high, 3), text::fixed(y.low, 3), text::fixed(y.high, 3));
   // a terminal's cell is twice as high as wide: a Braille dot is square, an ASCII cell is not
   const double tall = form.ascii ? 2 : 1;
   const int columns = form.width - kMargin, most_rows = form.height > 0 ? form.height : kPathRows;
@@ -221,10 +223,10 @@ std::string render_path_plot(LogSamples& log, const PlotForm& form) {
     px = cx;
     py = cy;
   }
-  const ChartRange shown = without_dust({y.low, y.low + (canvas.height() - 1) * tall / scale});
+  const text::ChartRange shown = without_dust({y.low, y.low + (canvas.height() - 1) * tall / scale});
   return out + framed(canvas, rows, shown) +
-         footing(fmt::format("{} mm", fixed(x.low, 3)),
-                 fmt::format("{} mm", fixed(x.low + (canvas.width() - 1) / scale, 3)), form.width);
+         footing(fmt::format("{} mm", text::fixed(x.low, 3)),
+                 fmt::format("{} mm", text::fixed(x.low + (canvas.width() - 1) / scale, 3)), form.width);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

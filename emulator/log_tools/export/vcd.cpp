@@ -6,7 +6,7 @@
 #include "emulator/log_tools/export/export.h"
 #include "machine/tick_motion.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 constexpr std::int64_t kSlotsPerTick = 10;  ///< a pulse is high for one of them
@@ -137,15 +137,15 @@ class Dump {
 
   void states(const Sample& sample) {
     const std::int64_t at = scale_.units(sample.end, header_.base_hz);
-    const TickBlock& ticks = *sample.frame->ticks;
+    const log::TickBlock& ticks = *sample.frame->ticks;
     const std::size_t i = sample.frame->tick_index;
     set(at, moving, ticks.feed_u_s[i] > 0);
     set(at, accelerating, ticks.accel_u_s2[i] > 0);
     set(at, braking, ticks.accel_u_s2[i] < 0);
     set(at, hold, ticks.limited_by[i] == static_cast<std::int8_t>(LimitedBy::hold));
     for (const LogItem& item : sample.frame->items)
-      if (const auto* event = std::get_if<EventRecord>(&item);
-          event != nullptr && event->kind == EventKind::alarm)
+      if (const auto* event = std::get_if<log::EventRecord>(&item);
+          event != nullptr && event->kind == log::EventKind::alarm)
         set(at, alarm, true);
     for (std::size_t k = 0; k < sample.value.size(); ++k) {
       const double value = sample.value[k];
@@ -172,7 +172,7 @@ class Dump {
 
   LogSamples& log_;
   const Sink& sink_;
-  const LogHeader& header_;
+  const log::LogHeader& header_;
   Timescale scale_;
   std::vector<int> level_;     // of every wire; -1: not written yet
   std::vector<double> shown_;  // of every real
@@ -186,4 +186,4 @@ class Dump {
 
 void write_vcd(LogSamples& log, const Sink& sink) { Dump(log, sink).write(); }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -5,7 +5,7 @@
 #include "emulator/text/text.h"
 #include "machine/base/require.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 std::string_view page_missing(std::string_view name) {
   for (const BuiltPage& page : built_pages())
@@ -16,7 +16,7 @@ std::string_view page_missing(std::string_view name) {
 
 std::string plain_note(std::string_view name) {
   const std::string_view why = page_missing(name);
-  return why.empty() ? "" : xml_text(fmt::format("; this build has no interactive page: {}", why));
+  return why.empty() ? "" : text::xml_text(fmt::format("; this build has no interactive page: {}", why));
 }
 
 std::string pages_text() {
@@ -32,4 +32,4 @@ std::string pages_text() {
   return (built.empty() ? "" : built + "; ") + "without " + left_out + ": " + std::string(why);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// A page with script that kadr can write, if its tools were there when kadr was built.
 struct BuiltPage {
@@ -24,4 +24,4 @@ std::string plain_note(std::string_view name);
 /// "report, compare, teaching", or "report, compare; without teaching: why; how to get it".
 std::string pages_text();
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

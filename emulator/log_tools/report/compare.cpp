@@ -14,13 +14,15 @@
 #include "emulator/text/text.h"
 #include "machine/base/hash.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
+
+using text::Json;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostReasons = 6;
 
-const RunSummary& summary(const ComparedRun& run) { return run.data.summary->run; }
+const log::RunSummary& summary(const ComparedRun& run) { return run.data.summary->run; }
 
 /// Runs are named A, B, C ... in tables and charts; their files are listed once above.
 std::string letter(std::size_t k) { return std::string(1, static_cast<char>('A' + k)); }
@@ -38,7 +40,7 @@ void add(std::vector<ComparedQuantity>& out, const std::vector<ComparedRun>& run
 }
 
 double reason_s(const ComparedRun& run, const std::string& reason) {
-  for (const LimitShare& share : summary(run).limited_by)
+  for (const log::LimitShare& share : summary(run).limited_by)
     if (share.limited_by == reason) return share.time_s;
   return 0;
 }
@@ -50,7 +52,7 @@ std::string key_of(std::string name) {
 }
 
 void add_axes(std::vector<ComparedQuantity>& out, const std::vector<ComparedRun>& runs) {
-  const LogHeader& h = runs.front().data.header;
+  const log::LogHeader& h = runs.front().data.header;
   for (std::size_t a = 0; a < h.axis.size(); ++a) {
     const std::string& axis = h.axis[a].name;
     const std::string small = h.axis[a].unit == "deg" ? "mdeg" : "um";
@@ -75,11 +77,11 @@ const Track* track(const ComparedRun& run, const char* pattern) {
 }
 
 /// A signal over time, or over the length of path; highest value of each piece.
-ChartLine line(const ComparedRun& run, std::size_t k, const char* pattern, bool over_path) {
-  ChartLine out{letter(k), fmt::format("s{}", k % 6), {}, 1};
+text::ChartLine line(const ComparedRun& run, std::size_t k, const char* pattern, bool over_path) {
+  text::ChartLine out{letter(k), fmt::format("s{}", k % 6), {}, 1};
   const Track* t = track(run, pattern);
   if (t == nullptr) return out;
-  const LogHeader& h = run.data.header;
+  const log::LogHeader& h = run.data.header;
   for (std::size_t i = 0; i < t->high.size(); ++i) {
     if (std::isnan(t->high[i])) continue;
     const std::int64_t passed =
@@ -93,16 +95,16 @@ ChartLine line(const ComparedRun& run, std::size_t k, const char* pattern, bool 
 
 std::string chart(const std::vector<ComparedRun>& runs, const char* id, const char* title,
                   const char* pattern, bool over_path, const std::string& y_label) {
-  LineChart drawing;
+  text::LineChart drawing;
   drawing.id = id;
   drawing.description = fmt::format("{} of {} runs; the table has their numbers.", title, runs.size());
   drawing.x_label = over_path ? "path, " + path_unit(runs.front().data.header) : "t, s";
   drawing.y_label = y_label;
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    ChartLine l = line(runs[k], k, pattern, over_path);
+    text::ChartLine l = line(runs[k], k, pattern, over_path);
     if (!l.points.empty()) drawing.lines.push_back(std::move(l));
   }
-  return drawing.lines.empty() ? "" : fmt::format("<h2>{}</h2>\n{}", title, render_svg(drawing));
+  return drawing.lines.empty() ? "" : fmt::format("<h2>{}</h2>\n{}", title, text::render_svg(drawing));
 }
 
 }  // namespace
@@ -116,7 +118,7 @@ std::vector<ComparedQuantity> compared_quantities(const std::vector<ComparedRun>
   add(out, runs, "standing", "dwell_s", "s", 3, [](const ComparedRun& r) { return summary(r).dwell_s; });
   std::vector<std::string> reasons;
   for (const ComparedRun& run : runs)
-    for (const LimitShare& share : summary(run).limited_by)
+    for (const log::LimitShare& share : summary(run).limited_by)
       if (std::find(reasons.begin(), reasons.end(), share.limited_by) == reasons.end() &&
           reasons.size() < kMostReasons)
         reasons.push_back(share.limited_by);
@@ -139,7 +141,7 @@ std::vector<ComparedQuantity> compared_quantities(const std::vector<ComparedRun>
 std::string compared_note(const std::vector<ComparedRun>& runs) {
   std::string out;
   for (std::size_t k = 1; k < runs.size(); ++k) {
-    const LogHeader &a = runs.front().data.header, &b = runs[k].data.header;
+    const log::LogHeader &a = runs.front().data.header, &b = runs[k].data.header;
     if (a.program_hash != b.program_hash) out += fmt::format("{} ran another program than A\n", letter(k));
     if (a.machine_name != b.machine_name) out += fmt::format("{} ran on another machine than A\n", letter(k));
   }
@@ -150,21 +152,22 @@ std::string render_comparison(const std::vector<ComparedRun>& runs) {
   std::string out;
   for (std::size_t k = 0; k < runs.size(); ++k)
     out += fmt::format("{}  {}   {} on {}, {}\n", letter(k), runs[k].path,
-                       one_line(runs[k].data.header.program_name, 40),
-                       one_line(runs[k].data.header.machine_name, 40), summary(runs[k]).outcome.text());
+                       text::one_line(runs[k].data.header.program_name, 40),
+                       text::one_line(runs[k].data.header.machine_name, 40), summary(runs[k]).outcome.text());
   out += compared_note(runs);
-  std::vector<TextTable::Column> columns = {{"", TextTable::Align::left}};
+  std::vector<text::TextTable::Column> columns = {{"", text::TextTable::Align::left}};
   for (std::size_t k = 0; k < runs.size(); ++k) columns.push_back({letter(k)});
   for (std::size_t k = 1; k < runs.size(); ++k) columns.push_back({letter(k) + " - A"});
-  columns.push_back({"", TextTable::Align::left});
-  TextTable table(columns);
+  columns.push_back({"", text::TextTable::Align::left});
+  text::TextTable table(columns);
   for (const ComparedQuantity& q : compared_quantities(runs)) {
     std::vector<std::string> row = {q.name};
-    for (const double value : q.value) row.push_back(std::isnan(value) ? "-" : fixed(value, q.decimals));
+    for (const double value : q.value)
+      row.push_back(std::isnan(value) ? "-" : text::fixed(value, q.decimals));
     for (std::size_t k = 1; k < runs.size(); ++k) {
       const double difference = q.value[k] - q.value[0];
-      row.push_back(std::isnan(difference) ? "-"
-                                           : (difference > 0 ? "+" : "") + fixed(difference, q.decimals));
+      row.push_back(
+          std::isnan(difference) ? "-" : (difference > 0 ? "+" : "") + text::fixed(difference, q.decimals));
     }
     row.push_back(q.unit);
     table.add(std::move(row));
@@ -194,10 +197,10 @@ Json json_of(const std::vector<ComparedRun>& runs) {
 
 std::string render_compare_page(std::vector<ComparedRun> runs, std::size_t max_bytes) {
   const std::string unit = path_unit(runs.front().data.header);
-  const std::string title = xml_text(
-      fmt::format("{} runs of {}", runs.size(), one_line(runs.front().data.header.program_name, 80)));
+  const std::string title = text::xml_text(
+      fmt::format("{} runs of {}", runs.size(), text::one_line(runs.front().data.header.program_name, 80)));
   const std::string table =
-      fmt::format("<pre id=\"comparison\">{}</pre>\n", xml_text(render_comparison(runs)));
+      fmt::format("<pre id=\"comparison\">{}</pre>\n", text::xml_text(render_comparison(runs)));
   const std::string charts = chart(runs, "time", "Feed over time", "feed.commanded*", false, unit + "/s") +
                              chart(runs, "path", "Feed over the path", "feed.commanded*", true, unit + "/s") +
                              chart(runs, "error", "Path error over the path", "path.error*", true, "um");
@@ -214,7 +217,7 @@ std::string render_compare_page(std::vector<ComparedRun> runs, std::size_t max_b
     data += fitted_run(runs[k].data, room / runs.size(), letter(k) + "-", true, {});
   }
   return filled_template(title, table, charts,
-                         json_script("runs", json_line({{"runs", std::move(letters)}})) + data);
+                         json_script("runs", text::json_line({{"runs", std::move(letters)}})) + data);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

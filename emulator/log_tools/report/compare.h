@@ -8,7 +8,7 @@
 #include "emulator/text/json.h"
 
 /// `kadr compare`: runs of one program side by side.
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 struct ComparedRun {
   std::string path;
@@ -31,10 +31,10 @@ std::vector<ComparedQuantity> compared_quantities(const std::vector<ComparedRun>
 std::string compared_note(const std::vector<ComparedRun>& runs);
 
 std::string render_comparison(const std::vector<ComparedRun>& runs);
-Json json_of(const std::vector<ComparedRun>& runs);
+text::Json json_of(const std::vector<ComparedRun>& runs);
 /// One HTML page: the table, and charts of all runs over time or path with one window and cursor. In a build
 /// without the interactive page, and without script: feed over time, feed and path error over the path.
 /// @param max_bytes  the page's size; longer runs are shown by extremes of several control ticks
 std::string render_compare_page(std::vector<ComparedRun> runs, std::size_t max_bytes);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

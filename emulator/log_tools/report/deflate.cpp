@@ -6,7 +6,7 @@
 #include "emulator/log_tools/report/encode.h"
 #include "machine/base/require.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 constexpr int kLevel = 6;
@@ -93,4 +93,4 @@ std::string packed_counts(const std::vector<std::int32_t>& values) {
   return packed(planes);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -6,7 +6,7 @@
 
 /// Arrays of a report page, packed so that a browser unpacks them without a library: planes of bytes, raw
 /// deflate (RFC 1951), base64.
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// Raw deflate at a fixed level, base64. The bytes depend on the zlib that does it, what they hold does not.
 std::string packed(std::string_view bytes);
@@ -27,4 +27,4 @@ std::string packed_reals(const std::vector<float>& values, double low, double st
 /// Whole numbers exactly: differences modulo 2^32 in four planes of bytes, the first one to 0.
 std::string packed_counts(const std::vector<std::int32_t>& values);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

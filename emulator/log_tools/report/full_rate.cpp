@@ -6,7 +6,7 @@
 
 #include "emulator/log_tools/report/page_data.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 /// Stretches of at most that many control ticks together; overlaps count once.
@@ -69,9 +69,9 @@ std::vector<Stretch> stretches_of_interest(const PageData& data, std::int64_t mo
            chooser.add(tick.value / data.header.control_tick_ticks - data.first_control_tick - ticks_s / 2,
                        ticks_s);
   };
-  for (const EventRecord& e : data.events)
-    if (e.kind == EventKind::alarm && !round_tick(e.tick)) return chooser.take();
-  for (const LogDiagnostic& d : data.diagnostics)
+  for (const log::EventRecord& e : data.events)
+    if (e.kind == log::EventKind::alarm && !round_tick(e.tick)) return chooser.take();
+  for (const log::LogDiagnostic& d : data.diagnostics)
     if (d.severity != Severity::note && !round_tick(d.tick)) return chooser.take();
   for (const Track& track : data.tracks) {
     const auto piece = worst_piece(track);
@@ -80,21 +80,21 @@ std::vector<Stretch> stretches_of_interest(const PageData& data, std::int64_t mo
     const std::int64_t middle = static_cast<std::int64_t>(*piece) * data.every + data.every / 2;
     if (!chooser.add(middle - length / 2, length)) return chooser.take();
   }
-  for (const EventRecord& e : data.events)
-    if (e.kind != EventKind::alarm && !round_tick(e.tick)) return chooser.take();
+  for (const log::EventRecord& e : data.events)
+    if (e.kind != log::EventKind::alarm && !round_tick(e.tick)) return chooser.take();
   return chooser.take();
 }
 
-tl::expected<FullRate, LogReadError> read_full_rate(const std::string& path, const SampleChoice& choice,
-                                                    const PageData& data,
-                                                    const std::vector<Stretch>& stretches) {
+tl::expected<FullRate, log::LogReadError> read_full_rate(const std::string& path, const SampleChoice& choice,
+                                                         const PageData& data,
+                                                         const std::vector<Stretch>& stretches) {
   auto log = LogSamples::open(path);
   if (!log) return tl::unexpected(log.error());
   SampleChoice own = choice;
   own.signals.clear();
   for (const Track& track : data.tracks) own.signals += (own.signals.empty() ? "" : ",") + track.signal.name;
   if (const auto chosen = log->choose(own); !chosen)
-    return tl::unexpected(LogReadError{LogReadFault::not_a_log, path, chosen.error()});
+    return tl::unexpected(log::LogReadError{log::LogReadFault::not_a_log, path, chosen.error()});
   FullRate out;
   out.stretches = stretches;
   out.tracks.resize(data.tracks.size());
@@ -133,4 +133,4 @@ tl::expected<FullRate, LogReadError> read_full_rate(const std::string& path, con
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

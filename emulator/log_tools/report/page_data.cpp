@@ -5,7 +5,7 @@
 
 #include "machine/machine_file.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 /// The page's signals, as far as the log has them; further ones are added (Signal::further).
@@ -32,7 +32,7 @@ std::string wanted(const LogSamples& log) {
 }
 
 /// The settings of the log are a machine file, followed by the options of the run.
-std::optional<machine::MachineModel> machine_of(const LogHeader& header) {
+std::optional<machine::MachineModel> machine_of(const log::LogHeader& header) {
   SourceSet sources;
   const std::string text = header.settings_toml.substr(0, header.settings_toml.find("[run]\n"));
   auto file = machine::read_machine(SourceText("settings", text), sources);
@@ -56,7 +56,7 @@ class Gatherer {
     for (const LogItem& item : frame.items) std::visit(*this, item);
   }
 
-  void operator()(const BlockRecord& b) {
+  void operator()(const log::BlockRecord& b) {
     if (data_.blocks.size() >= kMostBlocks) {
       ++data_.blocks_left_out;
       return;
@@ -64,18 +64,18 @@ class Gatherer {
     data_.blocks.push_back({b.tick, b.block, b.span.line, b.length_u, b.planned_s, b.programmed_u_s,
                             b.planned_peak_u_s, b.limited_by, b.motion, b.text});
   }
-  void operator()(const EventRecord& e) {
-    if (e.kind == EventKind::alarm ? alarms_++ < kMostEvents : data_.events.size() < kMostEvents)
+  void operator()(const log::EventRecord& e) {
+    if (e.kind == log::EventKind::alarm ? alarms_++ < kMostEvents : data_.events.size() < kMostEvents)
       data_.events.push_back(e);
     else
       ++data_.events_left_out;
   }
-  void operator()(const LogDiagnostic& d) {
+  void operator()(const log::LogDiagnostic& d) {
     if (data_.diagnostics.size() < kMostEvents) data_.diagnostics.push_back(d);
   }
 
   void sample(const Sample& s) {
-    const TickBlock& ticks = *s.frame->ticks;
+    const log::TickBlock& ticks = *s.frame->ticks;
     const std::size_t i = s.frame->tick_index;
     if (data_.control_ticks++ == 0) data_.first_control_tick = s.control_tick;
     const auto piece = static_cast<std::size_t>((s.control_tick - data_.first_control_tick) / data_.every);
@@ -111,7 +111,7 @@ class Gatherer {
     data_.path_milli.push_back(data_.path_milli.empty() ? 0 : data_.path_milli.back());
   }
 
-  void work(const TickBlock& ticks, std::size_t i) {
+  void work(const log::TickBlock& ticks, std::size_t i) {
     data_.work.resize(ticks.axis.size());
     const double tau_s = data_.header.seconds(Ticks{data_.header.control_tick_ticks});
     for (std::size_t a = 0; a < ticks.axis.size(); ++a) {
@@ -131,9 +131,9 @@ class Gatherer {
 
 }  // namespace
 
-std::vector<double> picture_steps_mm(const LogHeader& header) {
+std::vector<double> picture_steps_mm(const log::LogHeader& header) {
   std::vector<double> out;
-  for (const LogAxis& axis : header.axis) out.push_back(axis.unit == "mm" ? axis.step_u : 0);
+  for (const log::LogAxis& axis : header.axis) out.push_back(axis.unit == "mm" ? axis.step_u : 0);
   return out;
 }
 
@@ -157,13 +157,14 @@ void halve(PageData& data) {
   data.every *= 2;
 }
 
-tl::expected<PageData, LogReadError> read_page_data(const std::string& path, const SampleChoice& choice) {
+tl::expected<PageData, log::LogReadError> read_page_data(const std::string& path,
+                                                         const SampleChoice& choice) {
   auto log = LogSamples::open(path);
   if (!log) return tl::unexpected(log.error());
   SampleChoice own = choice;
   own.signals = wanted(*log);
   if (const auto chosen = log->choose(own); !chosen)
-    return tl::unexpected(LogReadError{LogReadFault::not_a_log, path, chosen.error()});
+    return tl::unexpected(log::LogReadError{log::LogReadFault::not_a_log, path, chosen.error()});
   PageData data;
   data.header = log->header();
   data.machine = machine_of(data.header);
@@ -179,4 +180,4 @@ tl::expected<PageData, LogReadError> read_page_data(const std::string& path, con
   return data;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -13,7 +13,7 @@
 
 /// Data of a report page about a run, gathered in one pass over its log; memory does not grow with the log
 /// beyond kMostPieces values per signal.
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 inline constexpr std::size_t kMostPieces = std::size_t{1} << 20;
 inline constexpr std::size_t kMostEvents = 5000;
@@ -54,9 +54,9 @@ struct FullRate {
 };
 
 struct PageData {
-  LogHeader header;
-  LogEnd end;
-  std::optional<LogSummary> summary;
+  log::LogHeader header;
+  log::LogEnd end;
+  std::optional<log::LogSummary> summary;
   std::optional<machine::MachineModel> machine;  ///< by the settings in the log; none: they can't be read
   std::int64_t control_ticks = 0;                ///< in the log
   std::int64_t first_control_tick = 0;
@@ -68,30 +68,30 @@ struct PageData {
   FullRate full_rate;
   std::vector<AxisWork> work;  ///< [axes]; empty without plant
   std::vector<PageBlock> blocks;
-  std::vector<EventRecord> events;  ///< alarms all, others up to kMostEvents
-  std::vector<LogDiagnostic> diagnostics;
+  std::vector<log::EventRecord> events;  ///< alarms all, others up to kMostEvents
+  std::vector<log::LogDiagnostic> diagnostics;
   std::size_t blocks_left_out = 0, events_left_out = 0;
   std::size_t pieces() const { return nodes.empty() ? 0 : nodes.front().size(); }
 };
 
 /// Reads a log for a page.
 /// @param choice  part of the run; its signals are the page's own
-tl::expected<PageData, LogReadError> read_page_data(const std::string& path, const SampleChoice& choice);
+tl::expected<PageData, log::LogReadError> read_page_data(const std::string& path, const SampleChoice& choice);
 
 /// Reads some stretches once more, now control tick by control tick.
 /// @param choice  the one that `data` was read with
-tl::expected<FullRate, LogReadError> read_full_rate(const std::string& path, const SampleChoice& choice,
-                                                    const PageData& data,
-                                                    const std::vector<Stretch>& stretches);
+tl::expected<FullRate, log::LogReadError> read_full_rate(const std::string& path, const SampleChoice& choice,
+                                                         const PageData& data,
+                                                         const std::vector<Stretch>& stretches);
 
 /// Where every control tick is worth its room: 1 s round alarms, warnings and each signal's largest value,
 /// then round other events, as long as all of it is at most `most` control ticks.
 std::vector<Stretch> stretches_of_interest(const PageData& data, std::int64_t most);
 
 /// mm a lattice step of each axis; 0: not an axis of the picture.
-std::vector<double> picture_steps_mm(const LogHeader& header);
+std::vector<double> picture_steps_mm(const log::LogHeader& header);
 
 /// Each two pieces become one: half the size, no peak lost.
 void halve(PageData& data);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

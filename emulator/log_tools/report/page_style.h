@@ -1,7 +1,7 @@
 #pragma once
 #include <string_view>
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// Beginning of a page without script, up to its title: security policy and style sheet for tables and charts.
 inline constexpr std::string_view kPlainHead = R"html(<!DOCTYPE html>
@@ -30,4 +30,4 @@ svg text.y { text-anchor: end; } svg text.name { fill: var(--soft); } .grid { st
 </style>
 )html";
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

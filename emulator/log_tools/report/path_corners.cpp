@@ -5,7 +5,7 @@
 
 #include "machine/base/require.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 CornerFinder::CornerFinder(std::vector<double> step_mm, double tolerance_mm, std::size_t most)
     : step_mm_(std::move(step_mm)), tolerance_mm_(tolerance_mm), most_(most) {
@@ -81,4 +81,4 @@ PathCorners thinned(PathCorners corners, const std::vector<double>& step_mm, dou
   return corners;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

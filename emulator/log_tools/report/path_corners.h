@@ -4,7 +4,7 @@
 #include <vector>
 
 /// The commanded path as few straight lines, for a picture of it: lattice nodes after chosen control ticks.
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 struct PathCorners {
   std::vector<std::int32_t> ticks;               ///< [corners] control ticks since the first, ascending
@@ -51,4 +51,4 @@ class CornerFinder {
 PathCorners thinned(PathCorners corners, const std::vector<double>& step_mm, double& tolerance_mm,
                     std::size_t most);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

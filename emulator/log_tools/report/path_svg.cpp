@@ -9,7 +9,7 @@
 #include "emulator/text/line_chart.h"
 #include "emulator/text/text.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 // pixels of the drawing
@@ -24,13 +24,13 @@ struct Side {
   std::string name;
   double step_mm = 0;
   const std::vector<std::int32_t>* nodes = nullptr;  ///< [corners]
-  ChartRange mm{};
+  text::ChartRange mm{};
   bool moves() const { return mm.high > mm.low; }
   double at(std::size_t corner) const { return step_mm * (*nodes)[corner]; }
 };
 
 /// The two axes of the picture, the one across first; none: there are not two linear axes.
-std::optional<std::array<Side, 2>> sides_of(const LogHeader& header, const PathCorners& corners) {
+std::optional<std::array<Side, 2>> sides_of(const log::LogHeader& header, const PathCorners& corners) {
   std::vector<Side> linear;
   const std::vector<double> steps_mm = picture_steps_mm(header);
   for (std::size_t a = 0; a < steps_mm.size(); ++a) {
@@ -91,30 +91,30 @@ class Picture {
     const std::array<double, 2> pixels = {width(), height()};
     for (int k = 0; k < 2; ++k) {
       const std::vector<double> ticks =
-          nice_ticks(shown_[k], std::max(2, static_cast<int>(pixels[k] / kTick)));
+          text::nice_ticks(shown_[k], std::max(2, static_cast<int>(pixels[k] / kTick)));
       const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
       for (const double mm : ticks)
         out += k == 0 ? fmt::format(
                             "<path class=\"grid\" d=\"M{0:.1f} {1:.1f}V{2:.1f}\"/>"
                             "<text class=\"x\" x=\"{0:.1f}\" y=\"{3:.1f}\">{4}</text>\n",
-                            across(mm), kTop, bottom, bottom + 17, tick_text(mm, step))
+                            across(mm), kTop, bottom, bottom + 17, text::tick_text(mm, step))
                       : fmt::format(
                             "<path class=\"grid\" d=\"M{0:.1f} {1:.1f}H{2:.1f}\"/>"
                             "<text class=\"y\" x=\"{3:.1f}\" y=\"{4:.1f}\">{5}</text>\n",
-                            kLeft, down(mm), right, kLeft - 8, down(mm) + 4, tick_text(mm, step));
+                            kLeft, down(mm), right, kLeft - 8, down(mm) + 4, text::tick_text(mm, step));
     }
     out += fmt::format("<path class=\"frame\" d=\"M{0:.1f} {1:.1f}V{2:.1f}H{3:.1f}\"/>\n", kLeft, kTop,
                        bottom, right);
     out += fmt::format("<text class=\"x name\" x=\"{:.1f}\" y=\"{:.1f}\">{}, mm</text>\n",
-                       kLeft + width() / 2, bottom + 38, xml_text(sides_[0].name));
+                       kLeft + width() / 2, bottom + 38, text::xml_text(sides_[0].name));
     return out + fmt::format(
                      "<text class=\"x name\" transform=\"translate(14,{:.1f}) rotate(-90)\">{}, mm</text>\n",
-                     kTop + height() / 2, xml_text(sides_[1].name));
+                     kTop + height() / 2, text::xml_text(sides_[1].name));
   }
 
  private:
   std::array<Side, 2> sides_;
-  std::array<ChartRange, 2> shown_;
+  std::array<text::ChartRange, 2> shown_;
   double scale_ = 1;  // pixels per mm
 };
 
@@ -148,8 +148,8 @@ std::string path_svg(const PageData& data) {
   std::string out = fmt::format(
       "<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-labelledby=\"path_d\">\n"
       "<desc id=\"path_d\">Tool path as commanded, {} over {}</desc>\n",
-      kWidth, kTop + picture.height() + kBelow, xml_text(picture.side(1).name),
-      xml_text(picture.side(0).name));
+      kWidth, kTop + picture.height() + kBelow, text::xml_text(picture.side(1).name),
+      text::xml_text(picture.side(0).name));
   out += kLegend;
   out += picture.axes();
   for (int k = 1; k >= 0; --k)
@@ -157,4 +157,4 @@ std::string path_svg(const PageData& data) {
   return out + "</svg>\n";
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -7,7 +7,7 @@
 #include "emulator/text/text.h"
 #include "machine/base/require.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 constexpr std::size_t kFewestPieces = 2048;
@@ -64,11 +64,11 @@ std::string filled_template(const std::string& title, const std::string& summary
 
 std::string render_report_page(PageData data, std::size_t max_bytes, const ReadFullRate& again) {
   if (report_template().empty()) return render_plain_page(data);
-  const std::string title = xml_text(page_title(data)), summary = summary_html(data),
+  const std::string title = text::xml_text(page_title(data)), summary = summary_html(data),
                     charts = chart_html(data);
   const std::size_t frame = report_template().size() + 2 * title.size() + summary.size() + charts.size();
   const std::size_t room = max_bytes > frame ? max_bytes - frame : 0;
   return filled_template(title, summary, charts, fitted_run(data, room, "", false, again));
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

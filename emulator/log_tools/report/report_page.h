@@ -6,7 +6,7 @@
 
 #include "emulator/log_tools/report/page_data.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// The page's frame with script and style, made from emulator/pages/report at build time; empty where
 /// page_missing("report") says why.
@@ -33,4 +33,4 @@ std::string filled_template(const std::string& title, const std::string& summary
 /// The plain form, whatever the build: tables and drawings, no script.
 std::string render_plain_page(const PageData& data);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -11,8 +11,10 @@
 #include "emulator/text/text.h"
 #include "machine/tick_motion.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
+
+using text::Json;
 
 /// Data of a page: not code, so that the hashes of its security policy stay as they were built.
 std::string data_script(const std::string& id, const std::string& base64) {
@@ -72,7 +74,7 @@ Json block_columns(const PageData& data) {
 
 Json events_json(const PageData& data) {
   Json out = Json::array();
-  for (const EventRecord& e : data.events)
+  for (const log::EventRecord& e : data.events)
     out.push_back({{"t_s", data.header.seconds(e.tick)},
                    {"line", e.span.line},
                    {"kind", e.kind.text()},
@@ -109,7 +111,7 @@ Json windows_json(const FullRate& full_rate) {
 }  // namespace
 
 std::string run_scripts(const PageData& data, const std::string& prefix, bool with_path) {
-  const LogHeader& h = data.header;
+  const log::LogHeader& h = data.header;
   std::string blobs;
   Json tracks = Json::array(), axes = Json::array();
   for (std::size_t k = 0; k < data.tracks.size(); ++k) add_track(data, k, prefix, tracks, blobs);
@@ -124,7 +126,7 @@ std::string run_scripts(const PageData& data, const std::string& prefix, bool wi
     if (!data.full_rate.stretches.empty()) counts("fine-nodes", a, data.full_rate.nodes[a]);
   }
   if (with_path) blobs += data_script(prefix + "path", packed_counts(data.path_milli));
-  blobs += data_script(prefix + "data-blocks", packed(json_line(block_columns(data))));
+  blobs += data_script(prefix + "data-blocks", packed(text::json_line(block_columns(data))));
   blobs += data_script(prefix + "data-program", packed(h.program_text));
   blobs += data_script(prefix + "data-settings", packed(h.settings_toml));
   const Json meta = {{"kadr", h.kadr_version},
@@ -143,7 +145,7 @@ std::string run_scripts(const PageData& data, const std::string& prefix, bool wi
                      {"has_path", with_path},
                      {"events", events_json(data)},
                      {"events_left_out", data.events_left_out}};
-  return json_script(prefix + "meta", json_line(meta)) + blobs;
+  return json_script(prefix + "meta", text::json_line(meta)) + blobs;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -4,7 +4,7 @@
 #include "emulator/log_tools/report/page_data.h"
 
 /// A run as a page's script reads it (emulator/pages/report/src/data.ts).
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// Elements of a page that hold the run: JSON of its data, and packed arrays.
 /// @param prefix     of the elements' ids, so that a page can hold several runs
@@ -14,4 +14,4 @@ std::string run_scripts(const PageData& data, const std::string& prefix, bool wi
 /// JSON on one line as an element of HTML: no `<` in it can end the element.
 std::string json_script(const std::string& id, const std::string& json);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -11,7 +11,7 @@
 #include "emulator/text/text.h"
 #include "machine/base/hash.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 namespace {
 
 constexpr std::size_t kRowsShown = 200;  ///< of alarms and messages
@@ -25,11 +25,11 @@ using Row = std::vector<Cell>;
 
 Cell word(std::string text) { return {std::move(text), true}; }
 Cell number(double value, int decimals, const std::string& unit) {
-  return {fixed(value, decimals) + (unit.empty() ? "" : " " + unit)};
+  return {text::fixed(value, decimals) + (unit.empty() ? "" : " " + unit)};
 }
 
 std::string cell_html(const char* tag, const Cell& cell) {
-  return fmt::format("<{0}{1}>{2}</{3}>", tag, cell.word ? " class=\"w\"" : "", xml_text(cell.text),
+  return fmt::format("<{0}{1}>{2}</{3}>", tag, cell.word ? " class=\"w\"" : "", text::xml_text(cell.text),
                      std::string_view(tag).substr(0, 2));
 }
 
@@ -52,10 +52,10 @@ std::string table_html(const char* id, const char* caption, const Row& head, con
 
 /// A share of a limit: "98 %".
 std::string share(double value, double limit) {
-  return std::isfinite(limit) && limit > 0 ? fmt::format("{} %", fixed(100 * value / limit, 1)) : "";
+  return std::isfinite(limit) && limit > 0 ? fmt::format("{} %", text::fixed(100 * value / limit, 1)) : "";
 }
 std::string limit_text(double limit, int decimals) {
-  return std::isfinite(limit) ? fixed(limit, decimals) : "-";
+  return std::isfinite(limit) ? text::fixed(limit, decimals) : "-";
 }
 
 class Summary {
@@ -65,14 +65,14 @@ class Summary {
   std::string html() const {
     std::string out;
     if (const std::string note = end_note(d_); !note.empty())
-      out += fmt::format("<p class=\"warning\"><b class=\"w\">Warning</b> {}</p>\n", xml_text(note));
+      out += fmt::format("<p class=\"warning\"><b class=\"w\">Warning</b> {}</p>\n", text::xml_text(note));
     out += messages();
     if (!d_.summary) return out;
     return out + "<div class=\"tables\">\n" + run() + reasons() + losses() + axes() + loads() + "</div>\n";
   }
 
  private:
-  const RunSummary& s() const { return d_.summary->run; }
+  const log::RunSummary& s() const { return d_.summary->run; }
 
   std::string run() const {
     const std::string unit = path_unit(h_);
@@ -83,28 +83,29 @@ class Summary {
     rows += row_html({word("path"), number(s().path_u, 3, unit)});
     rows += row_html({word("feed, mean"), number(s().mean_feed_u_s, 3, unit + "/s")});
     const std::string per_minute =
-        unit == "mm" ? fmt::format(" (F{})", fixed(60 * s().peak_feed_u_s, 0)) : "";
-    rows += row_html({word("feed, peak"), {fixed(s().peak_feed_u_s, 3) + " " + unit + "/s" + per_minute}});
+        unit == "mm" ? fmt::format(" (F{})", text::fixed(60 * s().peak_feed_u_s, 0)) : "";
+    rows +=
+        row_html({word("feed, peak"), {text::fixed(s().peak_feed_u_s, 3) + " " + unit + "/s" + per_minute}});
     rows += row_html({word("path error, peak"),
                       d_.work.empty() ? word("not simulated") : number(1000 * s().path_error_u, 3, "um")});
-    rows += row_html({word("blocks"), {grouped(s().blocks)}});
-    rows += row_html({word("pulses"), {grouped(s().pulses)}});
+    rows += row_html({word("blocks"), {text::grouped(s().blocks)}});
+    rows += row_html({word("pulses"), {text::grouped(s().pulses)}});
     rows += row_html({word("steps hash"), {hash_text(s().steps_hash)}});
     return table_html("run", "Run", {}, rows);
   }
 
-  static std::string shares(const std::vector<LimitShare>& list, double total_s) {
+  static std::string shares(const std::vector<log::LimitShare>& list, double total_s) {
     std::string rows;
-    for (const LimitShare& entry : list)
+    for (const log::LimitShare& entry : list)
       rows += row_html({word(entry.limited_by),
                         number(entry.time_s, 3, "s"),
-                        {total_s > 0 ? fixed(100 * entry.time_s / total_s, 1) + " %" : ""}});
+                        {total_s > 0 ? text::fixed(100 * entry.time_s / total_s, 1) + " %" : ""}});
     return rows;
   }
 
   std::string reasons() const {
     double total_s = 0;
-    for (const LimitShare& entry : s().limited_by) total_s += entry.time_s;
+    for (const log::LimitShare& entry : s().limited_by) total_s += entry.time_s;
     if (!(total_s > 0)) return {};
     return table_html("reasons", "What held the feed", {word("reason"), word("time"), word("share")},
                       shares(s().limited_by, total_s));
@@ -120,17 +121,17 @@ class Summary {
   std::string axes() const {
     std::string rows;
     for (std::size_t a = 0; a < s().axis.size() && a < h_.axis.size(); ++a) {
-      const AxisSummary& x = s().axis[a];
+      const log::AxisSummary& x = s().axis[a];
       const std::string& unit = h_.axis[a].unit;
       const machine::AxisModel* m = d_.machine ? &d_.machine->axis[a] : nullptr;
       const auto against = [&](double value, double limit, int decimals, const char* per) {
-        return Cell{fmt::format("{} {}{}", fixed(value, decimals),
+        return Cell{fmt::format("{} {}{}", text::fixed(value, decimals),
                                 m ? "/ " + limit_text(limit, decimals) + " " : "", unit + per)};
       };
       rows +=
           row_html({{h_.axis[a].name},
-                    {grouped(x.pulses)},
-                    {fmt::format("{} .. {} {}", fixed(x.min_u, 3), fixed(x.max_u, 3), unit)},
+                    {text::grouped(x.pulses)},
+                    {fmt::format("{} .. {} {}", text::fixed(x.min_u, 3), text::fixed(x.max_u, 3), unit)},
                     against(x.peak_feed_u_s, m ? m->max_feed_u_s : 0, 3, "/s"),
                     {m ? share(x.peak_feed_u_s, m->max_feed_u_s) : ""},
                     against(x.peak_accel_u_s2, m ? m->max_accel_u_s2 : 0, 1, "/s2"),
@@ -149,7 +150,7 @@ class Summary {
     if (d_.work.empty()) return {};
     std::string rows;
     for (std::size_t a = 0; a < s().axis.size() && a < h_.axis.size(); ++a) {
-      const AxisSummary& x = s().axis[a];
+      const log::AxisSummary& x = s().axis[a];
       if (!h_.axis[a].has_plant) {
         rows += row_html({{h_.axis[a].name}, word("rigid (not modelled)")});
         continue;
@@ -162,11 +163,11 @@ class Summary {
       rows += row_html({{h_.axis[a].name},
                         number(1000 * x.peak_vibration_u, 3, unit),
                         number(1000 * x.rms_vibration_u, 3, unit),
-                        {moved ? fixed(h_.seconds(x.peak_vibration_tick), 3) + " s" : ""},
+                        {moved ? text::fixed(h_.seconds(x.peak_vibration_tick), 3) + " s" : ""},
                         {moved && x.peak_vibration_line > 0 ? std::to_string(x.peak_vibration_line) : ""},
                         number(1000 * x.residual_u, 3, unit),
                         number(1000 * x.peak_following_u, 3, unit),
-                        {grouped(x.lost_steps.value)},
+                        {text::grouped(x.lost_steps.value)},
                         number(d_.work[a].driving_J, 3, "J"),
                         number(d_.work[a].braking_J, 3, "J")},
                        place);
@@ -189,15 +190,15 @@ class Summary {
     }
     std::string_view text = rest.substr(0, rest.find('\n'));
     if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
-    if (display_width(text) > 160) text = text.substr(0, 160);
+    if (text::display_width(text) > 160) text = text.substr(0, 160);
     const std::size_t before = std::min<std::size_t>(text.size(), span.column > 0 ? span.column - 1 : 0);
     const std::size_t length =
         std::max<std::size_t>(1, std::min<std::size_t>(span.length, text.size() - before));
     const std::string left = fmt::format("{} | ", span.line);
     return fmt::format(
-        "<pre>{}{}\n{}{}{}</pre>", left, xml_text(text), std::string(left.size() - 2, ' ') + "| ",
-        std::string(display_width(text.substr(0, before)), ' '),
-        std::string(std::max<std::size_t>(1, display_width(text.substr(before, length))), '^'));
+        "<pre>{}{}\n{}{}{}</pre>", left, text::xml_text(text), std::string(left.size() - 2, ' ') + "| ",
+        std::string(text::display_width(text.substr(0, before)), ' '),
+        std::string(std::max<std::size_t>(1, text::display_width(text.substr(before, length))), '^'));
   }
 
   std::string message(std::string_view severity, double t_s, const Span& span, const std::string& code,
@@ -208,8 +209,9 @@ class Summary {
     return fmt::format(
         "<tr class=\"{}\"{}><th scope=\"row\" "
         "class=\"w\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}{}</td></tr>\n",
-        severity, place, severity, t_s >= 0 ? fixed(t_s, 4) + " s" : "",
-        span.line > 0 ? std::to_string(span.line) : "", xml_text(code), xml_text(text), caret(span));
+        severity, place, severity, t_s >= 0 ? text::fixed(t_s, 4) + " s" : "",
+        span.line > 0 ? std::to_string(span.line) : "", text::xml_text(code), text::xml_text(text),
+        caret(span));
   }
 
   /// Errors first, then alarms, warnings and notes; each kind in the log's order.
@@ -224,39 +226,39 @@ class Summary {
       rows += message(severity, tick.value < 0 ? -1 : h_.seconds(tick), span, code, text);
     };
     const auto diagnostics = [&](Severity severity) {
-      for (const LogDiagnostic& d : d_.diagnostics)
+      for (const log::LogDiagnostic& d : d_.diagnostics)
         if (d.severity == severity)
           add(kSeverities.word(severity), d.tick, d.span, d.code,
               d.message + (d.label.empty() ? "" : ": " + d.label));
     };
     diagnostics(Severity::error);
-    for (const EventRecord& e : d_.events)
-      if (e.kind == EventKind::alarm) add("alarm", e.tick, e.span, code_name(e.code), e.text);
+    for (const log::EventRecord& e : d_.events)
+      if (e.kind == log::EventKind::alarm) add("alarm", e.tick, e.span, code_name(e.code), e.text);
     diagnostics(Severity::warning);
     diagnostics(Severity::note);
     if (all == 0) return "<p id=\"no-alarms\" class=\"w\">No alarms, no messages.</p>\n";
     if (all > shown)
       rows += fmt::format("<tr><td colspan=\"5\">... {} more in the log</td></tr>\n",
-                          grouped(static_cast<std::int64_t>(all - shown)));
+                          text::grouped(static_cast<std::int64_t>(all - shown)));
     return table_html("alarms", "Alarms and messages",
                       {word("severity"), word("at"), word("line"), word("code"), word("what")}, rows);
   }
 
   const PageData& d_;
-  const LogHeader& h_;
+  const log::LogHeader& h_;
 };
 
 }  // namespace
 
 std::string page_title(const PageData& data) {
-  return fmt::format("{} on {}", one_line(data.header.program_name, 80),
-                     one_line(data.header.machine_name, 60));
+  return fmt::format("{} on {}", text::one_line(data.header.program_name, 80),
+                     text::one_line(data.header.machine_name, 60));
 }
 
 std::string end_note(const PageData& data) {
-  if (data.end.state == LogState::complete) return {};
+  if (data.end.state == log::LogState::complete) return {};
   return fmt::format("{} What is shown ends at {} s.", data.end.detail,
-                     fixed(data.header.seconds(data.end.valid_until), 6));
+                     text::fixed(data.header.seconds(data.end.valid_until), 6));
 }
 
 std::string summary_html(const PageData& data) { return Summary(data).html(); }
@@ -281,8 +283,8 @@ std::string chart_html(const PageData& data) {
     pieces.push_back(envelope.pieces());
   }
   std::string out = path_svg(data);
-  for (const LineChart& chart : charts_of(signals, pieces)) out += render_svg(chart);
+  for (const text::LineChart& chart : charts_of(signals, pieces)) out += text::render_svg(chart);
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

@@ -3,7 +3,7 @@
 
 #include "emulator/log_tools/report/page_data.h"
 
-namespace kadr::emulator {
+namespace kadr::log_tools {
 
 /// The run in tables of HTML, numbers as in the log's summary: time and what it went into, axes against their
 /// limits, vibration and work, alarms and messages with their line. Rows with a place carry `data-t` (s) and
@@ -19,4 +19,4 @@ std::string page_title(const PageData& data);
 /// How the log ends, if not as it should; empty: it is complete.
 std::string end_note(const PageData& data);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::log_tools

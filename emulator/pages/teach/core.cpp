@@ -19,7 +19,8 @@ void break_promise(const char*, const char*, int) { __builtin_trap(); }
 
 namespace {
 
-using namespace emulator;
+using namespace interpolator;
+using namespace studies;
 using planner::Bezier;
 using planner::BezierVector;
 

@@ -7,7 +7,7 @@ if(teach_page_missing)
 // Generated: built without the page.
 #include "emulator/studies/teach/teach_page.h"
 
-std::string_view kadr::emulator::teach_template() { return {}; }
+std::string_view kadr::studies::teach_template() { return {}; }
 ]])
   return()
 endif()

@@ -4,8 +4,10 @@
 
 #include "emulator/studies/point_to_point/point_report.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
+
+using text::Json;
 
 Json pieces_json(const planner::PointLaw& law) {
   Json pieces = Json::array();
@@ -114,4 +116,4 @@ Json json_of(const planner::PointFault& fault) {
           {"allowed", fault.allowed}};
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -10,7 +10,7 @@
 #include "emulator/text/line_chart.h"
 #include "emulator/text/text.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 using planner::PointLaw;
@@ -41,9 +41,9 @@ std::vector<const PointRow*> shown(const PointStudy& study) {
 
 /// Moments of a law: ends of pieces twice, so that jumps stand upright, and evenly between.
 template <class Value>
-std::vector<ChartPoint> over_time(const PointLaw& law, Value&& value) {
+std::vector<text::ChartPoint> over_time(const PointLaw& law, Value&& value) {
   constexpr int kInner = 24;
-  std::vector<ChartPoint> points{{0, 0}};
+  std::vector<text::ChartPoint> points{{0, 0}};
   for (const planner::PointPiece& p : law.pieces())
     for (int i = 0; i <= kInner; ++i) {
       const double t = p.duration_s * i / kInner;
@@ -61,9 +61,10 @@ class PointPage {
   std::string text() const {
     const planner::Load& load = study_.load;
     std::string out =
-        chart_page_head("Laws from rest to rest", kPointStyle) + "<h1>Laws from rest to rest</h1>\n";
-    out += fmt::format("<pre>{}</pre>\n<pre>{}\n{}</pre>\n", xml_text(render_point_question(q_, study_)),
-                       xml_text(render_point_table(study_)), xml_text(render_point_answer(study_)));
+        text::chart_page_head("Laws from rest to rest", kPointStyle) + "<h1>Laws from rest to rest</h1>\n";
+    out +=
+        fmt::format("<pre>{}</pre>\n<pre>{}\n{}</pre>\n", text::xml_text(render_point_question(q_, study_)),
+                    text::xml_text(render_point_table(study_)), text::xml_text(render_point_answer(study_)));
     out += chart("accel", "Acceleration", "acceleration, m/s2",
                  [](const planner::PointState& s) { return s.accel_u_s2; });
     out += chart("speed", "Speed", "speed, m/s", [](const planner::PointState& s) { return s.speed_u_s; });
@@ -76,18 +77,18 @@ class PointPage {
 
  private:
   /// A frame wide enough for all lines, from below zero if one goes there.
-  static void frame(LineChart& chart) {
+  static void frame(text::LineChart& chart) {
     double low = 0, high = 0;
-    for (const ChartLine& line : chart.lines)
-      for (const ChartPoint& p : line.points) low = std::min(low, p.y), high = std::max(high, p.y);
+    for (const text::ChartLine& line : chart.lines)
+      for (const text::ChartPoint& p : line.points) low = std::min(low, p.y), high = std::max(high, p.y);
     const double margin = 0.05 * (high - low);
-    chart.y = ChartRange{low < 0 ? low - margin : 0, high + (margin > 0 ? margin : 1)};
+    chart.y = text::ChartRange{low < 0 ? low - margin : 0, high + (margin > 0 ? margin : 1)};
   }
 
   template <class Value>
   std::string chart(const std::string& id, const std::string& title, const std::string& label,
                     Value value) const {
-    LineChart chart;
+    text::LineChart chart;
     chart.id = id;
     chart.x_label = "t, s";
     chart.y_label = label;
@@ -95,12 +96,12 @@ class PointPage {
     for (std::size_t i = 0; i < rows_.size(); ++i)
       chart.lines.push_back({rows_[i]->name, kStyles[i], over_time(rows_[i]->law, value), 1});
     frame(chart);
-    return fmt::format("<h2>{}</h2>\n{}", xml_text(title), render_svg(chart));
+    return fmt::format("<h2>{}</h2>\n{}", text::xml_text(title), text::render_svg(chart));
   }
 
   /// The load relative to its base, and its residual vibration, each law's end at 0.
   std::string swing() const {
-    LineChart whole, rest;
+    text::LineChart whole, rest;
     whole.id = "swing";
     rest.id = "rest";
     whole.x_label = "t, s";
@@ -113,8 +114,8 @@ class PointPage {
       const PointLaw& law = rows_[i]->law;
       const double total_s = law.duration_s() + after_s;
       const int n = std::min(kMostPoints, static_cast<int>(std::ceil(kPointsPerPeriod * total_s / period_s)));
-      ChartLine line{rows_[i]->name, kStyles[i], {}, 1};
-      ChartLine tail = line;
+      text::ChartLine line{rows_[i]->name, kStyles[i], {}, 1};
+      text::ChartLine tail = line;
       for (int k = 0; k <= n; ++k) {
         const double t = total_s * k / n;
         line.points.push_back({t, 1e3 * planner::link_at(law, study_.driven, t).link_u});
@@ -129,7 +130,8 @@ class PointPage {
     }
     frame(whole);
     frame(rest);
-    return fmt::format("<h2>Load</h2>\n{}<h2>What is left</h2>\n{}", render_svg(whole), render_svg(rest));
+    return fmt::format("<h2>Load</h2>\n{}<h2>What is left</h2>\n{}", text::render_svg(whole),
+                       text::render_svg(rest));
   }
 
   const PointQuestion& q_;
@@ -143,4 +145,4 @@ std::string render_point_page(const PointQuestion& question, const PointStudy& s
   return PointPage(question, study).text();
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

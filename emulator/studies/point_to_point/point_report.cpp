@@ -7,13 +7,13 @@
 #include "emulator/text/text.h"
 #include "machine/base/numbers.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
-using Align = TextTable::Align;
+using Align = text::TextTable::Align;
 
 /// Millimetres with six decimals; below a picometre counts as zero.
-std::string millimetres(double length_m) { return fixed(1e3 * (length_m < 1e-12 ? 0.0 : length_m), 5); }
+std::string millimetres(double length_m) { return text::fixed(1e3 * (length_m < 1e-12 ? 0.0 : length_m), 5); }
 
 std::string unit_text(const planner::PointFault& fault) {
   std::string unit = fault.unit;
@@ -74,35 +74,35 @@ std::string render_point_question(const PointQuestion& q, const PointStudy& stud
 }
 
 std::string render_point_table(const PointStudy& study) {
-  TextTable table({{"law", Align::left},
-                   {"xi"},
-                   {"T s"},
-                   {"a m/s2"},
-                   {"v m/s"},
-                   {"P peak W"},
-                   {"E J"},
-                   {"driving J"},
-                   {"braking J"},
-                   {"int a2 m2/s3"},
-                   {"v left mm/s"},
-                   {"x left mm"},
-                   {"+-1 % mm"},
-                   {"+-5 % mm"},
-                   {"+-10 % mm"}});
+  text::TextTable table({{"law", Align::left},
+                         {"xi"},
+                         {"T s"},
+                         {"a m/s2"},
+                         {"v m/s"},
+                         {"P peak W"},
+                         {"E J"},
+                         {"driving J"},
+                         {"braking J"},
+                         {"int a2 m2/s3"},
+                         {"v left mm/s"},
+                         {"x left mm"},
+                         {"+-1 % mm"},
+                         {"+-5 % mm"},
+                         {"+-10 % mm"}});
   for (const PointRow& r : study.rows) {
     std::vector<std::string> cells = {r.name,
-                                      r.xi > 0 ? fixed(r.xi, 5) : "-",
-                                      fixed(r.law.duration_s(), 5),
-                                      fixed(r.law.peak_accel_u_s2(), 4),
-                                      fixed(r.law.peak_speed_u_s(), 4),
-                                      fixed(r.work.peak_W, 4),
-                                      fixed(r.work.absolute_J, 4),
-                                      fixed(r.work.positive_J, 4),
-                                      fixed(r.work.recuperated_J, 4),
-                                      fixed(r.work.copper_m2_s3, 4),
+                                      r.xi > 0 ? text::fixed(r.xi, 5) : "-",
+                                      text::fixed(r.law.duration_s(), 5),
+                                      text::fixed(r.law.peak_accel_u_s2(), 4),
+                                      text::fixed(r.law.peak_speed_u_s(), 4),
+                                      text::fixed(r.work.peak_W, 4),
+                                      text::fixed(r.work.absolute_J, 4),
+                                      text::fixed(r.work.positive_J, 4),
+                                      text::fixed(r.work.recuperated_J, 4),
+                                      text::fixed(r.work.copper_m2_s3, 4),
                                       millimetres(r.peaks.link_u_s < 1e-10 ? 0.0 : r.peaks.link_u_s),
                                       millimetres(r.amplitude_m)};
-    for (const double worst : r.worst_m) cells.push_back(fixed(1e3 * worst, 4));
+    for (const double worst : r.worst_m) cells.push_back(text::fixed(1e3 * worst, 4));
     table.add(std::move(cells));
   }
   return table.render();
@@ -116,22 +116,22 @@ std::string render_point_answer(const PointStudy& study) {
 }
 
 std::string render_table2(const std::vector<Table2Row>& rows) {
-  TextTable table({{"zeta"},
-                   {"law", Align::left},
-                   {"", Align::left},
-                   {"printed"},
-                   {"as printed, here"},
-                   {"", Align::left},
-                   {"physics"},
-                   {"", Align::left}});
+  text::TextTable table({{"zeta"},
+                         {"law", Align::left},
+                         {"", Align::left},
+                         {"printed"},
+                         {"as printed, here"},
+                         {"", Align::left},
+                         {"physics"},
+                         {"", Align::left}});
   std::size_t same = 0, cells = 0;
   for (const Table2Row& row : rows)
     for (std::size_t i = 0; i < kTable2Columns.size(); ++i) {
       ++cells;
       same += row.agrees(i);
-      table.add({fmt::format("{:g}", row.zeta), row.law, kTable2Columns[i], fixed(row.printed[i], 4),
-                 fixed(row.paper[i], 7), row.agrees(i) ? "=" : "off by a digit", fixed(row.physics[i], 6),
-                 kTable2Units[i]});
+      table.add({fmt::format("{:g}", row.zeta), row.law, kTable2Columns[i], text::fixed(row.printed[i], 4),
+                 text::fixed(row.paper[i], 7), row.agrees(i) ? "=" : "off by a digit",
+                 text::fixed(row.physics[i], 6), kTable2Units[i]});
     }
   return fmt::format(
              "Table 2 of paper 001\n\n{}\n{} of {} cells are the printed ones, rounded to four decimals\n",
@@ -147,4 +147,4 @@ std::string render_table2(const std::vector<Table2Row>& rows) {
 )";
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

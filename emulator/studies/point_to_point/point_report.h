@@ -6,7 +6,7 @@
 #include "emulator/text/json.h"
 
 /// The output of `kadr law` about laws from rest to rest.
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// "time of 3.7 s is too short: the shortest within these limits is 3.741657 s"
 std::string fault_text(const planner::PointFault& fault);
@@ -23,8 +23,8 @@ std::string render_table2(const std::vector<Table2Row>& rows);
 /// The table with full precision: a line of names with units, one row per law.
 std::string point_csv(const PointStudy& study);
 /// The same and the pieces of every law.
-Json json_of(const PointQuestion& question, const PointStudy& study);
-Json json_of(const std::vector<Table2Row>& rows);
-Json json_of(const planner::PointFault& fault);
+text::Json json_of(const PointQuestion& question, const PointStudy& study);
+text::Json json_of(const std::vector<Table2Row>& rows);
+text::Json json_of(const planner::PointFault& fault);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -8,7 +8,7 @@
 #include "planner/planner.h"
 #include "planner/positioning/positioning.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 constexpr double kMostPeriods = 1e5;  ///< of the vibration in a motion: more angles than sines tell apart
@@ -167,4 +167,4 @@ planner::PointResult<PointStudy> study_point_laws(const PointQuestion& q) {
   return q.time_optimal ? study.of_least_time() : study.of_given_time();
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -4,7 +4,7 @@
 
 #include "planner/point_to_point/point_to_point.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// The question to `kadr law`; the defaults are Table 1 of paper 001, with omega = 100 pi/3 rad/s, which it
 /// rounds to 105. Lengths are metres, so that energies are joules.
@@ -48,4 +48,4 @@ struct PointStudy {
 /// @return or the error: a quantity out of range, or the shortest possible time
 planner::PointResult<PointStudy> study_point_laws(const PointQuestion& question);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -6,7 +6,7 @@
 #include "emulator/studies/point_to_point/point_study.h"
 #include "machine/base/numbers.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 using planner::Mode;
@@ -151,4 +151,4 @@ std::vector<Table2Row> table2() {
   return rows;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -4,7 +4,7 @@
 #include <vector>
 
 /// Table 2 of paper 001, computed twice: as printed, with the settings that its digits reveal, and by physics.
-namespace kadr::emulator {
+namespace kadr::studies {
 
 inline constexpr std::array<const char*, 7> kTable2Columns = {"xi", "Amax",   "Vmax",  "Pmax",
                                                               "E",  "V_load", "X_load"};
@@ -30,4 +30,4 @@ struct Table2Row {
 /// Physics: omega = 100 pi/3 and the stated damping, K_g = g tf^2/xf, largest absolute values, exact.
 std::vector<Table2Row> table2();
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

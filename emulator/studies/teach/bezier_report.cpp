@@ -7,14 +7,16 @@
 #include "emulator/studies/teach/pulses.h"
 #include "emulator/text/text.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
+
+using text::Json;
 
 constexpr double kSmooth = 1e-9;
 
 /// "9.1706", without zeros at the end.
 std::string plain(double value) {
-  std::string text = fixed(value, 4);
+  std::string text = text::fixed(value, 4);
   while (text.back() == '0') text.pop_back();
   if (text.back() == '.') text.pop_back();
   return text;
@@ -50,28 +52,30 @@ std::string segment_text(const BezierSegment& s, std::size_t number, const Bezie
   std::string out = fmt::format("curve {}, degree {}\n", number, s.curve.degree());
   for (std::size_t k = 0; k < static_cast<std::size_t>(s.curve.axes()); ++k)
     out += fmt::format("  {}(t) = {} mm\n", static_cast<char>(axis_letter(k) | 0x20), polynomial(s.curve, k));
-  out += fmt::format("  length {} mm, |dB/dt| {} .. {} mm (ratio {})\n", fixed(s.length_mm, 6),
-                     fixed(s.slowest_mm, 4), fixed(s.fastest_mm, 4), fixed(s.fastest_mm / s.slowest_mm, 3));
+  out += fmt::format("  length {} mm, |dB/dt| {} .. {} mm (ratio {})\n", text::fixed(s.length_mm, 6),
+                     text::fixed(s.slowest_mm, 4), text::fixed(s.fastest_mm, 4),
+                     text::fixed(s.fastest_mm / s.slowest_mm, 3));
   if (std::isinf(s.smallest.radius_u))
     out += "  straight: no curvature\n";
   else
-    out += fmt::format("  R_min {} mm at t = {}\n", fixed(s.smallest.radius_u, 6), fixed(s.smallest.t, 5));
+    out += fmt::format("  R_min {} mm at t = {}\n", text::fixed(s.smallest.radius_u, 6),
+                       text::fixed(s.smallest.t, 5));
   if (s.slowest_mm < kSmooth * s.fastest_mm) out += "  warning: a cusp: the direction reverses at once\n";
   out += fmt::format("  t(S): {} quintic parts keep the feed to 1e-6\n", s.fitted_parts);
   if (demand.acceleration_mm_s2 > 0 && !std::isinf(s.smallest.radius_u)) {
     const double most = curve_speed(s, demand);
     out += fmt::format("  at {} mm/s2 across the path {} mm/s are allowed", plain(demand.acceleration_mm_s2),
-                       fixed(most, 3));
+                       text::fixed(most, 3));
     if (demand.feed_mm_s > 0)
       out += demand.feed_mm_s > most ? fmt::format(": F asks {}, too fast", plain(demand.feed_mm_s))
                                      : fmt::format(": F asks {}", plain(demand.feed_mm_s));
     out += "\n";
   } else if (demand.feed_mm_s > 0 && !std::isinf(s.smallest.radius_u)) {
     out += fmt::format("  F {} mm/s needs {} mm/s2 across the path\n", plain(demand.feed_mm_s),
-                       fixed(demand.feed_mm_s * demand.feed_mm_s / s.smallest.radius_u, 1));
+                       text::fixed(demand.feed_mm_s * demand.feed_mm_s / s.smallest.radius_u, 1));
   }
   if (s.length_tables.empty()) return out;
-  TextTable table({{"t(S) by", TextTable::Align::left}, {"|t~-t| %"}, {"place mm"}, {"feed %"}});
+  text::TextTable table({{"t(S) by", text::TextTable::Align::left}, {"|t~-t| %"}, {"place mm"}, {"feed %"}});
   for (const LengthTableRow& row : s.length_tables)
     table.add({row.name, fmt::format("{:.3g}", 100 * row.error.reduced),
                fmt::format("{:.2e}", row.error.position_u), fmt::format("{:.2g}", 100 * row.error.feed)});
@@ -88,25 +92,26 @@ std::string joint_text(const BezierStudy& study, std::size_t i, const BezierDema
   std::string out = fmt::format("joint {}/{}\n", i + 1, i + 2);
   if (j.gap_u > kSmooth) return out + fmt::format("  error: a gap of {} mm\n", plain(j.gap_u));
   if (j.tangent_angle_rad > kSmooth)
-    return out + fmt::format("  a corner of {} deg\n", fixed(j.tangent_angle_rad * 180 / M_PI, 4));
+    return out + fmt::format("  a corner of {} deg\n", text::fixed(j.tangent_angle_rad * 180 / M_PI, 4));
   const bool c1 = std::fabs(j.speed_ratio - 1) < kSmooth, g2 = j.curvature_jump_per_u < kSmooth;
   const bool c2 = c1 && j.second_jump < kSmooth;
-  out += fmt::format("  {}: ratio of |dB/dt| {}, curvature {} and {} 1/mm, normals {} deg apart\n",
-                     c2         ? "C2"
-                     : c1 && g2 ? "C1, G2"
-                     : g2       ? "G2"
-                     : c1       ? "C1"
-                                : "G1",
-                     plain(j.speed_ratio), fixed(j.curvature_before_per_u, 6),
-                     fixed(j.curvature_after_per_u, 6), fixed(j.normal_angle_rad * 180 / M_PI, 2));
+  out +=
+      fmt::format("  {}: ratio of |dB/dt| {}, curvature {} and {} 1/mm, normals {} deg apart\n",
+                  c2         ? "C2"
+                  : c1 && g2 ? "C1, G2"
+                  : g2       ? "G2"
+                  : c1       ? "C1"
+                             : "G1",
+                  plain(j.speed_ratio), text::fixed(j.curvature_before_per_u, 6),
+                  text::fixed(j.curvature_after_per_u, 6), text::fixed(j.normal_angle_rad * 180 / M_PI, 2));
   if (g2) return out;
   out += fmt::format("  the curvature vector jumps by {} 1/mm, {} of the largest curvature\n",
-                     fixed(j.curvature_jump_per_u, 6),
+                     text::fixed(j.curvature_jump_per_u, 6),
                      percent(j.curvature_jump_per_u * smallest_beside(study, i)));
   if (demand.feed_mm_s > 0) {
     const double step = demand.feed_mm_s * demand.feed_mm_s * j.curvature_jump_per_u;
-    out +=
-        fmt::format("  F {} mm/s: acceleration steps by {} mm/s2", plain(demand.feed_mm_s), fixed(step, 1));
+    out += fmt::format("  F {} mm/s: acceleration steps by {} mm/s2", plain(demand.feed_mm_s),
+                       text::fixed(step, 1));
     if (demand.acceleration_mm_s2 > 0)
       out += fmt::format(", {} of the limit", percent(step / demand.acceleration_mm_s2));
     out += "\n";
@@ -184,4 +189,4 @@ Json json_of(const BezierStudy& study, const BezierDemand& demand) {
   return j;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

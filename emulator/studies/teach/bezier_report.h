@@ -4,7 +4,7 @@
 #include "emulator/studies/teach/bezier_study.h"
 #include "emulator/text/json.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// Checks of a chain of Beziers; 0: none.
 struct BezierDemand {
@@ -16,6 +16,6 @@ struct BezierDemand {
 bool allowed(const BezierStudy& study, const BezierDemand& demand);
 /// One paragraph per curve and joint: polynomials, length, radius, allowed feed, jumps, repairs, errors of t(S).
 std::string render_beziers(const BezierStudy& study, const BezierDemand& demand);
-Json json_of(const BezierStudy& study, const BezierDemand& demand);
+text::Json json_of(const BezierStudy& study, const BezierDemand& demand);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

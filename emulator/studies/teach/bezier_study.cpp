@@ -8,7 +8,7 @@
 #include "emulator/text/text.h"
 #include "machine/base/parse_number.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 constexpr int kPlaces = 2000;
@@ -34,7 +34,7 @@ ReadPoints read_points(const std::string& text, std::size_t& axes) {
     if (numbers.size() != axes || axes < 2 || axes > planner::kMostBezierAxes)
       return tl::unexpected(
           fmt::format("point '{}' of '{}' has {}, {} are needed", word, text,
-                      counted(static_cast<std::int64_t>(numbers.size()), "coordinate"),
+                      text::counted(static_cast<std::int64_t>(numbers.size()), "coordinate"),
                       axes >= 2 && axes <= planner::kMostBezierAxes ? std::to_string(axes) : "2 to 9"));
     points.emplace_back();
     for (std::size_t k = 0; k < axes; ++k) {
@@ -46,7 +46,7 @@ ReadPoints read_points(const std::string& text, std::size_t& axes) {
   }
   if (points.size() < 2 || points.size() > 4)
     return tl::unexpected(fmt::format("'{}' has {}; a curve takes 2 to 4", text,
-                                      counted(static_cast<std::int64_t>(points.size()), "point")));
+                                      text::counted(static_cast<std::int64_t>(points.size()), "point")));
   if (std::all_of(points.begin(), points.end(), [&](const auto& p) { return p == points.front(); }))
     return tl::unexpected(fmt::format("'{}' has no length: all its points coincide", text));
   return points;
@@ -102,4 +102,4 @@ BezierStudy study_beziers(const std::vector<planner::Bezier>& curves, bool paper
   return study;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -5,7 +5,7 @@
 
 #include "planner/bezier/bezier.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// A t(S) and its errors.
 struct LengthTableRow {
@@ -35,4 +35,4 @@ tl::expected<std::vector<planner::Bezier>, std::string> read_beziers(const std::
 /// @param paper  with the errors of t(S) by every method of paper 004 and the quintic tables
 BezierStudy study_beziers(const std::vector<planner::Bezier>& curves, bool paper);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

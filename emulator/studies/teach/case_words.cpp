@@ -5,8 +5,10 @@
 #include <optional>
 #include <utility>
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
+
+namespace lattice = interpolator::lattice;
 
 using lattice::Turn;
 using Words = std::vector<std::string>;
@@ -263,4 +265,4 @@ CaseReading read_case(const Words& words, int axes) {
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

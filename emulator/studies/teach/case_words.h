@@ -8,7 +8,7 @@
 #include "machine/base/vocabulary.h"
 
 /// The curve to interpolate, as words: `line 7 4`. Shared by `kadr teach` and its page, so nothing here throws.
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// How a path of several lines is followed: the axes together along it, or each at its own rate from node to
 /// node (paper 002: CP and PTP).
@@ -39,8 +39,8 @@ std::string_view case_numbers(CaseKind kind);
 struct TeachCase {
   std::string title;  ///< "line 7 4"
   CaseKind kind = CaseKind::line;
-  std::vector<lattice::Curve> legs;
-  lattice::Point begin{};  ///< of the first leg
+  std::vector<interpolator::lattice::Curve> legs;
+  interpolator::lattice::Point begin{};  ///< of the first leg
   int axes = 2;
 };
 
@@ -78,10 +78,10 @@ CaseReading read_case(const std::vector<std::string>& words, int axes);
 
 /// "6400 y - x^3": whole coefficients, powers of x and y, degree kMostPolynomialDegree at most.
 struct PolynomialReading {
-  std::vector<lattice::Term> terms;
+  std::vector<interpolator::lattice::Term> terms;
   CaseFault fault = CaseFault::none;  ///< none, polynomial or degree
   std::size_t place = 0;
 };
 PolynomialReading read_terms(const std::string& text);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
+
+namespace lattice = interpolator::lattice;
 
 using lattice::Point;
 
@@ -219,4 +221,4 @@ std::vector<double> crossing_shares(const lattice::Curve& curve, const lattice::
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -5,8 +5,10 @@
 
 #include "emulator/studies/teach/deviation.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
+
+namespace lattice = interpolator::lattice;
 
 using lattice::Curve;
 using lattice::Method;
@@ -120,4 +122,4 @@ Followed follow(const TeachCase& subject, Method method, const TeachOptions& opt
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

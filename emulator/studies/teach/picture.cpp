@@ -4,8 +4,10 @@
 
 #include "emulator/interpolator/lattice/steppers.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
+
+namespace lattice = interpolator::lattice;
 
 using lattice::Curve;
 using lattice::Method;
@@ -137,4 +139,4 @@ std::vector<RosePoint> speed_rose(Method method, int directions, std::int64_t ra
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

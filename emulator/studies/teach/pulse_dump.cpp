@@ -4,7 +4,7 @@
 
 #include "emulator/studies/teach/pulses.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 /// A change of a wire, in the order of time and then of writing.
@@ -60,4 +60,4 @@ std::string render_vcd(const PulseTrain& train, std::int64_t high_ticks) {
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

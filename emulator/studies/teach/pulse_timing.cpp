@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 char axis_letter(std::size_t axis) { return "XYZABCUVW"[axis]; }
 
@@ -44,4 +44,4 @@ PulseTrain timed(const StepTable& table, PulseTiming timing, double feed_steps_s
   return train;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

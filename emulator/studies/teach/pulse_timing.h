@@ -5,7 +5,7 @@
 #include "machine/base/count.h"
 #include "machine/base/vocabulary.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// When the pulses of a step table fire.
 enum class PulseTiming : std::uint8_t {
@@ -47,4 +47,4 @@ PulseTrain timed(const StepTable& table, PulseTiming timing, double feed_steps_s
 /// Names of the axes of a case: X Y Z A B C U V W.
 char axis_letter(std::size_t axis);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

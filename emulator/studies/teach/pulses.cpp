@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 // two edges of a pulse and one of DIR need separate ticks
@@ -15,7 +15,7 @@ tl::expected<PulseTrain, std::string> pulse_train(const StepTable& table, PulseT
   if (timing == PulseTiming::crossing && table.crossings_steps.size() != table.rows.size())
     return tl::unexpected(
         fmt::format("--timing crossing goes with half_step and crossing, whose pulses are crossings; got {}",
-                    lattice::entry_of(table.method).name()));
+                    interpolator::lattice::entry_of(table.method).name()));
   PulseTrain train = timed(table, timing, feed_steps_s, clock_hz);
   if (const std::int64_t least = least_spacing_ticks(train); least < kLeastSpacing_ticks)
     return tl::unexpected(
@@ -25,4 +25,4 @@ tl::expected<PulseTrain, std::string> pulse_train(const StepTable& table, PulseT
   return train;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -5,7 +5,7 @@
 #include "emulator/studies/teach/pulse_timing.h"
 #include "emulator/studies/teach/step_table.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// The pulses of a case (timed()), if a driver can follow them.
 /// @return the pulses, or why there are none
@@ -16,4 +16,4 @@ tl::expected<PulseTrain, std::string> pulse_train(const StepTable& table, PulseT
 /// changes before it. STEP stays high for `high_ticks`, or half of the smallest spacing if that is less.
 std::string render_vcd(const PulseTrain& train, std::int64_t high_ticks);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

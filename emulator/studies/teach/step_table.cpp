@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
+
+namespace lattice = interpolator::lattice;
 
 using lattice::Curve;
 using lattice::Method;
@@ -51,4 +53,4 @@ tl::expected<StepTable, std::string> step_table(const TeachCase& subject, Method
   return std::move(followed.table);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -2,8 +2,10 @@
 
 #include <bit>
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
+
+namespace lattice = interpolator::lattice;
 
 using lattice::Curve;
 using lattice::Method;
@@ -115,4 +117,4 @@ std::uint64_t sweep_hash(std::uint32_t first, std::uint32_t count, std::uint64_t
   return hash;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -3,13 +3,13 @@
 
 #include "emulator/studies/teach/follow.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// Case number n of a sweep over all kinds of curve and all methods that know them: small lines, arcs,
 /// ellipses, parabolas and Beziers from a fixed sequence of pseudo-random numbers.
 struct SweepCase {
-  lattice::Curve curve;
-  lattice::Method method;
+  interpolator::lattice::Curve curve;
+  interpolator::lattice::Method method;
 };
 SweepCase sweep_case(std::uint32_t n);
 
@@ -19,4 +19,4 @@ SweepCase sweep_case(std::uint32_t n);
 inline constexpr std::uint64_t kSweepBegin = 1469598103934665603ULL;
 std::uint64_t sweep_hash(std::uint32_t first, std::uint32_t count, std::uint64_t hash = kSweepBegin);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 std::string fault_text(const CaseReading& reading) {
@@ -45,4 +45,4 @@ tl::expected<TeachCase, std::string> read_teach_case(const std::vector<std::stri
   return std::move(reading.subject);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

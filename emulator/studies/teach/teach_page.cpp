@@ -4,7 +4,7 @@
 
 #include "machine/base/require.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 constexpr std::string_view kStart = "<!--START-->";
@@ -40,4 +40,4 @@ std::string render_teach_page(const std::string& address) {
   return page;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// The teaching page with script, style and the core in WebAssembly, made from emulator/pages/teach at build
 /// time; empty where page_missing("teaching") says why.
@@ -19,4 +19,4 @@ std::string teach_address(const std::vector<std::string>& words, const std::vect
 /// @pre teach_template() is not empty
 std::string render_teach_page(const std::string& address);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

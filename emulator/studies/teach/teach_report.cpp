@@ -6,14 +6,17 @@
 
 #include "emulator/text/text.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
+
+namespace lattice = interpolator::lattice;
+using text::Json;
 
 // wider sequences are left to the step tables
 constexpr std::size_t kMostMoves = 48;
 
 std::string signed_steps(double value) {
-  const std::string text = fixed(value, 3);
+  const std::string text = text::fixed(value, 3);
   return value > 0 && text.find_first_of("123456789") != text.npos ? "+" + text : text;
 }
 
@@ -37,7 +40,7 @@ std::string end_text(const StepTable& table) {
 }
 
 std::string square_text(const StepTable& table) {
-  return table.worst_square_steps < 0 ? "-" : fixed(table.worst_square_steps, 4);
+  return table.worst_square_steps < 0 ? "-" : text::fixed(table.worst_square_steps, 4);
 }
 
 /// "XY X XY": the moves of a table in one line.
@@ -64,7 +67,7 @@ std::string move_text(const lattice::Slot& slot, int axes) {
 }
 
 std::string render_step_table(const TeachCase& subject, const StepTable& table) {
-  std::vector<TextTable::Column> columns = {{"i"}};
+  std::vector<text::TextTable::Column> columns = {{"i"}};
   for (std::size_t k = 0; k < static_cast<std::size_t>(table.axes); ++k) columns.push_back({lower_letter(k)});
   for (const std::string* name : {&table.value_name, &table.tested_name, &table.tested_y_name})
     if (!name->empty()) columns.push_back({*name});
@@ -72,7 +75,7 @@ std::string render_step_table(const TeachCase& subject, const StepTable& table) 
   if (parametric) columns.push_back({"t"});
   columns.push_back({"move"});
   columns.push_back({"deviation"});
-  TextTable text(std::move(columns));
+  text::TextTable text(std::move(columns));
   const auto add = [&](std::size_t i, const StepRow& row, bool last) {
     std::vector<std::string> cells = {std::to_string(i)};
     for (std::size_t k = 0; k < static_cast<std::size_t>(table.axes); ++k)
@@ -82,11 +85,11 @@ std::string render_step_table(const TeachCase& subject, const StepTable& table) 
                                                                   {&table.tested_y_name, row.slot.tested_y}};
     for (const auto& [name, value] : values)
       if (!name->empty()) cells.push_back(last ? "" : std::to_string(value));
-    if (parametric) cells.push_back(last ? "" : fixed(row.slot.parameter, 6));
+    if (parametric) cells.push_back(last ? "" : text::fixed(row.slot.parameter, 6));
     cells.push_back(last ? "end" : move_text(row.slot, table.axes) + (row.slot.forced ? "!" : ""));
     // a curve in the plane has two sides
     cells.push_back(table.axes == 2 && !parametric ? signed_steps(row.deviation_steps)
-                                                   : fixed(row.deviation_steps, 3));
+                                                   : text::fixed(row.deviation_steps, 3));
     text.add(std::move(cells));
   };
   for (std::size_t i = 0; i < table.rows.size(); ++i) add(i, table.rows[i], false);
@@ -96,14 +99,14 @@ std::string render_step_table(const TeachCase& subject, const StepTable& table) 
       fmt::format("{}, {}: {}; deviation in steps\n", subject.title, method.name(), method.meaning());
   out += text.render();
   out += fmt::format("{}, {}, {} with several axes, {} idle, {} forced by the end (!)\n",
-                     counted(static_cast<std::int64_t>(table.rows.size()), "slot"),
-                     counted(table.pulses, "pulse"), counted(table.diagonals, "slot"), grouped(table.idle),
-                     grouped(table.forced));
-  out += fmt::format("largest deviation {} steps, root mean square {} steps", fixed(table.worst_steps, 4),
-                     fixed(table.rms_steps, 4));
+                     text::counted(static_cast<std::int64_t>(table.rows.size()), "slot"),
+                     text::counted(table.pulses, "pulse"), text::counted(table.diagonals, "slot"),
+                     text::grouped(table.idle), text::grouped(table.forced));
+  out += fmt::format("largest deviation {} steps, root mean square {} steps",
+                     text::fixed(table.worst_steps, 4), text::fixed(table.rms_steps, 4));
   if (table.worst_square_steps >= 0) out += fmt::format(", in the larger axis {} steps", square_text(table));
-  out += fmt::format("\n{}; path {} steps; steps hash {}\n", end_text(table), fixed(table.length_steps, 3),
-                     hash_text(table));
+  out += fmt::format("\n{}; path {} steps; steps hash {}\n", end_text(table),
+                     text::fixed(table.length_steps, 3), hash_text(table));
   return out;
 }
 
@@ -178,35 +181,36 @@ Json json_of(const TeachCase& subject, const StepTable& table) {
 }
 
 std::string render_comparison(const TeachCase& subject, const std::vector<StepTable>& tables) {
-  using Align = TextTable::Align;
-  TextTable text({{"method", Align::left},
-                  {"slots"},
-                  {"pulses"},
-                  {"idle"},
-                  {"forced"},
-                  {"largest"},
-                  {"rms"},
-                  {"larger axis"},
-                  {"steps hash", Align::left},
-                  {"end", Align::left}});
+  using Align = text::TextTable::Align;
+  text::TextTable text({{"method", Align::left},
+                        {"slots"},
+                        {"pulses"},
+                        {"idle"},
+                        {"forced"},
+                        {"largest"},
+                        {"rms"},
+                        {"larger axis"},
+                        {"steps hash", Align::left},
+                        {"end", Align::left}});
   bool few = true;
   std::size_t width = 0;
   for (const StepTable& t : tables) {
     text.add({std::string(lattice::entry_of(t.method).name()),
-              grouped(static_cast<std::int64_t>(t.rows.size())), grouped(t.pulses), grouped(t.idle),
-              grouped(t.forced), fixed(t.worst_steps, 4), fixed(t.rms_steps, 4), square_text(t), hash_text(t),
+              text::grouped(static_cast<std::int64_t>(t.rows.size())), text::grouped(t.pulses),
+              text::grouped(t.idle), text::grouped(t.forced), text::fixed(t.worst_steps, 4),
+              text::fixed(t.rms_steps, 4), square_text(t), hash_text(t),
               t.end_reached ? "reached" : "missed: at " + node_text(t.last.node, t.axes)});
     few = few && t.rows.size() <= kMostMoves;
     width = std::max(width, lattice::entry_of(t.method).name().size());
   }
-  std::string out =
-      fmt::format("{}: path {} steps, end {}; deviations in steps\n", subject.title,
-                  fixed(tables.front().length_steps, 3), node_text(tables.front().end, tables.front().axes));
+  std::string out = fmt::format("{}: path {} steps, end {}; deviations in steps\n", subject.title,
+                                text::fixed(tables.front().length_steps, 3),
+                                node_text(tables.front().end, tables.front().axes));
   out += text.render();
   if (!few) return out;
   out += "\nmoves (small letters: backwards)\n";
   for (const StepTable& t : tables)
-    out += fmt::format("{}  {}\n", pad_right(lattice::entry_of(t.method).name(), width), moves_line(t));
+    out += fmt::format("{}  {}\n", text::pad_right(lattice::entry_of(t.method).name(), width), moves_line(t));
   return out;
 }
 
@@ -232,14 +236,14 @@ Json comparison_json(const TeachCase& subject, const std::vector<StepTable>& tab
 std::string render_spacing(const PulseTrain& train) {
   std::string out = fmt::format(
       "time between pulses, {} us in all:",
-      fixed(1e6 * static_cast<double>(train.duration.value) / static_cast<double>(train.clock_hz), 1));
+      text::fixed(1e6 * static_cast<double>(train.duration.value) / static_cast<double>(train.clock_hz), 1));
   for (std::size_t k = 0; k < train.axis.size(); ++k) {
     const Spacing s = spacing_of(train.axis[k]);
     const double tick_us = 1e6 / static_cast<double>(train.clock_hz);
     out += s.most_ticks == 0 ? fmt::format("   {} -", axis_letter(k))
                              : fmt::format("   {} {} .. {} us", axis_letter(k),
-                                           fixed(static_cast<double>(s.least_ticks) * tick_us, 1),
-                                           fixed(static_cast<double>(s.most_ticks) * tick_us, 1));
+                                           text::fixed(static_cast<double>(s.least_ticks) * tick_us, 1),
+                                           text::fixed(static_cast<double>(s.most_ticks) * tick_us, 1));
   }
   return out + "\n";
 }
@@ -259,4 +263,4 @@ Json json_of(const PulseTrain& train) {
   return j;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -1,7 +1,9 @@
 #include "emulator/studies/time_law/law_report.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
+
+using text::Json;
 
 Json failure_json(const planner::LawFailure& failure) {
   return {{"node", failure.node}, {"s_mm", failure.s_u}, {"reason", failure.reason}};
@@ -85,4 +87,4 @@ Json json_of(const LawStudy& study, const TimeLawProblem& problem) {
   return j;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -8,7 +8,7 @@
 #include "emulator/text/text.h"
 #include "machine/base/parse_number.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 constexpr std::size_t kLineLength = 100;
@@ -16,10 +16,12 @@ constexpr std::size_t kLineLength = 100;
 /// Figures of any size in a column: whole from 100 on.
 std::string figure(double value) {
   if (value >= 1e9) return fmt::format("{:.3e}", value);
-  return value >= 100 ? fixed(value, 0) : significant(value);
+  return value >= 100 ? text::fixed(value, 0) : text::significant(value);
 }
 
-std::string seconds(double value) { return value < 1e5 ? fixed(value, 5) : fmt::format("{:.6g}", value); }
+std::string seconds(double value) {
+  return value < 1e5 ? text::fixed(value, 5) : fmt::format("{:.6g}", value);
+}
 
 const MethodOutcome* worst_between(const LawStudy& study) {
   const MethodOutcome* worst = nullptr;
@@ -43,7 +45,7 @@ std::string render_shares(const LawStudy& study, const TimeLawProblem& problem) 
   };
   for (const auto& [name, nodes] : law_shares(*fastest->law, problem)) {
     const double percent = 100 * static_cast<double>(nodes) / static_cast<double>(problem.law.nodes() - 1);
-    add(fmt::format("{} {} %   ", name, fixed(percent, percent < 1 ? 1 : 0)));
+    add(fmt::format("{} {} %   ", name, text::fixed(percent, percent < 1 ? 1 : 0)));
   }
   add(fmt::format("(of nodes, {})", kLawMethods.word(fastest->method)));
   return out + line + '\n';
@@ -60,7 +62,7 @@ std::optional<std::size_t> axis_of(std::string_view what) {
 }  // namespace
 
 std::string signed_percent(double ratio) {
-  const std::string text = fixed(100 * ratio, 4);
+  const std::string text = text::fixed(100 * ratio, 4);
   return ratio > 0 && text.find_first_of("123456789") != text.npos ? "+" + text : text;
 }
 
@@ -116,22 +118,23 @@ LimitText limit_text(const planner::LawViolation& violation, const TimeLawProble
 std::string render_problem(const TimeLawProblem& p, std::string_view file) {
   std::string out =
       fmt::format("{}: {}, {} nodes over {} mm, {}, accelerations held at {}\n", file, p.name,
-                  grouped(static_cast<std::int64_t>(p.law.nodes())), fixed(p.law.length_u(), 3),
-                  counted(static_cast<std::int64_t>(p.law.axes), "axis", "axes"),
+                  text::grouped(static_cast<std::int64_t>(p.law.nodes())), text::fixed(p.law.length_u(), 3),
+                  text::counted(static_cast<std::int64_t>(p.law.axes), "axis", "axes"),
                   p.law.accel_test == planner::AccelTest::end_node ? "end nodes" : "both nodes");
   if (!p.program) return out;
   const ProgramPath& program = *p.program;
   out += fmt::format("program  {} on {}, {} pieces of lines {} to {}\n", program.program, program.machine,
-                     grouped(static_cast<std::int64_t>(program.run.last - program.run.first + 1)),
+                     text::grouped(static_cast<std::int64_t>(program.run.last - program.run.first + 1)),
                      program.first_line, program.last_line);
   if (!program.fit) return out;
   const planner::SplineFit& fit = *program.fit;
   return out + fmt::format(
                    "spline   through {} points, {} mm from the lines at most (line {}), allowed {:g} mm; "
                    "s runs {} to {} of its length\n",
-                   grouped(static_cast<std::int64_t>(fit.path.rows())), significant(fit.deviation_u),
-                   program.path.segments[fit.segment].span.line, program.tolerance_mm,
-                   fixed(1 / fit.most_slope, 6), fixed(1 / fit.least_slope, 6));
+                   text::grouped(static_cast<std::int64_t>(fit.path.rows())),
+                   text::significant(fit.deviation_u), program.path.segments[fit.segment].span.line,
+                   program.tolerance_mm, text::fixed(1 / fit.most_slope, 6),
+                   text::fixed(1 / fit.least_slope, 6));
 }
 
 std::string render_tube_log(const TubeStory& tube, const planner::LawSolution* law, double length_mm,
@@ -152,7 +155,7 @@ std::string render_tube_log(const TubeStory& tube, const planner::LawSolution* l
   if (tube.passes.empty()) return out;
   if (tube.lost)
     out += fmt::format(">> The next pass finds no law at node {}, s = {} mm.\n", tube.lost->node,
-                       fixed(tube.lost->s_u, 3));
+                       text::fixed(tube.lost->s_u, 3));
   else if (tube.capped && !settled)
     out += fmt::format(">> Ended by the number of passes, {}.\n", options.most_passes);
   else if (!settled)
@@ -170,26 +173,26 @@ std::string render_tube_log(const TubeStory& tube, const planner::LawSolution* l
 }
 
 std::string render_law_table(const LawStudy& study, bool timing) {
-  using Align = TextTable::Align;
-  std::vector<TextTable::Column> columns = {
+  using Align = text::TextTable::Align;
+  std::vector<text::TextTable::Column> columns = {
       {"method", Align::left}, {"T s"},        {"J s"},      {"gap %"}, {"Enorm"}, {"rms jerk"},
       {"peak jerk"},           {"at nodes %"}, {"between %"}};
   if (timing) columns.push_back({"wall ms"});
-  TextTable table(std::move(columns));
+  text::TextTable table(std::move(columns));
   for (const MethodOutcome& o : study.outcomes) {
     std::vector<std::string> cells(9, "-");
     cells[0] = kLawMethods.word(o.method);
     if (o.law) {
       cells[1] = seconds(o.law->time_s);
       cells[2] = seconds(o.law->cost_s);
-      if (study.lower_bound_s > 0) cells[3] = fixed(100 * (o.law->cost_s / study.lower_bound_s - 1), 4);
+      if (study.lower_bound_s > 0) cells[3] = text::fixed(100 * (o.law->cost_s / study.lower_bound_s - 1), 4);
       cells[4] = figure(o.metrics.relative_energy);
       cells[5] = figure(o.metrics.rms_jerk_u_s3);
       cells[6] = figure(o.metrics.peak_jerk_u_s3);
       cells[7] = signed_percent(o.check.node_excess);
       cells[8] = signed_percent(o.check.dense_excess);
     }
-    if (timing) cells.push_back(fixed(1000 * o.wall_s, 2));
+    if (timing) cells.push_back(text::fixed(1000 * o.wall_s, 2));
     table.add(std::move(cells));
   }
   return table.render();
@@ -203,11 +206,12 @@ std::string render_law_checks(const LawStudy& study, const TimeLawProblem& probl
   for (const MethodOutcome& o : study.outcomes) {
     if (!o.law)
       out += fmt::format("no law   {}: node {}, s = {} mm: {}\n", kLawMethods.word(o.method),
-                         o.law.error().node, fixed(o.law.error().s_u, 3), o.law.error().reason);
+                         o.law.error().node, text::fixed(o.law.error().s_u, 3), o.law.error().reason);
     for (const planner::LawViolation& b : o.check.broken) {
       const LimitText text = limit_text(b, problem);
       out += fmt::format("broken   {}: {} at s = {} mm is {:.8g} {}, allowed {:.8g}\n",
-                         kLawMethods.word(o.method), text.what, fixed(b.s_u, 3), b.value, text.unit, b.limit);
+                         kLawMethods.word(o.method), text.what, text::fixed(b.s_u, 3), b.value, text.unit,
+                         b.limit);
     }
   }
   const MethodOutcome* worst = worst_between(study);
@@ -218,7 +222,7 @@ std::string render_law_checks(const LawStudy& study, const TimeLawProblem& probl
   if (worst->check.dense_excess > 0)
     out +=
         fmt::format("between  nodes, where nothing is promised, a limit is exceeded by {} % at most ({})\n",
-                    fixed(100 * worst->check.dense_excess, 4), kLawMethods.word(worst->method));
+                    text::fixed(100 * worst->check.dense_excess, 4), kLawMethods.word(worst->method));
   else
     out += "between  nodes, where nothing is promised, every limit is kept as well\n";
   if (problem.law.accel_test == planner::AccelTest::end_node && worst->check.dense_excess > 1e-3)
@@ -258,4 +262,4 @@ void write_law_csv(const LawStudy& study, const TimeLawProblem& problem,
   sink(out);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

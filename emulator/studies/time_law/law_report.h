@@ -9,7 +9,7 @@
 #include "emulator/text/json.h"
 
 /// The output of `kadr tube` about the laws of a problem.
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// "docs/tube/laying.toml: laying, 893 nodes over 2 846.900 mm, 7 axes, ..."; for a path by program a line
 /// more with its stretch, and one with the deviation of a spline through it.
@@ -24,7 +24,7 @@ std::string render_law_table(const LawStudy& study, bool timing);
 std::string render_law_checks(const LawStudy& study, const TimeLawProblem& problem);
 
 /// {"problem", "lower_bound_s", "methods", "passes", ...}; no wall times.
-Json json_of(const LawStudy& study, const TimeLawProblem& problem);
+text::Json json_of(const LawStudy& study, const TimeLawProblem& problem);
 
 /// "s_mm,cap_mm_s,held_by,tube_mm_s,tube_t_s,...": one row per node, a pair of columns per law found; in
 /// pieces. Of a path by program "s_mm,line,cap_mm_s,...".
@@ -44,4 +44,4 @@ LimitText limit_text(const planner::LawViolation& violation, const TimeLawProble
 /// "+2.4794", "0.0000"
 std::string signed_percent(double ratio);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

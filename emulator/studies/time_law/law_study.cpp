@@ -9,7 +9,7 @@
 #include "emulator/text/text.h"
 #include "machine/file/tree.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 using planner::LawResult;
@@ -72,9 +72,10 @@ std::optional<Diagnostic> check_size(const TimeLawProblem& problem, const std::v
         planner::law_method(method).work(problem.law, settings_of(problem, keep_profiles));
     std::string measured, allowed;
     if (work.memory_bytes > kMostMemory_bytes) {
-      measured = fmt::format("needs about {} for {} nodes",
-                             bytes_text(static_cast<std::int64_t>(work.memory_bytes)), problem.law.nodes());
-      allowed = bytes_text(static_cast<std::int64_t>(kMostMemory_bytes));
+      measured =
+          fmt::format("needs about {} for {} nodes",
+                      text::bytes_text(static_cast<std::int64_t>(work.memory_bytes)), problem.law.nodes());
+      allowed = text::bytes_text(static_cast<std::int64_t>(kMostMemory_bytes));
     } else if (work.transitions > kMostTransitions) {
       measured = fmt::format("looks at up to {:.1e} transitions per pass, nodes times levels squared",
                              work.transitions);
@@ -110,4 +111,4 @@ LawStudy study_laws(const TimeLawProblem& problem, const std::vector<PlanMethod>
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

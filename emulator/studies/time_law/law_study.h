@@ -6,7 +6,7 @@
 #include "emulator/studies/time_law/problem.h"
 #include "machine/plan_method.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 using machine::kLawMethods;
 using machine::PlanMethod;
@@ -57,4 +57,4 @@ using StudyProgress = std::function<void(PlanMethod method, std::string_view sta
 LawStudy study_laws(const TimeLawProblem& problem, const std::vector<PlanMethod>& methods, bool keep_profiles,
                     const StudyProgress& progress = nullptr);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 bool LevelSweep::good() const {
   return std::all_of(rows.begin(), rows.end(), [](const SweepRow& r) { return r.law && r.kept; });
@@ -27,4 +27,4 @@ LevelSweep sweep_levels(const TimeLawProblem& problem, std::int32_t first, std::
   return out;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

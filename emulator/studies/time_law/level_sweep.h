@@ -4,7 +4,7 @@
 
 #include "emulator/studies/time_law/problem.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// The tube with one number of levels.
 struct SweepRow {
@@ -26,4 +26,4 @@ struct LevelSweep {
 LevelSweep sweep_levels(const TimeLawProblem& problem, std::int32_t first, std::int32_t last,
                         const std::function<void(std::int32_t)>& each);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

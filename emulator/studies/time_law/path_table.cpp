@@ -11,7 +11,7 @@
 #include "machine/base/parse_number.h"
 #include "machine/file/tree.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 constexpr std::size_t kMostMistakes = 20;
@@ -43,7 +43,7 @@ class TableText {
     if (diagnostics_.errors() != errors) return {};
     if (table_.s_u.size() < 4) {
       tell({file_, std::max(line_, 1u), 1, 1},
-           counted(static_cast<std::int64_t>(table_.s_u.size()), "row") + ", at least 4 are needed");
+           text::counted(static_cast<std::int64_t>(table_.s_u.size()), "row") + ", at least 4 are needed");
       return {};
     }
     return std::move(table_);
@@ -172,4 +172,4 @@ std::optional<PathTable> read_path_table(const SourceSet& sources, std::uint32_t
   return TableText(sources, file, axes, diagnostics).read();
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -6,7 +6,7 @@
 
 #include "machine/base/diagnostic.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 struct PathTable {
   std::vector<double> s_u;     // [rows], ascending
@@ -20,4 +20,4 @@ struct PathTable {
 std::optional<PathTable> read_path_table(const SourceSet& sources, std::uint32_t file,
                                          const std::vector<std::string>& axes, Diagnostics& diagnostics);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -10,7 +10,7 @@
 #include "planner/time_law/time_law.h"
 
 /// Problems of time along a path, as files state them, and the laws that solve them (docs/time_law.md).
-namespace kadr::emulator {
+namespace kadr::studies {
 
 inline constexpr double kMostNodes = 2'000'000;
 inline constexpr std::size_t kMostPathAxes = 32;
@@ -65,4 +65,4 @@ struct TimeLawProblem {
 /// @throws std::system_error for a table that is there and can't be read
 tl::expected<TimeLawProblem, Diagnostics> read_time_law_problem(SourceSet& sources, std::uint32_t file);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

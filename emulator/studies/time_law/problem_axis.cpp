@@ -9,7 +9,7 @@
 #include "emulator/studies/time_law/problem_machine.h"
 #include "machine/base/numbers.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 using machine::Bounds;
@@ -149,4 +149,4 @@ void read_problem_axis(const Node& node, bool by_table, machine::MachineModel* m
   AxisReader(machine, out, context).read(node, by_table);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -4,7 +4,7 @@
 
 /// Ranges of keys of a problem file that more than one reader uses. The outer ends are far
 /// beyond any path: they keep squares, products and angles of the values within reach.
-namespace kadr::emulator {
+namespace kadr::studies {
 
 inline constexpr machine::Bounds kSpeed{1e-6, 1e9};
 inline constexpr machine::Bounds kAcceleration{1e-6, 1e12};
@@ -16,4 +16,4 @@ inline planner::SplineEnds read_spline_ends(machine::TableReader& keys) {
   return keys.choice("ends", planner::kSplineEnds, planner::SplineEnds::not_a_knot).value;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

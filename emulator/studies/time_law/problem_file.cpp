@@ -10,7 +10,7 @@
 #include "emulator/studies/time_law/program_problem.h"
 #include "machine/file/table_reader.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 namespace fs = std::filesystem;
@@ -337,4 +337,4 @@ tl::expected<TimeLawProblem, Diagnostics> read_time_law_problem(SourceSet& sourc
   return reader.take();
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

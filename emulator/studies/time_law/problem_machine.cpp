@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 namespace fs = std::filesystem;
 
@@ -47,4 +47,4 @@ machine::AxisModel* find_problem_axis(machine::MachineModel& machine,
   return nullptr;
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

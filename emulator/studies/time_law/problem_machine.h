@@ -4,7 +4,7 @@
 
 #include "machine/file/table_reader.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// Reads the machine that a problem names: one that ships with kadr, or a file next to the problem.
 /// @return nothing if there is none or it has mistakes (in the context's diagnostics)
@@ -17,4 +17,4 @@ machine::AxisModel* find_problem_axis(machine::MachineModel& machine,
                                       const machine::Reading<std::string>& name,
                                       machine::ReadContext& context);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

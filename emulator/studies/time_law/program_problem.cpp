@@ -10,7 +10,7 @@
 #include "emulator/studies/time_law/problem_bounds.h"
 #include "emulator/studies/time_law/problem_machine.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 namespace fs = std::filesystem;
@@ -100,12 +100,12 @@ bool ProgramProblem::lay_out(machine::MachineFile machine, TimeLawProblem& out) 
   auto program = open(program_, gcode::ReadingBounds().file_bytes);
   auto tools = tools_ ? open(*tools_, kMostTable_bytes) : std::nullopt;
   if (!program || (tools_ && !tools)) return false;
-  JobInputs given;
+  cycle::JobInputs given;
   given.machine = std::move(machine);
   Diagnostics found;
   if (tools) given.reading.tools = gcode::read_tool_table(sources_, sources_.add(std::move(*tools)), found);
   given.program = program_file_ = sources_.add(std::move(*program));
-  auto read = found.has_errors() ? std::nullopt : emulator::lay_out(given, sources_, found);
+  auto read = found.has_errors() ? std::nullopt : cycle::lay_out(given, sources_, found);
   if (read)
     for (const Diagnostic& fault : read->path.faults) found.add(fault);
   if (!read || found.has_errors()) {
@@ -248,7 +248,7 @@ bool ProgramProblem::state_spline(const std::optional<double>& nodes, TimeLawPro
 void ProgramProblem::note_nodes(const std::vector<planner::Signature>& held_by, TimeLawProblem& out) const {
   ProgramPath& program = *out.program;
   for (const planner::Signature& s : held_by) {
-    const std::string reason = limited_by_text(s.reason, s.axis, model_);
+    const std::string reason = cycle::limited_by_text(s.reason, s.axis, model_);
     const auto known = std::find(program.reasons.begin(), program.reasons.end(), reason);
     program.held_by.push_back(static_cast<std::uint16_t>(known - program.reasons.begin()));
     if (known == program.reasons.end()) program.reasons.push_back(reason);
@@ -264,4 +264,4 @@ std::optional<double> ProgramProblem::line_s_mm(const ProgramPath& program, std:
   return {};
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -6,7 +6,7 @@
 #include "emulator/studies/time_law/problem.h"
 #include "machine/file/table_reader.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// A problem whose path is a stretch of a program: its keys and how they are used.
 class ProgramProblem {
@@ -63,4 +63,4 @@ class ProgramProblem {
   std::uint32_t program_file_ = 0;
 };
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

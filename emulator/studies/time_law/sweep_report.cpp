@@ -7,23 +7,25 @@
 #include "emulator/text/line_chart.h"
 #include "emulator/text/text.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
+using text::Json;
+
 std::string gap(const LevelSweep& sweep, const planner::LawSolution& law) {
-  return sweep.lower_bound_s > 0 ? fixed(100 * (law.cost_s / sweep.lower_bound_s - 1), 4) : "-";
+  return sweep.lower_bound_s > 0 ? text::fixed(100 * (law.cost_s / sweep.lower_bound_s - 1), 4) : "-";
 }
 
 const char* ended_by(const SweepRow& row) { return row.capped ? "cap" : "rule"; }
 
 std::vector<std::string> cells(const LevelSweep& sweep, const SweepRow& row) {
   if (!row.law) return {std::to_string(row.levels), "-", "-", "-", "-", "no law"};
-  return {std::to_string(row.levels), fixed(row.law->time_s, 5),  fixed(row.law->cost_s, 5),
-          gap(sweep, *row.law),       std::to_string(row.passes), ended_by(row)};
+  return {std::to_string(row.levels), text::fixed(row.law->time_s, 5), text::fixed(row.law->cost_s, 5),
+          gap(sweep, *row.law),       std::to_string(row.passes),      ended_by(row)};
 }
 
-LineChart chart(const char* id, const char* y_label, std::string description) {
-  LineChart out;
+text::LineChart chart(const char* id, const char* y_label, std::string description) {
+  text::LineChart out;
   out.id = id;
   out.x_label = "levels";
   out.y_label = y_label;
@@ -34,7 +36,7 @@ LineChart chart(const char* id, const char* y_label, std::string description) {
 }  // namespace
 
 std::string render_sweep_table(const LevelSweep& sweep) {
-  TextTable table({{"levels"}, {"T s"}, {"J s"}, {"gap %"}, {"passes"}, {"ended by"}});
+  text::TextTable table({{"levels"}, {"T s"}, {"J s"}, {"gap %"}, {"passes"}, {"ended by"}});
   std::size_t capped = 0, lost = 0;
   for (const SweepRow& row : sweep.rows) {
     table.add(cells(sweep, row));
@@ -71,10 +73,11 @@ std::string sweep_csv(const LevelSweep& sweep) {
 }
 
 std::string render_sweep_page(const LevelSweep& sweep, const TimeLawProblem& problem, std::string_view file) {
-  LineChart time = chart("time", "time of the path, s", "Time of the tube's law over the number of levels.");
-  LineChart passes =
+  text::LineChart time =
+      chart("time", "time of the path, s", "Time of the tube's law over the number of levels.");
+  text::LineChart passes =
       chart("passes", "passes", "Passes of the tube until it ended, by its rule or by the cap.");
-  ChartLine found{"time", "tube-law", {}, 1}, count{"passes", "line", {}, 1},
+  text::ChartLine found{"time", "tube-law", {}, 1}, count{"passes", "line", {}, 1},
       cap{"ended by the cap", "cap", {}, 1};
   std::vector<std::vector<std::string>> rows{{"levels", "T, s", "J, s", "gap, %", "passes", "ended by"}};
   for (const SweepRow& row : sweep.rows) {
@@ -88,13 +91,14 @@ std::string render_sweep_page(const LevelSweep& sweep, const TimeLawProblem& pro
   passes.lines = {std::move(cap), std::move(count)};
   const std::string title = fmt::format("{}: levels of the tube", problem.name);
   std::string out = law_page_head(title);
-  out += fmt::format("<h1>{}</h1>\n<p>{}</p>\n", xml_text(title), xml_text(render_problem(problem, file)));
-  if (!time.lines.empty()) out += "<h2>Time over levels</h2>\n" + render_svg(time);
-  out += "<h2>Passes over levels</h2>\n" + render_svg(passes);
+  out += fmt::format("<h1>{}</h1>\n<p>{}</p>\n", text::xml_text(title),
+                     text::xml_text(render_problem(problem, file)));
+  if (!time.lines.empty()) out += "<h2>Time over levels</h2>\n" + text::render_svg(time);
+  out += "<h2>Passes over levels</h2>\n" + text::render_svg(passes);
   out += law_page_table("The tube by levels. Gap: of J to the proved bound.", rows);
   return out +
          fmt::format("<p>kadr {}, <code>kadr tube {} --sweep-levels {}..{}</code></p>\n</body>\n</html>\n",
-                     KADR_VERSION, xml_text(file), sweep.rows.front().levels, sweep.rows.back().levels);
+                     KADR_VERSION, text::xml_text(file), sweep.rows.front().levels, sweep.rows.back().levels);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

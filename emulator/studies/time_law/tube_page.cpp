@@ -10,7 +10,7 @@
 #include "emulator/text/line_chart.h"
 #include "emulator/text/text.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 namespace {
 
 constexpr std::size_t kTubesShown = 3;  ///< the last passes, whose edges are drawn
@@ -35,20 +35,21 @@ summary { cursor: pointer; color: var(--soft); margin: 0.25rem 0; } pre { overfl
 
 /// A table of HTML; the first row is its head.
 std::string html_table(const std::string& caption, const std::vector<std::vector<std::string>>& rows) {
-  std::string out = fmt::format("<div class=\"scroll\"><table><caption>{}</caption>\n", xml_text(caption));
+  std::string out =
+      fmt::format("<div class=\"scroll\"><table><caption>{}</caption>\n", text::xml_text(caption));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     out += "<tr>";
     for (std::size_t k = 0; k < rows[i].size(); ++k)
-      out += i == 0   ? fmt::format("<th scope=\"col\">{}</th>", xml_text(rows[i][k]))
-             : k == 0 ? fmt::format("<th scope=\"row\">{}</th>", xml_text(rows[i][k]))
-                      : fmt::format("<td>{}</td>", xml_text(rows[i][k]));
+      out += i == 0   ? fmt::format("<th scope=\"col\">{}</th>", text::xml_text(rows[i][k]))
+             : k == 0 ? fmt::format("<th scope=\"row\">{}</th>", text::xml_text(rows[i][k]))
+                      : fmt::format("<td>{}</td>", text::xml_text(rows[i][k]));
     out += "</tr>\n";
   }
   return out + "</table></div>\n";
 }
 
 std::string folded_table(const std::string& caption, const std::vector<std::vector<std::string>>& rows) {
-  return fmt::format("<details><summary>{} as numbers</summary>\n{}</details>\n", xml_text(caption),
+  return fmt::format("<details><summary>{} as numbers</summary>\n{}</details>\n", text::xml_text(caption),
                      html_table(caption, rows));
 }
 
@@ -59,34 +60,35 @@ class Page {
 
   std::string text(std::string_view file) {
     std::string out = law_page_head(fmt::format("{} - time laws", p_.name));
-    out += fmt::format("<h1>{}</h1>\n<p>{}</p>\n", xml_text(p_.name), xml_text(render_problem(p_, file)));
+    out += fmt::format("<h1>{}</h1>\n<p>{}</p>\n", text::xml_text(p_.name),
+                       text::xml_text(render_problem(p_, file)));
     out += methods();
     const bool passes = !study_.tube.profiles_mm_s.empty();
     out += passes ? pass_charts() : method_chart_over_path();
     out += time_chart();
     out += fmt::format("<h2>What the check found</h2>\n<pre>{}</pre>\n",
-                       xml_text(render_law_checks(study_, p_)));
+                       text::xml_text(render_law_checks(study_, p_)));
     if (passes) out += pass_table();
     return out + fmt::format("<p>kadr {}, <code>kadr tube {}</code></p>\n</body>\n</html>\n", KADR_VERSION,
-                             xml_text(file));
+                             text::xml_text(file));
   }
 
  private:
-  std::vector<ChartPoint> over_path(const std::vector<double>& speed_mm_s) const {
-    std::vector<ChartPoint> points(speed_mm_s.size());
+  std::vector<text::ChartPoint> over_path(const std::vector<double>& speed_mm_s) const {
+    std::vector<text::ChartPoint> points(speed_mm_s.size());
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = {p_.law.s_u[i], speed_mm_s[i]};
     return points;
   }
 
-  ChartLine cap_line() const {
-    ChartLine line{"highest speed of a node", "cap", {}, 1};
+  text::ChartLine cap_line() const {
+    text::ChartLine line{"highest speed of a node", "cap", {}, 1};
     for (std::size_t i = 0; i < caps_.size(); ++i) line.points.push_back({p_.law.s_u[i], caps_[i].speed_u_s});
     return line;
   }
 
   /// Edges of the tube of a pass: around the previous profile, within 0 and the caps.
-  ChartBand tube_band(std::size_t pass) const {
-    ChartBand band{"", "tube", {}, {}};
+  text::ChartBand tube_band(std::size_t pass) const {
+    text::ChartBand band{"", "tube", {}, {}};
     const std::vector<double>& middle = study_.tube.profiles_mm_s[pass - 1];
     const double half = study_.tube.passes[pass].half_width_u_s;
     for (std::size_t i = 0; i < middle.size(); ++i) {
@@ -99,8 +101,8 @@ class Page {
   }
 
   /// Lines of all passes from `first` on, and the tubes of the last ones.
-  LineChart pass_chart(const std::string& id, std::size_t first) const {
-    LineChart chart;
+  text::LineChart pass_chart(const std::string& id, std::size_t first) const {
+    text::LineChart chart;
     chart.id = id;
     chart.x_label = "s, mm";
     chart.y_label = "speed along the path, mm/s";
@@ -116,7 +118,7 @@ class Page {
     chart.lines.push_back(cap_line());
     for (std::size_t pass = first; pass < count; ++pass) {
       const bool last = pass + 1 == count;
-      ChartLine line{"", last ? "last" : pass == 0 ? "first" : "pass", over_path(profiles[pass]), 1};
+      text::ChartLine line{"", last ? "last" : pass == 0 ? "first" : "pass", over_path(profiles[pass]), 1};
       if (pass == 0 || last) line.label = fmt::format("pass {}", pass + 1);
       if (pass > 0 && !last) {
         const std::size_t from = std::max<std::size_t>(first, 1);
@@ -132,7 +134,7 @@ class Page {
   }
 
   std::string pass_charts() const {
-    LineChart chart = pass_chart("passes", 0);
+    text::LineChart chart = pass_chart("passes", 0);
     const std::size_t count = study_.tube.profiles_mm_s.size();
     chart.description = fmt::format(
         "Speed along the path in each of {} passes of the tube, below the highest "
@@ -141,12 +143,12 @@ class Page {
     std::string out = fmt::format(
         "<h2>Speed along the path, pass by pass</h2>\n<p>Each pass looks for the best "
         "law in a tube around the previous one.</p>\n{}",
-        render_svg(chart));
+        text::render_svg(chart));
     std::vector<std::vector<std::string>> rows{{"s, mm", "highest"}};
     for (std::size_t pass = 0; pass < count; ++pass) rows[0].push_back(fmt::format("pass {}", pass + 1));
     for (const std::size_t i : table_nodes()) {
-      rows.push_back({fixed(p_.law.s_u[i], 1), fixed(caps_[i].speed_u_s, 2)});
-      for (const auto& profile : study_.tube.profiles_mm_s) rows.back().push_back(fixed(profile[i], 2));
+      rows.push_back({text::fixed(p_.law.s_u[i], 1), text::fixed(caps_[i].speed_u_s, 2)});
+      for (const auto& profile : study_.tube.profiles_mm_s) rows.back().push_back(text::fixed(profile[i], 2));
     }
     out += folded_table("Speed in mm/s in each pass", rows);
     return count > 1 ? out + close_up() : out;
@@ -160,28 +162,28 @@ class Page {
     std::size_t at = 0;
     for (std::size_t i = 0; i < last.size(); ++i)
       if (std::fabs(last[i] - before[i]) > std::fabs(last[at] - before[at])) at = i;
-    LineChart chart = pass_chart("closeup", count - std::min(count, kTubesShown));
+    text::LineChart chart = pass_chart("closeup", count - std::min(count, kTubesShown));
     const double length = p_.law.length_u(), width = 2 * kCloseUp * length;
     const double low =
         std::clamp(p_.law.s_u[at] - kCloseUp * length, p_.law.s_u.front(), p_.law.s_u.back() - width);
-    chart.x = ChartRange{low, low + width};
-    ChartRange y{last[at], last[at]};
-    for (const ChartBand& band : chart.bands)
+    chart.x = text::ChartRange{low, low + width};
+    text::ChartRange y{last[at], last[at]};
+    for (const text::ChartBand& band : chart.bands)
       for (std::size_t i = 0; i < band.lower.size(); ++i) {
         if (band.lower[i].x < low || band.lower[i].x > low + width) continue;
         y = {std::min(y.low, band.lower[i].y), std::max(y.high, band.upper[i].y)};
       }
     const double margin = 0.06 * (y.high - y.low);
-    chart.y = ChartRange{y.low - margin, y.high + margin};
+    chart.y = text::ChartRange{y.low - margin, y.high + margin};
     chart.description =
         fmt::format("The same near s = {} mm, where the last two passes differ most: by {} mm/s.",
-                    fixed(p_.law.s_u[at], 1), fixed(std::fabs(last[at] - before[at]), 2));
+                    text::fixed(p_.law.s_u[at], 1), text::fixed(std::fabs(last[at] - before[at]), 2));
     return fmt::format("<h2>Close-up of the last passes</h2>\n<p>{}</p>\n{}", chart.description,
-                       render_svg(chart));
+                       text::render_svg(chart));
   }
 
   std::string method_chart_over_path() const {
-    LineChart chart;
+    text::LineChart chart;
     chart.id = "path";
     chart.x_label = "s, mm";
     chart.y_label = "speed along the path, mm/s";
@@ -189,46 +191,47 @@ class Page {
     chart.lines.push_back(cap_line());
     std::vector<std::vector<std::string>> rows{{"s, mm", "highest"}};
     for (const std::size_t i : table_nodes())
-      rows.push_back({fixed(p_.law.s_u[i], 1), fixed(caps_[i].speed_u_s, 2)});
+      rows.push_back({text::fixed(p_.law.s_u[i], 1), text::fixed(caps_[i].speed_u_s, 2)});
     for (const MethodOutcome* o : found()) {
       chart.lines.push_back(
           {std::string(kLawMethods.word(o->method)), style(o->method), over_path(o->law->speed_u_s), 1});
       rows[0].emplace_back(kLawMethods.word(o->method));
       std::size_t row = 0;
-      for (const std::size_t i : table_nodes()) rows[++row].push_back(fixed(o->law->speed_u_s[i], 2));
+      for (const std::size_t i : table_nodes()) rows[++row].push_back(text::fixed(o->law->speed_u_s[i], 2));
     }
-    return fmt::format("<h2>Speed along the path</h2>\n{}{}", render_svg(chart),
+    return fmt::format("<h2>Speed along the path</h2>\n{}{}", text::render_svg(chart),
                        folded_table("Speed in mm/s of every method", rows));
   }
 
   std::string time_chart() const {
-    LineChart chart;
+    text::LineChart chart;
     chart.id = "time";
     chart.x_label = "t, s";
     chart.y_label = "speed along the path, mm/s";
     chart.description = "Speed along the path over time, of every method.";
     double longest_s = 0;
     for (const MethodOutcome* o : found()) {
-      chart.lines.push_back({fmt::format("{}, {} s", kLawMethods.word(o->method), fixed(o->law->time_s, 4)),
-                             style(o->method), over_time(*o->law), 1});
+      chart.lines.push_back(
+          {fmt::format("{}, {} s", kLawMethods.word(o->method), text::fixed(o->law->time_s, 4)),
+           style(o->method), over_time(*o->law), 1});
       longest_s = std::max(longest_s, o->law->time_s);
     }
     if (chart.lines.empty()) return "<p>No method found a law.</p>\n";
     std::vector<std::vector<std::string>> rows{{"t, s"}};
     for (std::size_t k = 0; k <= kTableRows; ++k) {
       const double t = longest_s * static_cast<double>(k) / kTableRows;
-      rows.push_back({fixed(t, 4)});
-      for (const ChartLine& line : chart.lines)
-        rows.back().push_back(t <= line.points.back().x ? fixed(value_at(line.points, t), 2) : "");
+      rows.push_back({text::fixed(t, 4)});
+      for (const text::ChartLine& line : chart.lines)
+        rows.back().push_back(t <= line.points.back().x ? text::fixed(value_at(line.points, t), 2) : "");
     }
     for (const MethodOutcome* o : found()) rows[0].emplace_back(kLawMethods.word(o->method));
-    return fmt::format("<h2>Speed over time</h2>\n{}{}", render_svg(chart),
+    return fmt::format("<h2>Speed over time</h2>\n{}{}", text::render_svg(chart),
                        folded_table("Speed in mm/s over time", rows));
   }
 
   /// Acceleration is constant between nodes, so speed is linear in time.
-  std::vector<ChartPoint> over_time(const planner::LawSolution& law) const {
-    std::vector<ChartPoint> points{{0.0, law.speed_u_s[0]}};
+  std::vector<text::ChartPoint> over_time(const planner::LawSolution& law) const {
+    std::vector<text::ChartPoint> points{{0.0, law.speed_u_s[0]}};
     for (std::size_t i = 1; i < law.speed_u_s.size(); ++i) {
       const double v0 = law.speed_u_s[i - 1], v1 = law.speed_u_s[i];
       points.push_back({points.back().x + 2.0 * p_.law.ds_u(i) / (v0 + v1), v1});
@@ -236,10 +239,10 @@ class Page {
     return points;
   }
 
-  static double value_at(const std::vector<ChartPoint>& points, double x) {
-    const auto before = [](const ChartPoint& p, double at) { return p.x < at; };
+  static double value_at(const std::vector<text::ChartPoint>& points, double x) {
+    const auto before = [](const text::ChartPoint& p, double at) { return p.x < at; };
     const auto next = std::lower_bound(points.begin() + 1, points.end() - 1, x, before);
-    const ChartPoint &a = *(next - 1), &b = *next;
+    const text::ChartPoint &a = *(next - 1), &b = *next;
     return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
   }
 
@@ -254,10 +257,10 @@ class Page {
       }
       const auto bound = study_.lower_bound_s;
       for (const std::string& cell :
-           {fixed(o.law->time_s, 5), fixed(o.law->cost_s, 5),
-            bound > 0 ? fixed(100 * (o.law->cost_s / bound - 1), 4) : std::string("-"),
-            fixed(o.metrics.relative_energy, 0), fixed(o.metrics.rms_jerk_u_s3, 0),
-            fixed(o.metrics.peak_jerk_u_s3, 0), signed_percent(o.check.node_excess),
+           {text::fixed(o.law->time_s, 5), text::fixed(o.law->cost_s, 5),
+            bound > 0 ? text::fixed(100 * (o.law->cost_s / bound - 1), 4) : std::string("-"),
+            text::fixed(o.metrics.relative_energy, 0), text::fixed(o.metrics.rms_jerk_u_s3, 0),
+            text::fixed(o.metrics.peak_jerk_u_s3, 0), signed_percent(o.check.node_excess),
             signed_percent(o.check.dense_excess)})
         rows.back().push_back(cell);
     }
@@ -271,12 +274,12 @@ class Page {
     std::vector<std::vector<std::string>> rows{
         {"pass", "T, s", "J, s", "half width, mm/s", "touches", "fall, %"}};
     for (const planner::TubePass& pass : study_.tube.passes)
-      rows.push_back({std::to_string(pass.number), fixed(pass.time_s, 5), fixed(pass.cost_s, 5),
-                      pass.number > 1 ? fixed(pass.half_width_u_s, 3) : "-",
+      rows.push_back({std::to_string(pass.number), text::fixed(pass.time_s, 5), text::fixed(pass.cost_s, 5),
+                      pass.number > 1 ? text::fixed(pass.half_width_u_s, 3) : "-",
                       pass.number == 1 ? "-"
                       : pass.touched   ? "yes"
                                        : "no",
-                      pass.compared ? fixed(pass.fall_percent, 4) : "-"});
+                      pass.compared ? text::fixed(pass.fall_percent, 4) : "-"});
     return "<h2>Passes of the tube</h2>\n" + html_table("Passes of the tube", rows);
   }
 
@@ -309,7 +312,7 @@ class Page {
 
 }  // namespace
 
-std::string law_page_head(std::string_view title) { return chart_page_head(title, kStyle); }
+std::string law_page_head(std::string_view title) { return text::chart_page_head(title, kStyle); }
 
 std::string law_page_table(const std::string& caption, const std::vector<std::vector<std::string>>& rows) {
   return html_table(caption, rows);
@@ -319,4 +322,4 @@ std::string render_tube_page(const LawStudy& study, const TimeLawProblem& proble
   return Page(study, problem).text(file);
 }
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

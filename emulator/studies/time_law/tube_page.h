@@ -5,7 +5,7 @@
 
 #include "emulator/studies/time_law/law_study.h"
 
-namespace kadr::emulator {
+namespace kadr::studies {
 
 /// The laws of a problem as one HTML file without script: the speed along the path pass by pass with the
 /// tube's edges and caps, a close-up of the last passes, the speed of every method over time, each
@@ -19,4 +19,4 @@ std::string law_page_head(std::string_view title);
 /// A table of it; the first row is its head.
 std::string law_page_table(const std::string& caption, const std::vector<std::vector<std::string>>& rows);
 
-}  // namespace kadr::emulator
+}  // namespace kadr::studies

@@ -18,7 +18,7 @@ TEST_CASE("a line of 100 mm at 100 mm/s takes 1100 control ticks and 50000 pulse
   // ramp 0 -> 100 mm/s with a 2000, j 40000: 0.1 s and 5 mm; 90 mm at 100 mm/s: 0.9 s; ramp down 0.1 s
   RunResult r;
   run_program(r, "G1 X100 F6000\nM2\n", test_machine(1));
-  CHECK(r.summary.outcome == emulator::Outcome::complete);
+  CHECK(r.summary.outcome == log::Outcome::complete);
   CHECK(r.summary.control_ticks.value == 1100);
   CHECK(r.summary.axis[0].pulses == 50000);
   CHECK(r.summary.axis[0].end_steps == Steps{50000});
@@ -132,7 +132,7 @@ TEST_CASE("leaving a soft limit is a warning before the run and one alarm at the
   // the same program is refused by a check
   TestInputs in = make_inputs("G1 X60 F6000\nX0\nM2\n", m);
   Diagnostics diagnostics;
-  in.prepare(diagnostics, emulator::SoftLimitRule::error);
+  in.prepare(diagnostics, cycle::SoftLimitRule::error);
   REQUIRE(diagnostics.errors() == 1);
   CHECK(diagnostics.list()[0].label == "X reaches 60.000 mm, 10.000 mm beyond the limit");
 }
@@ -169,7 +169,7 @@ TEST_CASE("an alarm ends the run where the machine file says so") {
   m.on_alarm = machine::OnAlarm::stop;
   RunResult r;
   run_program(r, "G1 X60 F6000\nX0\nM2\n", m);
-  CHECK(r.summary.outcome == emulator::Outcome::alarm);
+  CHECK(r.summary.outcome == log::Outcome::alarm);
   CHECK(r.summary.axis[0].end_u < 50.2);
   CHECK(r.log.ended);
 }
@@ -200,12 +200,12 @@ TEST_CASE("residual vibration of a rectangular law on a rigid base is the closed
 
 TEST_CASE("a signal ends the run after the control tick with outcome interrupted") {
   std::atomic<bool> interrupt{false};
-  emulator::RunOptions options;
+  cycle::RunOptions options;
   options.interrupt = &interrupt;
   options.progress = [&](double, std::uint32_t, double) { interrupt = true; };
   RunResult r;
   run_program(r, "G1 X500 F6000\nM2\n", test_machine(1), options);
-  CHECK(r.summary.outcome == emulator::Outcome::interrupted);
+  CHECK(r.summary.outcome == log::Outcome::interrupted);
   CHECK(r.summary.control_ticks.value == 1000);
   CHECK(r.log.ended);
 }
@@ -266,7 +266,7 @@ TEST_CASE("random programs under enforced limits raise no alarm and end on the e
     CAPTURE(seed + static_cast<unsigned>(n));
     CAPTURE(program);
     RunResult r;
-    emulator::RunOptions options;
+    cycle::RunOptions options;
     options.plant = n % 8 == 0;
     run_program(r, program, test_machine(), options);
     for (const auto& e : r.log.of_kind("alarm")) CAPTURE(e.text);
@@ -307,7 +307,7 @@ TEST_CASE("a motor too weak for its load is one alarm, and its end tells all ste
 
 TEST_CASE("a run that ends early has gone only the path it has gone") {
   // after 0.6 s: 5 mm of ramp and 0.5 s at 100 mm/s
-  emulator::RunOptions options;
+  cycle::RunOptions options;
   options.until_s = 0.6;
   RunResult r;
   run_program(r, "G1 X100 F6000\nM2\n", test_machine(1), options);

@@ -3,7 +3,8 @@
 #include <doctest/doctest.h>
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
+using namespace kadr::log;
 
 namespace {
 

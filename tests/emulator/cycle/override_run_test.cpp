@@ -4,7 +4,8 @@
 #include "tests/support/run_program.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
+using namespace kadr::log;
 using kadr::test::operator_step;
 
 namespace {
@@ -37,7 +38,7 @@ void run_with(Ride& r, const std::string& program, std::vector<OperatorStep> ste
 std::vector<Code> alarms(const Ride& r) {
   std::vector<Code> codes;
   for (const EventRecord& e : r.log.events)
-    if (e.kind == emulator::EventKind::alarm) codes.push_back(e.code);
+    if (e.kind == log::EventKind::alarm) codes.push_back(e.code);
   return codes;
 }
 
@@ -58,7 +59,7 @@ TEST_CASE(
     "stands") {
   Ride cruise;
   run_with(cruise, kRunLine, {operator_step(400, OperatorAction::emergency_stop)});
-  CHECK(cruise.summary.outcome == emulator::Outcome::emergency_stop);
+  CHECK(cruise.summary.outcome == log::Outcome::emergency_stop);
   CHECK(cruise.summary.control_ticks.value == 500);  // 100 ticks from 100 mm/s
   CHECK(cruise.summary.axis[0].end_u == doctest::Approx(40.0).epsilon(1e-9));
   CHECK(alarms(cruise) == std::vector<Code>{Code::emergency_stopped});
@@ -66,23 +67,23 @@ TEST_CASE(
 
   Ride braking;  // for the corner, from tick 501 on: a hold would wait for it
   run_with(braking, kCorner, {operator_step(560, OperatorAction::emergency_stop)});
-  CHECK(braking.summary.outcome == emulator::Outcome::emergency_stop);
+  CHECK(braking.summary.outcome == log::Outcome::emergency_stop);
   CHECK(braking.summary.control_ticks.value < 605);
 
   Ride thread;
   run_with(thread, kThread, {operator_step(600, OperatorAction::emergency_stop)});
-  CHECK(thread.summary.outcome == emulator::Outcome::emergency_stop);
+  CHECK(thread.summary.outcome == log::Outcome::emergency_stop);
   CHECK(thread.summary.control_ticks.value < 660);
 }
 
 TEST_CASE("a hold that nobody ends ends the run, and says so") {
   Ride r;
   run_with(r, kRunLine, {operator_step(400, OperatorAction::hold)});
-  CHECK(r.summary.outcome == emulator::Outcome::held);
+  CHECK(r.summary.outcome == log::Outcome::held);
   CHECK(alarms(r) == std::vector<Code>{Code::held_to_the_end});
   Ride zero;
   run_with(zero, kRunLine, {operator_step(400, OperatorAction::feed_override, 0.0)});
-  CHECK(zero.summary.outcome == emulator::Outcome::held);
+  CHECK(zero.summary.outcome == log::Outcome::held);
 }
 
 TEST_CASE("an override below 0.01 % is a hold: a run that nothing releases ends") {
@@ -90,16 +91,16 @@ TEST_CASE("an override below 0.01 % is a hold: a run that nothing releases ends"
     CAPTURE(almost_0);
     Ride feed;
     run_with(feed, kRunLine, {operator_step(400, OperatorAction::feed_override, almost_0)});
-    CHECK(feed.summary.outcome == emulator::Outcome::held);
+    CHECK(feed.summary.outcome == log::Outcome::held);
     CHECK(alarms(feed) == std::vector<Code>{Code::held_to_the_end});
     Ride rapid;
     run_with(rapid, "G0 X100\nM2\n", {operator_step(0, OperatorAction::rapid_override, almost_0)});
-    CHECK(rapid.summary.outcome == emulator::Outcome::held);
+    CHECK(rapid.summary.outcome == log::Outcome::held);
     CHECK(alarms(rapid) == std::vector<Code>{Code::held_to_the_end});
   }
   Ride slow;
   run_with(slow, "F6000 G1 X0.01\nM2\n", {operator_step(0, OperatorAction::feed_override, 1e-3)});
-  CHECK(slow.summary.outcome == emulator::Outcome::complete);
+  CHECK(slow.summary.outcome == log::Outcome::complete);
 }
 
 TEST_CASE("a spindle overload inside a thread is told once and waits") {
@@ -118,7 +119,7 @@ TEST_CASE("steps on the path come into force with the first control tick that be
     run_with(r, kCorner, {at_place(place, half, 0.5)});
     CHECK(r.job->planned.step_places_u.at(0) == 50.0);
     const auto it = std::find_if(r.log.events.begin(), r.log.events.end(), [](const EventRecord& e) {
-      return e.kind == emulator::EventKind::feed_override;
+      return e.kind == log::EventKind::feed_override;
     });
     REQUIRE(it != r.log.events.end());
     const auto tick = static_cast<std::size_t>(it->tick.value / 10'000);
@@ -139,7 +140,7 @@ TEST_CASE("the time lost by each reason adds up to the run's time less the plann
            {operator_step(100, OperatorAction::feed_override, 0.7), operator_step(300, OperatorAction::hold),
             operator_step(600, OperatorAction::resume), operator_step(900, OperatorAction::spindle_load, 1.3),
             operator_step(2500, OperatorAction::spindle_load, 0.5)});
-  CHECK(r.summary.outcome == emulator::Outcome::complete);
+  CHECK(r.summary.outcome == log::Outcome::complete);
   double sum_s = 0;
   for (const LimitShare& share : r.summary.lost_by) sum_s += share.time_s;
   const double run_s = static_cast<double>(r.summary.control_ticks.value) * 1e-3;

@@ -5,7 +5,7 @@
 #include "tests/support/straight_run.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
 using namespace kadr::test;
 
 namespace {

@@ -10,7 +10,8 @@
 #include "tests/support/test_machine.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
+using namespace kadr::scenario;
 using namespace kadr::test;
 using gcode::Block;
 using gcode::DigitalOutput;

@@ -114,13 +114,13 @@ TEST_CASE(
   run_program(r, "G21 G90\nG0 X500\nG1 X600 F6000\nG0 X0\nG4 P3\nM2\n", m);
   double positive_J = 0, recuperated_J = 0;
   REQUIRE(r.log.block_ends.size() == 3);
-  for (const emulator::BlockEndRecord& b : r.log.block_ends) {
+  for (const log::BlockEndRecord& b : r.log.block_ends) {
     REQUIRE(b.positive_J.size() == 1);
     CHECK(b.positive_J[0] > 0);
     positive_J += b.positive_J[0];
     recuperated_J += b.recuperated_J[0];
   }
-  const emulator::AxisSummary& x = r.summary.axis[0];
+  const log::AxisSummary& x = r.summary.axis[0];
   CHECK(positive_J == doctest::Approx(x.positive_J).epsilon(1e-9));
   CHECK(recuperated_J == doctest::Approx(x.recuperated_J).epsilon(1e-9));
   // rigid body: 500 mm to and fro, (m0 + m1) v^2/2 goes in and comes back: v^2 = A d

@@ -5,7 +5,8 @@
 #include "tests/support/recording_log.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
+using namespace kadr::log;
 using namespace kadr::test;
 
 namespace {

@@ -7,7 +7,8 @@
 #include "tests/support/test_machine.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
+using namespace kadr::log;
 using namespace kadr::test;
 
 namespace {

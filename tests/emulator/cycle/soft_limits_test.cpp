@@ -6,7 +6,7 @@
 #include "tests/support/test_machine.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
 using namespace kadr::test;
 
 namespace {

@@ -22,12 +22,12 @@ const char* const kFourBlocks = "G21 G90 G94 G17 G64\nF3000\nG1 X40\nG1 Y30\nG3 
 using Damage = std::function<void(planner::FeedPlan&)>;
 
 /// What prepare() says when the planner's plan is damaged; empty if it takes the plan.
-std::string said_of(const std::string& program, const emulator::PlanFunction& plan) {
+std::string said_of(const std::string& program, const cycle::PlanFunction& plan) {
   TestInputs in = make_inputs(program, test_machine());
   Diagnostics diagnostics;
   bool prepared = false;
   try {
-    prepared = in.prepare(diagnostics, emulator::SoftLimitRule::warning, plan).has_value();
+    prepared = in.prepare(diagnostics, cycle::SoftLimitRule::warning, plan).has_value();
   } catch (const BrokenPromise& e) {
     return e.what();
   }
@@ -64,7 +64,7 @@ std::string dense_program() {
 }
 
 /// Plans the path as if its segments from `first` to the one before `last` allowed half as much feed again.
-emulator::PlanFunction too_fast_on(std::size_t first, std::size_t last) {
+cycle::PlanFunction too_fast_on(std::size_t first, std::size_t last) {
   return
       [=](planner::Path path, const machine::MachineModel& machine, std::span<const planner::Pause> pauses) {
         for (std::size_t i = first; i < last; ++i) path.segments[i].feed_u_s *= 1.5;
@@ -224,7 +224,7 @@ TEST_CASE("rapids by laws of their own are sound beside quintic ramps, whose jer
   CHECK(job->planned.plan.positioned.size() == 2);
   // the same pieces under a feed move are none of quintic ramps
   for (auto& segment : job->read.path.segments) segment.rapid = false, segment.feed_u_s = 110;
-  CHECK_THROWS_AS(emulator::require_sound_plan(in.given, in.sources, job->read, job->planned.plan),
+  CHECK_THROWS_AS(cycle::require_sound_plan(in.given, in.sources, job->read, job->planned.plan),
                   BrokenPromise);
 }
 
@@ -235,15 +235,15 @@ TEST_CASE("a run ends with a broken promise where a node is more than half a ste
   Diagnostics diagnostics;
   auto job = in.prepare(diagnostics);
   REQUIRE(job);
-  emulator::RunOptions options;
+  cycle::RunOptions options;
   options.plant = false;
-  CHECK(emulator::run(*job, nullptr, options).has_value());
+  CHECK(cycle::run(*job, nullptr, options).has_value());
   options.progress = [&](double, std::uint32_t, double) {
     for (std::size_t i = 1; i < job->read.path.nodes_u.size(); i += 3)
       job->read.path.nodes_u[i] = 0.7 * 0.002;
   };
   CHECK_THROWS_WITH_AS(
-      emulator::run(*job, nullptr, options),
+      cycle::run(*job, nullptr, options),
       "at every pulse the node is within half a step of the path: test.ngc:2: axis Y is 0.7 steps "
       "from it, allowed 0.500001, in the control tick that begins at 1.016000 s",
       BrokenPromise);
@@ -264,7 +264,7 @@ TEST_CASE("plans that take days are sound: their rounding is no fault") {
           CAPTURE(feed);
           TestInputs in = make_inputs("G21 G90 G94\n" + fmt::format(fmt::runtime(body), feed), machine);
           Diagnostics diagnostics;
-          CHECK(in.prepare(diagnostics, emulator::SoftLimitRule::warning));
+          CHECK(in.prepare(diagnostics, cycle::SoftLimitRule::warning));
         }
       }
 }

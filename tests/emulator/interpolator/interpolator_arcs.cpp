@@ -8,7 +8,6 @@
 
 using namespace kadr;
 using namespace kadr::test;
-using emulator::lattice_node;
 
 namespace {
 
@@ -94,7 +93,7 @@ TEST_CASE("a million turns cost no memory and count exactly") {
   const auto machine = machine_with(2, 0.01);
   PathMaker maker({0.02, 0.0});
   maker.arc(0, 1, -0.02, 0.0, 1e6 * 2 * kPi, 0.0, {0.0, 0.0});
-  emulator::CrossingInterpolator interpolator(maker.path, machine);
+  interpolator::CrossingInterpolator interpolator(maker.path, machine);
   StepBatch batch;
   std::int64_t pulses = 0;
   for (const auto& m : drive(maker.path.length_u(), 50'000.0, machine, Feed::linear, 1)) {
@@ -119,7 +118,7 @@ TEST_CASE("random arcs end on their exact node") {
               {0.0, 0.0, dice.between(-0.2, 0.2)});
     // every third is checked node by node, the others for their counts alone
     const auto motions = drive(maker.path.length_u(), 100.0, machine, Feed::linear, i);
-    emulator::CrossingInterpolator interpolator(maker.path, machine);
+    interpolator::CrossingInterpolator interpolator(maker.path, machine);
     interpolator.set_self_check(i % 3 == 0);
     StepBatch batch;
     for (const auto& m : motions) interpolator.advance(m, batch);

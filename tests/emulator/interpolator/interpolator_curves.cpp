@@ -8,7 +8,6 @@
 
 using namespace kadr;
 using namespace kadr::test;
-using emulator::lattice_node;
 
 namespace {
 
@@ -79,7 +78,7 @@ TEST_CASE("the pulses along a curve are those of the lattice's Bezier events, in
     CAPTURE(i);
     Dice dice(seed * 9973 + i);
     const auto machine = machine_with(3, 0.01);
-    emulator::lattice::BezierCurve lattice;
+    interpolator::lattice::BezierCurve lattice;
     lattice.axes = 3;
     lattice.degree = dice.whole(2, 3);
     std::vector<double> control;
@@ -95,8 +94,8 @@ TEST_CASE("the pulses along a curve are those of the lattice's Bezier events, in
     std::array<Moments, 3> of_run, of_lattice;
     for (const auto& e : run.events)
       add_moment(of_run[static_cast<std::size_t>(e.axis)], {path.curves[0].t(e.s_u), e.sign});
-    emulator::lattice::BezierEvents events(lattice);
-    emulator::lattice::BezierEvents::Event event;
+    interpolator::lattice::BezierEvents events(lattice);
+    interpolator::lattice::BezierEvents::Event event;
     while (events.next(event)) add_moment(of_lattice[event.axis], {event.t, event.direction});
     for (std::size_t k = 0; k < 3; ++k) {
       REQUIRE(of_run[k].size() == of_lattice[k].size());

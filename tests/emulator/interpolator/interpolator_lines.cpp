@@ -10,7 +10,6 @@
 
 using namespace kadr;
 using namespace kadr::test;
-using emulator::lattice_node;
 
 namespace {
 
@@ -73,7 +72,7 @@ TEST_CASE("pulses of a start from rest come at the square root of the way") {
   const auto machine = machine_with(1);
   PathMaker maker({0.0});
   maker.line({0.01});
-  emulator::CrossingInterpolator interpolator(maker.path, machine);
+  interpolator::CrossingInterpolator interpolator(maker.path, machine);
   StepBatch batch;
   interpolator.advance(motion(0, 0.0, 0.01, 0.0, 20.0), batch);
   CHECK(offsets(batch.axis[0]) ==
@@ -88,7 +87,7 @@ TEST_CASE("pulses of a stop mirror those of a start") {
   const auto machine = machine_with(1);
   PathMaker maker({0.0});
   maker.line({-0.01});
-  emulator::CrossingInterpolator interpolator(maker.path, machine);
+  interpolator::CrossingInterpolator interpolator(maker.path, machine);
   StepBatch batch;
   interpolator.advance(motion(0, 0.0, 0.01, 20.0, 0.0), batch);
   CHECK(offsets(batch.axis[0]) == std::vector<int>{253, 780, 1339, 1937, 2583, 3291, 4083, 5000, 6127, 7763});
@@ -100,7 +99,7 @@ TEST_CASE("a motion of 2500 base ticks inside a control tick keeps its pulses in
   const auto machine = machine_with(1);
   PathMaker maker({0.0});
   maker.line({0.005});
-  emulator::CrossingInterpolator interpolator(maker.path, machine);
+  interpolator::CrossingInterpolator interpolator(maker.path, machine);
   StepBatch batch;
   // 20 mm/s for 0.25 ms: five steps, 500 base ticks apart, from base tick 4000 on
   planner::TickMotion m = motion(0, 0.0, 0.005, 20.0, 20.0);
@@ -117,7 +116,7 @@ TEST_CASE("a pulse exactly on a tick's end belongs to that tick and is its last 
   const auto machine = machine_with(1, 0.25);
   PathMaker maker({0.0});
   maker.line({1.0});
-  emulator::CrossingInterpolator interpolator(maker.path, machine);
+  interpolator::CrossingInterpolator interpolator(maker.path, machine);
   StepBatch batch;
   // the first level is at s = 0.125: all numbers are exact in binary
   interpolator.advance(motion(0, 0.0, 0.125, 125.0, 125.0), batch);
@@ -130,7 +129,7 @@ TEST_CASE("ticks at rest give no pulses, no speed and the same position") {
   const auto machine = machine_with(2);
   PathMaker maker({1.0, 2.0});
   maker.line({2.0, 2.0});
-  emulator::CrossingInterpolator interpolator(maker.path, machine);
+  interpolator::CrossingInterpolator interpolator(maker.path, machine);
   StepBatch batch;
   for (int tick = 0; tick < 3; ++tick) {
     interpolator.advance(motion(tick, 0.0, 0.0, 0.0, 0.0), batch);
@@ -149,7 +148,7 @@ TEST_CASE("ticks at rest give no pulses, no speed and the same position") {
 TEST_CASE("a path without segments answers every tick at rest") {
   const auto machine = machine_with(1);
   PathMaker maker({0.5});
-  emulator::CrossingInterpolator interpolator(maker.path, machine);
+  interpolator::CrossingInterpolator interpolator(maker.path, machine);
   StepBatch batch;
   interpolator.advance(motion(0, 0.0, 0.0, 0.0, 0.0), batch);
   CHECK(batch.axis[0].count() == 0);
@@ -185,7 +184,7 @@ TEST_CASE("segment and joint are told: on a joint the ended segment, past it the
   PathMaker maker({0.0, 0.0});
   maker.line({1.0, 0.0});
   maker.line({1.0, 1.0});
-  emulator::CrossingInterpolator interpolator(maker.path, machine);
+  interpolator::CrossingInterpolator interpolator(maker.path, machine);
   StepBatch batch;
   interpolator.advance(motion(0, 0.0, 1.0, 1000.0, 1000.0), batch);
   CHECK(interpolator.segment() == 0);
@@ -199,7 +198,7 @@ TEST_CASE("segment and joint are told: on a joint the ended segment, past it the
   CHECK(batch.axis[0].command.speed_begin_u_s == 0.0);
   CHECK(batch.axis[1].command.speed_begin_u_s == 1000.0);
 
-  emulator::CrossingInterpolator across(maker.path, machine);
+  interpolator::CrossingInterpolator across(maker.path, machine);
   across.advance(motion(0, 0.0, 1.25, 1250.0, 1250.0), batch);
   CHECK(across.segment() == 1);
   CHECK(across.passed_joint());
@@ -212,7 +211,7 @@ TEST_CASE("a stop 1e-10 mm before the path's end is the path's end") {
   const auto machine = machine_with(1, 0.25);
   PathMaker maker({0.0});
   maker.line({0.125});
-  emulator::CrossingInterpolator interpolator(maker.path, machine);
+  interpolator::CrossingInterpolator interpolator(maker.path, machine);
   StepBatch batch;
   interpolator.advance(motion(0, 0.0, 0.125 - 1e-10, 250.0, 0.0), batch);
   CHECK(batch.axis[0].count() == 1);
@@ -252,7 +251,7 @@ TEST_CASE("a line of 100 million steps needs no table and counts exactly") {
   const auto machine = machine_with(2);
   PathMaker maker({-5e4, 3.0});
   maker.line({5e4, 3.00049});
-  emulator::CrossingInterpolator interpolator(maker.path, machine);
+  interpolator::CrossingInterpolator interpolator(maker.path, machine);
   StepBatch batch;
   std::int64_t net = 0;
   // 40 m/s: 40,000 steps per tick
@@ -285,7 +284,7 @@ TEST_CASE("the moment of a place solves the tick's linear feed to 1e-11 of its s
     if (way <= 0) continue;
     m.s_begin_u = 0;
     m.s_end_u = static_cast<double>(way);
-    const emulator::TickClock clock(m, 10'000);
+    const interpolator::TickClock clock(m, 10'000);
     CHECK(clock.moment_ticks(0.0) == m.move_begin_ticks);
     // before a stop the moment itself is only known to the root of the rounding of s: 1e-8 of the span
     CHECK(clock.moment_ticks(m.s_end_u) ==

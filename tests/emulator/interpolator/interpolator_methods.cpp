@@ -8,7 +8,7 @@
 using namespace kadr;
 using namespace kadr::test;
 using machine::StepMethod;
-namespace lattice = emulator::lattice;
+namespace lattice = interpolator::lattice;
 
 namespace {
 
@@ -70,7 +70,7 @@ TEST_CASE("a run by any method of paper 002 ends on the program's nodes, whateve
           maker.arc(0, 1, 0.01 * dice.whole(20, 100), 0.01 * dice.whole(-50, 50), 2 * kPi, 0.0, maker.at);
       }
       const Run run = run_path(maker.path, machine, steady(maker.path, machine));
-      for (std::size_t k = 0; k < 3; ++k) CHECK(run.net[k] == emulator::lattice_node(maker.at[k], 0.01));
+      for (std::size_t k = 0; k < 3; ++k) CHECK(run.net[k] == lattice_node(maker.at[k], 0.01));
     }
 }
 

@@ -151,7 +151,7 @@ inline std::vector<planner::TickMotion> drive(double length_u, double speed_u_s,
 
 /// What a run over a path gave.
 struct Run {
-  std::vector<emulator::StepEvent> events;       // all, in path order
+  std::vector<interpolator::StepEvent> events;   // all, in path order
   std::vector<std::int64_t> net, pulses, nodes;  // [axes]
   std::vector<double> worst_steps;               // [axes]
   std::vector<StepBatch> batches;
@@ -160,10 +160,10 @@ struct Run {
 
 inline Run run_path(const planner::Path& path, const machine::MachineModel& machine,
                     const std::vector<planner::TickMotion>& motions, bool keep_batches = false) {
-  emulator::CrossingInterpolator interpolator(path, machine);
+  interpolator::CrossingInterpolator interpolator(path, machine);
   interpolator.set_self_check(true);
   interpolator.set_trace(true);
-  emulator::StepHash hash;
+  StepHash hash;
   Run run;
   run.net.resize(machine.axis.size());
   run.pulses.resize(machine.axis.size());

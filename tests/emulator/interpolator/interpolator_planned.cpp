@@ -7,7 +7,6 @@
 
 using namespace kadr;
 using namespace kadr::test;
-using emulator::lattice_node;
 
 namespace {
 

@@ -8,7 +8,6 @@
 
 using namespace kadr;
 using namespace kadr::test;
-using emulator::lattice_node;
 
 namespace {
 
@@ -229,7 +228,7 @@ TEST_CASE("the step hash names pulses, directions, axes and ticks, and skips tic
   one.tick = ControlTicks{7};
   one.axis[0].offset_ticks = {10, 20, 30};
   const auto digest = [](std::initializer_list<StepBatch> batches) {
-    emulator::StepHash hash;
+    StepHash hash;
     for (const StepBatch& b : batches) hash.add(b);
     return hash.digest();
   };
@@ -256,11 +255,11 @@ TEST_CASE("the step hash names pulses, directions, axes and ticks, and skips tic
 }
 
 TEST_CASE("the step stream of 40 fixed random paths is the same with every compiler and optimisation") {
-  emulator::StepHash hash;
+  StepHash hash;
   for (std::uint64_t i = 0; i < 40; ++i) {
     Dice dice(i + 4000);
     const Case c = random_case(dice);
-    emulator::CrossingInterpolator interpolator(c.path, c.machine);
+    interpolator::CrossingInterpolator interpolator(c.path, c.machine);
     StepBatch batch;
     for (const auto& m : drive(c.path.length_u(), 20.0, c.machine, Feed::wild, i)) {
       interpolator.advance(m, batch);

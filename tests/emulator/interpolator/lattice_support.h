@@ -10,7 +10,7 @@
 /// What the tests of the lattice methods share: runs as nodes and as letters, and measures of their own.
 namespace kadr::test {
 
-namespace lattice = emulator::lattice;
+namespace lattice = interpolator::lattice;
 using lattice::ArcCurve;
 using lattice::Curve;
 using lattice::LineCurve;

@@ -11,7 +11,7 @@
 
 /// How logs of older and newer kadrs are read (docs/log_format.md, "Older and newer logs").
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::log;
 using test::TestFolder;
 
 namespace {
@@ -89,7 +89,7 @@ struct Sample {
 
 }  // namespace
 
-namespace kadr::emulator {
+namespace kadr::log {
 template <std::same_as<Sample> R>
 struct Channel<R> {
   static constexpr ChannelTitle info{"KADR_SAMPLE", "sample_t", "a channel of this test"};
@@ -102,7 +102,7 @@ struct Channel<R> {
       field::real<&R::more>("more", FieldUnit::none, "appended later").by("n"),
   };
 };
-}  // namespace kadr::emulator
+}  // namespace kadr::log
 
 namespace {
 

@@ -21,7 +21,7 @@
 #include "machine/step_hash.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::log;
 using test::FakeRun;
 using test::TestFolder;
 

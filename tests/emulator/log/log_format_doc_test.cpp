@@ -27,7 +27,7 @@
 
 /// The log as docs/log_format.md describes it.
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::log;
 
 namespace {
 

@@ -18,7 +18,7 @@
 /// A writer that is killed, interrupted, or runs out of disk at a random moment leaves a log that is readable
 /// up to its last whole event and says that it was cut. Each 30 times (KADR_COUNT), moments by KADR_SEED.
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::log;
 using test::Random;
 using test::TestFolder;
 
@@ -42,7 +42,7 @@ volatile std::sig_atomic_t interrupted = 0;
   }
   if (done) {
     RunSummary summary = test::log_summary(machine, ticks, run.pulses(), 0);
-    summary.outcome = emulator::Outcome::interrupted;
+    summary.outcome = log::Outcome::interrupted;
     done = (*log)->end(summary);
     ::_exit(done ? kInterruptedExit : kWrongExit);
   }

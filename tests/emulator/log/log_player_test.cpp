@@ -21,7 +21,7 @@
 /// message that arrives is compared with the file; the same for what `publish_url` sends. On this host's own
 /// network if that carries multicast, and in a network namespace with nothing but the loopback.
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::log;
 using test::TestFolder;
 
 namespace {

@@ -4,8 +4,8 @@
 #include "log_support.h"
 
 using namespace kadr;
-using emulator::PulseCounts;
-using emulator::PulseEncoder;
+using log::PulseCounts;
+using log::PulseEncoder;
 using test::Random;
 
 namespace {
@@ -84,7 +84,7 @@ TEST_CASE(
   const Coded coded = encode({pulses({9950}), pulses({50})}, 10'000);
   CHECK(coded.code == Bytes{0xBC, 0x9B, 0x01, 0xF3, 0x99, 0x01});
   auto out = batches(coded.counts);
-  REQUIRE(emulator::decode_pulses(coded.code, coded.counts, out, 0));
+  REQUIRE(log::decode_pulses(coded.code, coded.counts, out, 0));
   CHECK(out[0].axis[0].offset_ticks == std::vector<std::uint16_t>{9950});
   CHECK(out[1].axis[0].offset_ticks == std::vector<std::uint16_t>{50});
 }
@@ -96,7 +96,7 @@ TEST_CASE("three pulses back, two forth, one back reverse at pulses 0, 3 and 5")
   // the empty tick in the middle: interval 4 from 2 to 6, so +1 0 | +3 -3 0
   CHECK(coded.code == Bytes{0, 2, 0, 6, 5, 0, 0, 3, 2});
   auto out = batches(coded.counts);
-  REQUIRE(emulator::decode_pulses(coded.code, coded.counts, out, 0));
+  REQUIRE(log::decode_pulses(coded.code, coded.counts, out, 0));
   CHECK(out[0].axis[0].first_sign == -1);
   CHECK(out[1].axis[0].count() == 0);
   CHECK(out[2].axis[0].first_sign == 1);
@@ -119,11 +119,11 @@ TEST_CASE("any pulses come back as they went in") {
   for (std::uint64_t run = 0; run < count; ++run) {
     const auto tau = static_cast<std::int32_t>(run % 50 == 0 ? 65'536 : random.between(1, 12'000));
     std::vector<AxisPulses> ticks;
-    const std::int64_t n = random.between(1, tau > 20'000 ? 4 : emulator::kMaxBlockTicks);
+    const std::int64_t n = random.between(1, tau > 20'000 ? 4 : log::kMaxBlockTicks);
     for (std::int64_t i = 0; i < n; ++i) ticks.push_back(random_pulses(random, tau));
     const Coded coded = encode(ticks, tau);
     auto out = batches(coded.counts);
-    const auto decoded = emulator::decode_pulses(coded.code, coded.counts, out, 0);
+    const auto decoded = log::decode_pulses(coded.code, coded.counts, out, 0);
     CAPTURE(run);
     REQUIRE_MESSAGE(decoded.has_value(), (decoded ? "" : decoded.error()));
     for (std::size_t i = 0; i < ticks.size(); ++i) REQUIRE(equal(out[i].axis[0], ticks[i]));
@@ -143,7 +143,7 @@ TEST_CASE("bytes that are no pulse code are refused with a reason, or are the co
                              static_cast<std::int32_t>(random.between(-1, 5)),
                              static_cast<std::int32_t>(random.between(1, 64)), 1000};
     auto out = batches(counts);
-    const auto decoded = emulator::decode_pulses(code, counts, out, 0);
+    const auto decoded = log::decode_pulses(code, counts, out, 0);
     if (!decoded) {
       REQUIRE(!decoded.error().empty());
       ++refused;
@@ -153,7 +153,7 @@ TEST_CASE("bytes that are no pulse code are refused with a reason, or are the co
     for (const StepBatch& b : out) ticks.push_back(b.axis[0]);
     const Coded again = encode(ticks, 1000);
     auto out2 = batches(counts);
-    REQUIRE(emulator::decode_pulses(again.code, again.counts, out2, 0));
+    REQUIRE(log::decode_pulses(again.code, again.counts, out2, 0));
     for (std::size_t i = 0; i < ticks.size(); ++i) REQUIRE(equal(out2[i].axis[0], ticks[i]));
   }
   CHECK(refused > 0);

@@ -6,7 +6,7 @@
 #include "machine/machine.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::log;
 using test::TestFolder;
 
 namespace {

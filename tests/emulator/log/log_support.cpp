@@ -83,7 +83,7 @@ void FakeRun::make_pulses(std::size_t axis, double begin_steps, double end_steps
   if (pulses.count() == 0) pulses.first_sign = 1;
 }
 
-const emulator::TickRecord& FakeRun::advance() {
+const log::TickRecord& FakeRun::advance() {
   const double before = speed_steps_per_tick(tick_), after = speed_steps_per_tick(tick_ + 1);
   const double tau_s = machine_.clock.tau_s();
   motion_ = {};
@@ -122,21 +122,21 @@ const emulator::TickRecord& FakeRun::advance() {
 }
 
 bool holds_fake_run(const std::string& path, const machine::MachineModel& machine, FakeRunOptions options) {
-  auto reader = emulator::LogReader::open(path);
+  auto reader = log::LogReader::open(path);
   if (!reader) return false;
   FakeRun of_ticks(machine, options), of_steps(machine, options);
   bool same = true;
-  for (emulator::LogMessage m; same && reader->next(m);) {
-    if (const auto* b = std::get_if<emulator::TickBlock>(&m))
+  for (log::LogMessage m; same && reader->next(m);) {
+    if (const auto* b = std::get_if<log::TickBlock>(&m))
       for (std::size_t i = 0; same && i < b->size(); ++i) {
-        const emulator::TickRecord& r = of_ticks.advance();
+        const log::TickRecord& r = of_ticks.advance();
         same = b->first.value + static_cast<std::int64_t>(i) == r.tick.value &&
                b->path_u[i] == r.motion->s_end_u;
         for (std::size_t a = 0; same && a < machine.axis.size(); ++a)
           same = b->axis[a].steps[i] == of_ticks.nodes()[a] &&
                  b->axis[a].link_u[i] == of_ticks.states()[a].link_u;
       }
-    if (const auto* b = std::get_if<emulator::StepBlock>(&m))
+    if (const auto* b = std::get_if<log::StepBlock>(&m))
       for (std::size_t i = 0; same && i < b->batches.size(); ++i) {
         of_steps.advance();
         for (std::size_t a = 0; same && a < machine.axis.size(); ++a)
@@ -147,8 +147,8 @@ bool holds_fake_run(const std::string& path, const machine::MachineModel& machin
   return same;
 }
 
-emulator::RunHeader log_header(const machine::MachineModel& machine) {
-  emulator::RunHeader h;
+log::RunHeader log_header(const machine::MachineModel& machine) {
+  log::RunHeader h;
   h.program_name = "part.ngc";
   h.program_text = "N10 G1 X10 F100 (скругление)\nM2\n";
   h.machine_toml = "format = 1\n";
@@ -158,9 +158,9 @@ emulator::RunHeader log_header(const machine::MachineModel& machine) {
   return h;
 }
 
-emulator::RunSummary log_summary(const machine::MachineModel& machine, std::int64_t control_ticks,
-                                 std::int64_t pulses, std::uint64_t steps_hash) {
-  emulator::RunSummary s;
+log::RunSummary log_summary(const machine::MachineModel& machine, std::int64_t control_ticks,
+                            std::int64_t pulses, std::uint64_t steps_hash) {
+  log::RunSummary s;
   s.ticks = Ticks{control_ticks * machine.clock.control_tick.value};
   s.control_ticks = ControlTicks{control_ticks};
   s.blocks = static_cast<std::uint32_t>(control_ticks / 100);
@@ -174,7 +174,7 @@ emulator::RunSummary log_summary(const machine::MachineModel& machine, std::int6
   s.path_error_u = 0.0125;
   s.held_error_u = 0.0625;
   for (std::size_t a = 0; a < machine.axis.size(); ++a) {
-    emulator::AxisSummary x;
+    log::AxisSummary x;
     const auto n = static_cast<std::int64_t>(a + 1);
     const auto u = static_cast<double>(n);
     x = {n,
@@ -207,11 +207,11 @@ emulator::RunSummary log_summary(const machine::MachineModel& machine, std::int6
 }
 
 std::int64_t write_log(const std::string& path, const machine::MachineModel& machine,
-                       std::int64_t control_ticks, FakeRunOptions options, emulator::Outcome outcome) {
-  const auto check = [](const tl::expected<void, emulator::LogError>& done) {
+                       std::int64_t control_ticks, FakeRunOptions options, log::Outcome outcome) {
+  const auto check = [](const tl::expected<void, log::LogError>& done) {
     if (!done) throw std::runtime_error(done.error().path + ": " + done.error().reason);
   };
-  auto log = emulator::open_lcm_log({path, ""});
+  auto log = log::open_lcm_log({path, ""});
   if (!log) throw std::runtime_error(log.error().path + ": " + log.error().reason);
   check((*log)->begin(log_header(machine)));
   Diagnostic warning{Code{}, Severity::warning, {0, 1, 17, 4}, "text", "label", {"one", "two"}, "help"};
@@ -244,17 +244,17 @@ std::int64_t write_log(const std::string& path, const machine::MachineModel& mac
       check((*log)->event({Ticks{k * tau + 9},
                            number,
                            {0, 3, 4, 5},
-                           emulator::EventKind::alarm,
+                           log::EventKind::alarm,
                            all_codes().back().code,
                            1,
                            2.5,
                            2.0,
                            "axis Y is too fast: 2.5 mm/s, allowed 2.0 mm/s"}));
-    const emulator::TickRecord& record = run.advance();
+    const log::TickRecord& record = run.advance();
     hash.add(run.batch());
     check((*log)->tick(record, run.batch()));
   }
-  emulator::RunSummary summary = log_summary(machine, control_ticks, run.pulses(), hash.digest());
+  log::RunSummary summary = log_summary(machine, control_ticks, run.pulses(), hash.digest());
   summary.outcome = outcome;
   check((*log)->end(summary));
   return run.pulses();

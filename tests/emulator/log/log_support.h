@@ -45,7 +45,7 @@ class FakeRun {
  public:
   FakeRun(const machine::MachineModel& machine, FakeRunOptions options = {});
   /// The next control tick; the record points into this object.
-  const emulator::TickRecord& advance();
+  const log::TickRecord& advance();
   const StepBatch& batch() const { return batch_; }
   const std::vector<AxisState>& states() const { return states_; }
   const std::vector<std::int64_t>& nodes() const { return steps_; }
@@ -65,22 +65,22 @@ class FakeRun {
   std::vector<double> position_steps_;  // of the motion, before the lattice
   std::vector<std::int64_t> steps_;     // lattice node
   std::vector<AxisState> states_;
-  emulator::TickRecord record_;
+  log::TickRecord record_;
 };
 
 /// True if the exact data of a log, as far as it goes, are those of the FakeRun, pulse by pulse and bit by bit.
 bool holds_fake_run(const std::string& path, const machine::MachineModel& machine,
                     FakeRunOptions options = {});
 
-emulator::RunHeader log_header(const machine::MachineModel& machine);
-emulator::RunSummary log_summary(const machine::MachineModel& machine, std::int64_t control_ticks,
-                                 std::int64_t pulses, std::uint64_t steps_hash);
+log::RunHeader log_header(const machine::MachineModel& machine);
+log::RunSummary log_summary(const machine::MachineModel& machine, std::int64_t control_ticks,
+                            std::int64_t pulses, std::uint64_t steps_hash);
 
 /// Writes a whole log: header, a block every 100 ticks with its end, an event every 250, one diagnostic, the
 /// ticks, the summary. @return the pulses written
 std::int64_t write_log(const std::string& path, const machine::MachineModel& machine,
                        std::int64_t control_ticks, FakeRunOptions options = {},
-                       emulator::Outcome outcome = emulator::Outcome::complete);
+                       log::Outcome outcome = log::Outcome::complete);
 
 /// A new folder for one test case, removed with everything in it.
 class TestFolder {

@@ -10,18 +10,18 @@
 namespace kadr::test {
 namespace {
 
-void check(const tl::expected<void, emulator::LogError>& done) {
+void check(const tl::expected<void, log::LogError>& done) {
   if (!done) throw std::runtime_error(done.error().path + ": " + done.error().reason);
 }
 
-std::unique_ptr<emulator::RunLog> open(const std::string& path) {
-  auto log = emulator::open_lcm_log({path, ""});
+std::unique_ptr<log::RunLog> open(const std::string& path) {
+  auto log = log::open_lcm_log({path, ""});
   if (!log) throw std::runtime_error(log.error().path + ": " + log.error().reason);
   return std::move(*log);
 }
 
-emulator::BlockRecord block_record(Ticks tick, std::uint32_t block, std::uint32_t line, const char* text) {
-  emulator::BlockRecord record;
+log::BlockRecord block_record(Ticks tick, std::uint32_t block, std::uint32_t line, const char* text) {
+  log::BlockRecord record;
   record.tick = tick;
   record.block = block;
   record.span = {0, line, 1, 8};
@@ -33,8 +33,8 @@ emulator::BlockRecord block_record(Ticks tick, std::uint32_t block, std::uint32_
 
 }  // namespace
 
-void write_changed(const std::string& path, const emulator::RunHeader& header, std::int64_t control_ticks,
-                   const ChangeTick& change, emulator::Outcome outcome) {
+void write_changed(const std::string& path, const log::RunHeader& header, std::int64_t control_ticks,
+                   const ChangeTick& change, log::Outcome outcome) {
   const machine::MachineModel& machine = *header.machine;
   const auto log = open(path);
   check(log->begin(header));
@@ -42,14 +42,14 @@ void write_changed(const std::string& path, const emulator::RunHeader& header, s
   StepHash hash;
   const std::int64_t tau = machine.clock.control_tick.value;
   for (std::int64_t k = 0; k < control_ticks; ++k) {
-    emulator::TickRecord record = run.advance();
+    log::TickRecord record = run.advance();
     ChangeableTick tick{k, *record.motion, run.batch(), run.states(), {}, {}};
     const auto number = static_cast<std::uint32_t>(k / 100);
     if (k % 250 == 249)
       tick.events.push_back({Ticks{k * tau + 9},
                              number,
                              {0, 0, 0, 0},
-                             emulator::EventKind::input,
+                             log::EventKind::input,
                              Code{},
                              -1,
                              1,
@@ -66,7 +66,7 @@ void write_changed(const std::string& path, const emulator::RunHeader& header, s
     hash.add(tick.batch);
     check(log->tick(record, tick.batch));
   }
-  emulator::RunSummary summary = log_summary(machine, control_ticks, run.pulses(), hash.digest());
+  log::RunSummary summary = log_summary(machine, control_ticks, run.pulses(), hash.digest());
   summary.outcome = outcome;
   check(log->end(summary));
 }
@@ -126,12 +126,12 @@ void write_path_log(const std::string& path, const machine::MachineModel& machin
         steps[a] += pulse.sign;
       }
     }
-    emulator::TickRecord record{ControlTicks{k}, block == 0 ? 0 : block - 1, &motion, &steps, nullptr};
+    log::TickRecord record{ControlTicks{k}, block == 0 ? 0 : block - 1, &motion, &steps, nullptr};
     check(log->tick(record, batch));
     s_mm = to_mm;
     speed_mm_s = feed_mm_s;
   }
-  emulator::RunSummary summary;
+  log::RunSummary summary;
   summary.ticks = Ticks{k * machine.clock.control_tick.value};
   summary.control_ticks = ControlTicks{k};
   summary.axis.resize(3);

@@ -16,15 +16,15 @@ struct ChangeableTick {
   TickMotion motion;
   StepBatch batch;
   std::vector<AxisState> states;
-  std::vector<emulator::EventRecord> events;
-  std::optional<emulator::BlockRecord> block;  ///< of the ticks in which one begins
+  std::vector<log::EventRecord> events;
+  std::optional<log::BlockRecord> block;  ///< of the ticks in which one begins
 };
 using ChangeTick = std::function<void(ChangeableTick&)>;
 
 /// Writes a FakeRun with a block every 100 ticks and an event every 250, changed by `change`.
 /// @param header  the contents of KADR_RUN; its machine is used
-void write_changed(const std::string& path, const emulator::RunHeader& header, std::int64_t control_ticks,
-                   const ChangeTick& change = {}, emulator::Outcome outcome = emulator::Outcome::complete);
+void write_changed(const std::string& path, const log::RunHeader& header, std::int64_t control_ticks,
+                   const ChangeTick& change = {}, log::Outcome outcome = log::Outcome::complete);
 
 /// A path of 10 mm in blocks of 1 mm: X = s, Y = s/2, Z = s, steps of 1 um, one crossing after the other.
 struct PathRun {

@@ -6,7 +6,7 @@
 #include "emulator/log_tools/export/envelope.h"
 #include "emulator/log_tools/export/log_samples.h"
 
-using namespace kadr::emulator;
+using namespace kadr::log_tools;
 
 TEST_CASE("a pattern's star stands for any text, also none") {
   CHECK(matches_pattern("feed.commanded_mm_s", "feed.*"));

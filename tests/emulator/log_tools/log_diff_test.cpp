@@ -15,7 +15,8 @@
 #include "emulator/log_tools/log_tools.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::log;
+using namespace kadr::log_tools;
 using kadr::test::ChangeableTick;
 using kadr::test::from_environment;
 using kadr::test::log_header;

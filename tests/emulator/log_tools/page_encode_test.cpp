@@ -11,7 +11,7 @@
 #include "emulator/log_tools/report/encode.h"
 #include "emulator/log_tools/report/page_data.h"
 
-using namespace kadr::emulator;
+using namespace kadr::log_tools;
 
 namespace {
 

@@ -10,7 +10,8 @@
 #include "emulator/log_tools/report/path_corners.h"
 #include "planner/path/path.h"
 
-using namespace kadr::emulator;
+using namespace kadr::log;
+using namespace kadr::log_tools;
 using kadr::Ticks;
 
 namespace {

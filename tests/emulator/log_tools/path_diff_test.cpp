@@ -8,7 +8,7 @@
 #include "machine/machine.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::log_tools;
 using kadr::test::PathRun;
 using kadr::test::TestFolder;
 using kadr::test::write_path_log;

@@ -10,7 +10,9 @@
 #include "tests/support/recording_log.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
+using namespace kadr::log;
+using namespace kadr::scenario;
 
 namespace {
 

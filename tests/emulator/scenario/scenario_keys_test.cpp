@@ -10,7 +10,7 @@
 #include "emulator/scenario/scenario_keys.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::scenario;
 
 namespace {
 

@@ -13,7 +13,7 @@ namespace {
 /// All diagnostics of a scenario file as a person sees them, its folder left out.
 std::string refuse(const std::filesystem::path& path) {
   SourceSet sources;
-  const auto scenario = emulator::read_scenario(path.string(), sources);
+  const auto scenario = scenario::read_scenario(path.string(), sources);
   REQUIRE_FALSE(scenario);
   std::string text;
   for (const Diagnostic& d : scenario.error().list()) text += render_human(d, sources) + '\n';

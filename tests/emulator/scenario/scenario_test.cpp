@@ -10,7 +10,9 @@
 #include "machine/base/hash.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
+using namespace kadr::log;
+using namespace kadr::scenario;
 namespace fs = std::filesystem;
 
 namespace {

@@ -10,7 +10,8 @@
 #include "tests/support/run_program.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
+using namespace kadr::scenario;
 
 namespace {
 

@@ -7,7 +7,8 @@
 #include "emulator/studies/teach/sweep.h"
 #include "tests/emulator/interpolator/lattice_support.h"
 
-using namespace kadr::emulator;
+using namespace kadr::interpolator;
+using namespace kadr::studies;
 using kadr::test::Curve;
 using kadr::test::Method;
 
@@ -110,7 +111,7 @@ TEST_CASE("the drawn curve is the curve: every place has F = 0, and it runs from
                              Curve{lattice::BezierCurve{2, 2, {{{}, {12, 0}, {12, 9}}}}}}) {
     const StepTable table = followed(curve, Method::half_step);
     const auto f = sign_polynomial(curve);
-    const std::vector<kadr::emulator::Place> places = curve_places(curve, table);
+    const std::vector<kadr::studies::Place> places = curve_places(curve, table);
     REQUIRE(places.size() > 20);
     double longest = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -132,7 +133,7 @@ TEST_CASE("a deviation is measured to the place of the curve that is drawn") {
   const Curve arc = lattice::ArcCurve{{7, 0}, {0, 7}, lattice::Turn::ccw};
   const StepTable table = followed(arc, Method::half_step);
   for (const StepRow& row : table.rows) {
-    const kadr::emulator::Place foot = nearest_place(arc, row.node, -1);
+    const kadr::studies::Place foot = nearest_place(arc, row.node, -1);
     const double away =
         std::hypot(foot.x - static_cast<double>(row.node[0]), foot.y - static_cast<double>(row.node[1]));
     CHECK(away == doctest::Approx(std::fabs(row.deviation_steps)).epsilon(1e-9));

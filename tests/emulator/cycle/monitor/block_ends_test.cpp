@@ -6,7 +6,8 @@
 #include "tests/support/test_machine.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
+using namespace kadr::log;
 using namespace kadr::test;
 
 TEST_CASE("a block's end tells its own peaks and energies; a block within one control tick has none") {

@@ -6,7 +6,8 @@
 #include "tests/support/test_machine.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
+using namespace kadr::log;
 using namespace kadr::test;
 
 TEST_CASE("a motor that keeps slipping is one alarm, and it ends after 0.1 s without a loss") {

@@ -6,7 +6,8 @@
 #include "tests/support/test_machine.h"
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
+using namespace kadr::log;
 using namespace kadr::test;
 
 TEST_CASE("peaks of the command leave out the ticks that span a corner") {

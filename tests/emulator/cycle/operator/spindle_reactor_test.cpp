@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 using namespace kadr;
-using namespace kadr::emulator;
+using namespace kadr::cycle;
 
 namespace {
 
