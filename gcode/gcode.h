@@ -53,7 +53,7 @@ struct InterpretOptions : Reading {
 };
 
 /// Reads and interprets sources[file], handing each Block to `sink` in program order. Streaming: memory does
-/// not grow with the program. After the first error blocks are still made where possible, so that later
+/// not grow with the program beyond its text. After the first error blocks are still made where possible, so that later
 /// mistakes are reported too; the caller moves nothing if diagnostics.has_errors(). The file that ends without
 /// M2/M30/% still gets a program_end block.
 void interpret(SourceSet& sources, std::uint32_t file, const InterpretOptions& options,

@@ -56,7 +56,7 @@ std::string call_json(std::string_view line, std::uint32_t source_line) {
 
 int canon_program(const Arguments& arguments, Console& console) {
   SourceSet sources;
-  const std::uint32_t program = load_program(arguments.files.front(), sources);
+  const std::uint32_t program = load_program(arguments.files.front(), arguments.bounds, sources);
   const bool json = console.options().json;
   Diagnostics diagnostics;
   gcode::InterpretOptions options;

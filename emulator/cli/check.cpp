@@ -38,7 +38,7 @@ int check_one(const Arguments& arguments, const std::string& path, Console& cons
     return kNotStarted;
   }
   try {
-    given.program = load_program(path, sources);
+    given.program = load_program(path, arguments.bounds, sources);
   } catch (const WorldError& e) {
     // the other programs are still checked
     console.error(e.what());
@@ -136,7 +136,7 @@ int plan_program(const Arguments& arguments, Console& console) {
     console.diagnostics(diagnostics, sources, "the machine file", Console::Where::errors);
     return kNotStarted;
   }
-  given.program = load_program(path, sources);
+  given.program = load_program(path, arguments.bounds, sources);
   if (!load_reading(arguments, sources, given.reading, diagnostics)) {
     console.diagnostics(diagnostics, sources, arguments.tools, Console::Where::errors);
     return kNotStarted;

@@ -13,11 +13,11 @@ namespace {
 
 constexpr std::string_view kDefaultMachine = "mill3";
 
-SourceText open_text(const std::string& path) {
+SourceText open_text(const std::string& path, std::uint64_t most_bytes) {
   try {
-    return SourceText::open(path);
-  } catch (const std::system_error& e) {
-    throw WorldError(fmt::format("{}: {}", path == "-" ? "standard input" : path, e.code().message()));
+    return SourceText::open(path, most_bytes);
+  } catch (const UnreadableText& e) {
+    throw WorldError(e.what());
   }
 }
 
@@ -38,9 +38,9 @@ bool load_machine(const std::string& name, const std::vector<std::string>& setti
   if (shipped.empty() && wanted != "-" && ::stat(wanted.c_str(), &status) != 0)
     throw WorldError(fmt::format("machine {}: {}; machines that ship with kadr: {}", wanted,
                                  std::strerror(errno), shipped_names()));
-  auto file = machine::read_machine(
-      shipped.empty() ? open_text(wanted) : SourceText(wanted + ".toml", std::string(shipped)), sources,
-      settings);
+  auto file = machine::read_machine(shipped.empty() ? open_text(wanted, kMostSettings_bytes)
+                                                    : SourceText(wanted + ".toml", std::string(shipped)),
+                                    sources, settings);
   if (!file) {
     for (const Diagnostic& d : file.error().list()) diagnostics.add(d);
     return false;
@@ -63,12 +63,22 @@ bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading
   reading.sub_folders = arguments.sub_folders;
   if (arguments.tools.empty()) return true;
   const std::size_t errors = diagnostics.errors();
-  reading.tools = gcode::read_tool_table(sources, sources.add(open_text(arguments.tools)), diagnostics);
+  reading.tools =
+      gcode::read_tool_table(sources, sources.add(open_text(arguments.tools, kMostTable_bytes)), diagnostics);
   return diagnostics.errors() == errors;
 }
 
-std::uint32_t load_program(const std::string& path, SourceSet& sources) {
-  return sources.add(open_text(path));
+std::uint32_t load_program(const std::string& path, const gcode::ReadingBounds& bounds, SourceSet& sources) {
+  try {
+    return sources.add(SourceText::open(path, bounds.file_bytes));
+  } catch (const UnreadableText& e) {
+    const bool too_large = e.code() == std::errc::file_too_large;
+    throw WorldError(fmt::format("{}{}", e.what(), too_large ? " (--limit file_bytes=N)" : ""));
+  }
+}
+
+std::uint32_t load_settings(const std::string& path, SourceSet& sources) {
+  return sources.add(open_text(path, kMostSettings_bytes));
 }
 
 std::string program_text(const std::string& path) { return path == "-" ? "standard input" : path; }

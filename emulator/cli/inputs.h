@@ -24,7 +24,9 @@ bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading
 
 /// Opens a program as a file of the sources: `-` is standard input.
 /// @throws WorldError with path and reason
-std::uint32_t load_program(const std::string& path, SourceSet& sources);
+std::uint32_t load_program(const std::string& path, const gcode::ReadingBounds& bounds, SourceSet& sources);
+/// The same for a machine, scenario or problem file.
+std::uint32_t load_settings(const std::string& path, SourceSet& sources);
 /// The program's name for people: "standard input" for `-`.
 std::string program_text(const std::string& path);
 /// Number of lines of a text.

@@ -81,9 +81,8 @@ void Options::reading(CLI::App* sub, Writes writes) {
          [this, log](const std::vector<std::string>& texts) {
            for (const std::string& text : texts) limit(text, log);
          },
-         fmt::format("Set a bound on programs: blocks, call_depth, loop_passes, file_bytes or line_bytes{}"
-                     "0: no bound; repeatable",
-                     log ? ", or on\nthe log: log_bytes; " : ";\n"))
+         fmt::format("Set a bound on programs{}; 0: no bound; repeatable; one of\n{}",
+                     log ? " or the log" : "", fmt::join(limit_names(log), ", ")))
       ->type_name("NAME=N")
       ->allow_extra_args(false)
       ->take_all();

@@ -118,7 +118,7 @@ void read_inputs(RunInputs& in) {
   in.machine_good =
       load_machine(in.arguments.machine, in.arguments.settings, in.sources, in.given.machine, in.diagnostics);
   if (!in.arguments.files.empty()) {
-    in.given.program = load_program(in.arguments.files.front(), in.sources);
+    in.given.program = load_program(in.arguments.files.front(), in.arguments.bounds, in.sources);
     in.program = program_text(in.arguments.files.front());
   }
   in.started = load_reading(in.arguments, in.sources, in.given.reading, in.diagnostics) && in.machine_good;

@@ -133,7 +133,7 @@ int solve_tube(const Arguments& arguments, Console& console) {
   const std::string& path = arguments.files.front();
   const std::string name = program_text(path);
   SourceSet sources;
-  const std::uint32_t file = load_program(path, sources);
+  const std::uint32_t file = load_settings(path, sources);
   const auto refuse = [&](const Diagnostics& diagnostics) {
     if (console.options().json)
       console.document({{"kadr", KADR_VERSION},

@@ -177,17 +177,17 @@ bool open_job(const Scenario& scenario, cycle::JobInputs& given, SourceSet& sour
               Diagnostics& diagnostics) {
   SourceText machine_text =
       scenario.machine_is_file
-          ? SourceText::open(scenario.machine)
+          ? SourceText::open(scenario.machine, kMostSettings_bytes)
           : SourceText(scenario.machine + ".toml", std::string(machine::shipped_machine(scenario.machine)));
   SourceText program = scenario.program_path.empty()
                            ? SourceText(scenario.program_name, scenario.generated_program)
-                           : SourceText::open(scenario.program_path);
+                           : SourceText::open(scenario.program_path, given.reading.bounds.file_bytes);
   auto file = machine::read_machine(std::move(machine_text), sources, scenario.settings);
   given.program = sources.add(std::move(program));
   given.reading.dialect = scenario.dialect;
   const std::size_t errors = diagnostics.errors();
   if (!scenario.tools_path.empty()) {
-    const std::uint32_t tools = sources.add(SourceText::open(scenario.tools_path));
+    const std::uint32_t tools = sources.add(SourceText::open(scenario.tools_path, kMostTable_bytes));
     given.reading.tools = gcode::read_tool_table(sources, tools, diagnostics);
   }
   if (!file) {

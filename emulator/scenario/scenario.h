@@ -111,6 +111,8 @@ struct Scenario {
 /// @return the scenario, or the diagnostics
 /// @throws std::system_error if the file can't be opened
 tl::expected<Scenario, Diagnostics> read_scenario(const std::string& path, SourceSet& sources);
+/// The same of a text, named as its file is.
+tl::expected<Scenario, Diagnostics> read_scenario(SourceText text, SourceSet& sources);
 
 /// Opens program, machine and tool table of a scenario as inputs of prepare(). Diagnostics of
 /// machine file and tool table are added.

@@ -21,6 +21,7 @@ using machine::read_number;
 using machine::TableReader;
 
 constexpr machine::Bounds kVibration{0, 1e9};
+constexpr std::size_t kMostSettings = 1000;  // each is looked up among all others
 
 /// Reads one scenario file; mistakes go to the context's diagnostics.
 class ScenarioReader {
@@ -45,7 +46,8 @@ class ScenarioReader {
     // the stock of a scenario overrides that of the machine file
     if (const Node* stock = table.table("stock")) flatten_settings(*stock, "stock");
     for (const Node& point : table.tables("technology")) read_technology(point);
-    for (const Node& step : table.tables("step")) read_step(step);
+    for (const Node& step : table.tables("step"))
+      if (!context_.diagnostics.full()) read_step(step);
     read_most_override(table);
     if (const Node* expect = table.table("expect")) read_expect(*expect);
     table.finish();
@@ -158,6 +160,10 @@ class ScenarioReader {
         continue;
       }
       const Span& span = entry.value.span;
+      if (scenario_.settings.size() >= kMostSettings) {
+        if (std::exchange(settings_full_, true)) return;
+        return tell(Code::file_setting, span, fmt::format("more than {} settings", kMostSettings));
+      }
       scenario_.settings.push_back(
           fmt::format("{}={}", key, source_.line(span.line).substr(span.column - 1, span.length)));
     }
@@ -345,6 +351,7 @@ class ScenarioReader {
   }
 
   const SourceText& source_;
+  bool settings_full_ = false;  ///< told that there are too many
   Scenario& scenario_;
   machine::ReadContext& context_;
 };
@@ -352,10 +359,15 @@ class ScenarioReader {
 }  // namespace
 
 tl::expected<Scenario, Diagnostics> read_scenario(const std::string& path, SourceSet& sources) {
+  const std::string file = fs::is_directory(path) ? (fs::path(path) / "scenario.toml").string() : path;
+  return read_scenario(SourceText::open(file, kMostSettings_bytes), sources);
+}
+
+tl::expected<Scenario, Diagnostics> read_scenario(SourceText text, SourceSet& sources) {
   Scenario scenario;
-  scenario.file = fs::is_directory(path) ? (fs::path(path) / "scenario.toml").string() : path;
+  scenario.file = text.name();
   scenario.folder = fs::path(scenario.file).parent_path().string();
-  const std::uint32_t file = sources.add(SourceText::open(scenario.file));
+  const std::uint32_t file = sources.add(std::move(text));
   scenario.text = sources[file].text();
   Diagnostics diagnostics;
   const machine::ParsedTree tree = machine::parse_toml(sources, file, diagnostics);

@@ -16,6 +16,7 @@ namespace {
 
 /// Cells of a source line that a snippet shows: generated programs have lines of any length.
 constexpr std::size_t kSnippet = 200;
+constexpr std::size_t kLongLine_bytes = 4096;
 /// Exit codes that mean that kadr could not do its work (docs of the command line).
 constexpr int kNotStarted = 2;
 constexpr int kInternal = 70;
@@ -107,12 +108,20 @@ Json SarifLog::location(const Span& span, const SourceSet& sources) const {
 
 std::string SarifLog::fingerprint(const Diagnostic& d, const SourceSet& sources) {
   const SourceText& source = sources[d.span.file];
-  const std::string line = one_line(source.line(d.span.line), source.line(d.span.line).size() + kSnippet);
-  Hash64 hash;
-  hash.integer(static_cast<std::int64_t>(d.code));
-  hash.bytes(line.data(), line.size());
+  const std::string_view whole = source.line(d.span.line);
+  // a long line is hashed once for each code, however many mistakes it has
+  std::string once;
+  std::string& text = whole.size() < kLongLine_bytes
+                          ? once
+                          : line_hashes_[std::tuple(d.code, source.name(), d.span.line, whole.size())];
+  if (text.empty()) {
+    const std::string line = one_line(whole, whole.size() + kSnippet);
+    Hash64 hash;
+    hash.integer(static_cast<std::int64_t>(d.code));
+    hash.bytes(line.data(), line.size());
+    text = hash_text(hash.digest());
+  }
   // identical texts in a file are numbered in order
-  const std::string text = hash_text(hash.digest());
   return fmt::format("{}:{}", text, ++seen_[source.name() + '\n' + text]);
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "emulator/text/json.h"
@@ -37,6 +38,8 @@ class SarifLog {
   std::vector<Result> results_;
   std::set<Code> codes_;
   std::map<std::string, int> seen_;  ///< file and fingerprint: how often
+  /// Of long lines, by code, file, line and length.
+  std::map<std::tuple<Code, std::string, std::uint32_t, std::size_t>, std::string> line_hashes_;
 };
 
 }  // namespace kadr::text

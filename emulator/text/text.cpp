@@ -88,9 +88,13 @@ std::string one_line(std::string_view text, std::size_t most) {
   const auto blank = [](char c) { return static_cast<unsigned char>(c) <= 0x20; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  // a line of any length, of which little is shown
+  constexpr std::size_t kBytesPerCell = 16;
+  const bool longer = text.size() / kBytesPerCell > most;
+  if (longer) text = text.substr(0, most * kBytesPerCell);
   std::size_t column = 0;
   std::string line = displayable(text, column);
-  if (column <= most) return line;
+  if (column <= most) return longer ? line + "..." : line;
   std::size_t kept = 0, cells = 0;
   while (kept < line.size()) {
     const CodePoint c = decode_utf8(line, kept);

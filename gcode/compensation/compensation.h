@@ -82,6 +82,8 @@ class Compensation {
 
   /// Whether blocks must pass here. False from the first move after G40 on.
   bool active() const { return phase_ != Phase::off; }
+  /// Blocks that were taken and not handed out yet.
+  std::size_t waiting() const { return held_.size(); }
   /// Whether a move has been made off the contour.
   bool entered() const { return phase_ == Phase::contour || phase_ == Phase::lost; }
   /// Tool's centre as seen from the programmed point.

@@ -54,15 +54,20 @@ void Flow::call_code(const CallRequest& request) {
   calls_.back().repeats_left = request.repeats - 1;
 }
 
+void Flow::make_known(Unit& unit) {
+  for (const auto& [name, statement] : unit.structure.subs())
+    subs_.try_emplace(name, Target{&unit, statement});
+  for (const auto& [name, statement] : unit.structure.labels())
+    labels_.try_emplace(name, Target{&unit, statement});
+}
+
 Flow::Target Flow::find_known(std::int32_t name, bool by_code) const {
   // the calling file first, then all others in the order in which they were read
-  std::vector<Unit*> order{unit_};
-  for (const auto& unit : units_) order.push_back(unit.get());
-  for (Unit* unit : order) {
-    const int statement = by_code ? unit->structure.label(name) : unit->structure.sub(name);
-    if (statement >= 0) return {unit, statement};
-  }
-  return {};
+  const int here = by_code ? unit_->structure.label(name) : unit_->structure.sub(name);
+  if (here >= 0) return {unit_, here};
+  const auto& known = by_code ? labels_ : subs_;
+  const auto it = known.find(name);
+  return it == known.end() ? Target{} : it->second;
 }
 
 Flow::Target Flow::find(std::int32_t name, bool by_code, Span place) {
@@ -91,18 +96,23 @@ bool Flow::load(std::int32_t name, Span place) {
   const auto loaded =
       std::find_if(units_.begin(), units_.end(), [&](const auto& u) { return u->name == text; });
   if (loaded != units_.end()) return false;  // already reported
-  FoundText found = called_.find(text);
+  // folders are asked once for each name
+  const auto [known, is_new] = unusable_.try_emplace(name);
+  FoundText& found = known->second;
+  if (is_new) found = called_.find(text);
   if (!found.refusal.empty()) {
-    error(problem(Code::sub_file, place, std::move(found.refusal), std::move(found.help)));
+    const Code code = found.too_large ? Code::file_too_large : Code::sub_file;
+    error(problem(code, place, found.refusal, found.help));
     return false;
   }
   if (!found.text) {
     Diagnostic d = problem(Code::sub_not_found, place, fmt::format("there is no {}", label_text(name)));
-    d.notes.push_back(std::move(found.looked));
+    d.notes.push_back(found.looked);
     error(std::move(d));
     return false;
   }
   const std::uint32_t index = sources_.add(std::move(*found.text));
+  unusable_.erase(known);
   return size_allowed(index) && add_unit(index, text);
 }
 

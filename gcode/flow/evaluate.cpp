@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -138,10 +137,6 @@ bool Evaluator::read_named(const Line& line, const ExpressionNode& node, const S
   }
   return fail(Code::name_not_set, line.span(node.own),
               fmt::format("#<{}> has no value here", state.names[node.left]));
-}
-
-bool Evaluator::is_declared(std::int32_t name) const {
-  return std::find(declared_.begin(), declared_.end(), name) != declared_.end();
 }
 
 bool Evaluator::fail(Code code, Span span, std::string label) {

@@ -23,8 +23,12 @@ class Evaluator {
   /// True if the last evaluated expression read a parameter that may be wrong after an earlier error.
   bool doubtful() const { return doubtful_; }
   /// From here on the line sets this name: it exists, with the value 0 until the line has been run.
-  void declare(std::int32_t name) { declared_.push_back(name); }
-  void begin_line() { declared_.clear(); }
+  void declare(std::int32_t name) {
+    const auto at = static_cast<std::size_t>(name);
+    if (declared_on_.size() <= at) declared_on_.resize(at + 1, 0);
+    declared_on_[at] = line_;
+  }
+  void begin_line() { ++line_; }
 
  private:
   bool node_value(const Line& line, const ExpressionNode& node, const State& state, double& value);
@@ -32,12 +36,16 @@ class Evaluator {
   bool read_named(const Line& line, const ExpressionNode& node, const State& state, double& value);
   bool fail(Code code, Span span, std::string label);
 
-  bool is_declared(std::int32_t name) const;
+  bool is_declared(std::int32_t name) const {
+    const auto at = static_cast<std::size_t>(name);
+    return at < declared_on_.size() && declared_on_[at] == line_;
+  }
   void tell_never_set(const Line& line, const ExpressionNode& node, const State& state, int number);
 
-  std::vector<double> values_;          ///< [nodes of the line]
-  std::set<int> told_;                  ///< parameters told as never set
-  std::vector<std::int32_t> declared_;  ///< names that this line sets, as far as read
+  std::vector<double> values_;              ///< [nodes of the line]
+  std::set<int> told_;                      ///< parameters told as never set
+  std::vector<std::uint64_t> declared_on_;  ///< [names], the last line that set it; 0: none
+  std::uint64_t line_ = 1;                  ///< lines begun
   Report* report_ = nullptr;
   bool doubtful_ = false;
 };

@@ -9,6 +9,14 @@
 
 namespace kadr::gcode {
 
+namespace {
+
+std::uint64_t count_lines(std::string_view text) {
+  return 1 + static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace
+
 Flow::Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& options, Report& report,
            Interpreter& interpreter)
     : sources_(sources),
@@ -17,7 +25,7 @@ Flow::Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& optio
       report_(report),
       interpreter_(interpreter),
       state_(interpreter.state()),
-      beside_(FolderTexts::beside(sources[file].name(), options.sub_folders)),
+      beside_(FolderTexts::beside(sources[file].name(), options.sub_folders, options.bounds.file_bytes)),
       called_(options.called_files ? *options.called_files : beside_),
       end_{file, 1, 1, 1} {
   report_.set_call_chain(&places_);
@@ -30,7 +38,7 @@ void Flow::run() {
     const Line* line = unit_->program.next();
     if (line != nullptr) {
       end_ = {line->file, line->number, 1, 1};
-      step(*line);
+      if (count_line(*line)) step(*line);
       continue;
     }
     if (calls_.empty()) return;
@@ -61,6 +69,20 @@ void Flow::tell_words_behind_end() {
   }
 }
 
+/// A program without O words runs each of its lines once: only what goes back or is called needs a bound.
+bool Flow::count_line(const Line& line) {
+  const std::uint64_t most = options_.bounds.lines;
+  if (straight_ || most == 0) return true;
+  lines_ += weight_of(line.text.size());
+  if (lines_ <= most) return true;
+  Diagnostic d = problem(Code::too_many_lines, line.span({0, 1}), fmt::format("line {} of the run", lines_),
+                         "check what calls and repeats it");
+  d.notes.push_back(fmt::format("allowed: {} (--limit lines=N)", most));
+  error(std::move(d));
+  stopped_ = true;
+  return false;
+}
+
 void Flow::step(const Line& line) {
   const bool deleted =
       options_.block_delete && !line.items.empty() && line.items.front().kind == ItemKind::block_delete;
@@ -88,11 +110,13 @@ bool Flow::add_unit(std::uint32_t file, std::string name) {
   Unit& unit = *units_.back();
   // a called file contains a subroutine, even if its O word looks like a program number
   const bool is_main = unit.name.empty();
+  if (!options_.bounds.blocks) interpreter_.allow_blocks(count_lines(sources_[file].text()));
   straight_ = is_main && !unit.program.has_o_words();
   if (straight_) return true;
   if (!unit.structure.read(unit.program, options_.block_delete, state_.names, report_)) return false;
   unit.passes_left.assign(unit.structure.size(), kNoPasses);
   unit.defined.assign(unit.structure.size(), false);
+  make_known(unit);
   return true;
 }
 
@@ -183,7 +207,8 @@ void Flow::branch(const Line& line, int index) {
     const FlowWord word = at(at_branch).word;
     if (word != FlowWord::else_if) return unit_->program.go_to(at(at_branch).after);
     unit_->program.go_to(at(at_branch).at);
-    known = argument(*unit_->program.next(), condition);
+    const Line& next = *unit_->program.next();
+    known = count_line(next) && argument(next, condition);
   }
   unit_->program.go_to(known ? at(at_branch).after : at(at(index).end).after);
 }

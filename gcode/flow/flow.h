@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "gcode/flow/structure.h"
@@ -41,6 +42,8 @@ class Flow {
     std::uint64_t repeats_left = 0;  ///< M98 L
   };
   bool add_unit(std::uint32_t file, std::string name);
+  void make_known(Unit& unit);
+  bool count_line(const Line& line);
   bool size_allowed(std::uint32_t file);
   void tell_words_behind_end();
   void step(const Line& line);
@@ -87,6 +90,8 @@ class Flow {
   State& state_;
   Evaluator evaluator_;
   std::vector<std::unique_ptr<Unit>> units_;
+  std::unordered_map<std::int32_t, Target> subs_, labels_;  ///< by name, of all units: the first that has it
+  std::unordered_map<std::int32_t, FoundText> unusable_;    ///< names of files that are not there or refused
   FolderTexts beside_;          ///< the program's folder, and those of the options
   const TextResolver& called_;  ///< where called files come from
   Unit* unit_ = nullptr;
@@ -97,6 +102,7 @@ class Flow {
   bool break_kept_ = false;       ///< a break was met, and no foot of a do since
   bool continue_kept_ = false;  ///< a continue was met, and no end of a while or repeat was passed over since
   std::uint64_t passes_ = 0;
+  std::uint64_t lines_ = 0;  ///< run, weighed
   Span end_;
   bool straight_ = false;  ///< no O words: nothing leads past the program's end
   bool stopped_ = false;

@@ -31,9 +31,7 @@ void Flow::warn_kept(int index, std::string label, std::string cause) {
 
 /// A break of that loop counts even if it is only skipped, on the way to the loop's end.
 void Flow::pass_over_breaks(int from, int loop) {
-  for (int i = from + 1; i < at(loop).end; ++i) {
-    if (at(i).word == FlowWord::break_loop && at(i).begin == loop) break_kept_ = true;
-  }
+  if (at(loop).last_break > from) break_kept_ = true;
 }
 
 void Flow::while_head(const Line& line, int index) {

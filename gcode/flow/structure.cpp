@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "gcode/flow/evaluate.h"
 #include "gcode/interpret/words.h"
@@ -94,24 +96,24 @@ void warn_comments(const Line& line, Report& report) {
   }
 }
 
-bool is_loop(FlowWord word) { return word == FlowWord::while_true || word == FlowWord::do_once; }
-
 }  // namespace
 
 /// State while the O words of one file are read in order.
 struct Structure::Reader {
   Structure& structure;
   Names& names;
-  std::vector<Diagnostic> problems = {};
-  std::vector<int> open = {};                   ///< beginnings without an end so far, the innermost last
-  std::vector<int> last_branch = {};            ///< [open], the latest branch of an if
+  std::vector<Diagnostic> problems = {};  ///< no more than are ever told
+  std::vector<int> open = {};             ///< beginnings without an end so far, the innermost last
+  std::vector<int> last_branch = {};      ///< [open], the latest branch of an if
+  std::map<std::pair<FlowWord, std::int32_t>, std::vector<int>> open_of = {};  ///< `open` by word and label
+  std::vector<int> open_subs = {};              ///< those of `open` that are subs
   std::set<std::int32_t> labels_in_scope = {};  ///< of ifs and loops, in this sub or main program
   std::set<std::int32_t> labels_of_main = {};   ///< kept while a sub is read
 
   void error(Code code, Span span, std::string label, std::string note = {}, std::string help = {}) {
     Diagnostic d = problem(code, span, std::move(label), std::move(help));
     if (!note.empty()) d.notes.push_back(std::move(note));
-    problems.push_back(std::move(d));
+    if (problems.size() < Report::kMaxErrors) problems.push_back(std::move(d));
   }
 
   std::string name_of(std::int32_t name) const {
@@ -200,10 +202,11 @@ struct Structure::Reader {
   void begin(int index) {
     const Statement& s = structure[index];
     if (s.word == FlowWord::sub) {
-      for (const int outer : open) {
-        if (structure[outer].word != FlowWord::sub) continue;
-        error(Code::o_misplaced, s.span, "a sub inside a sub", fmt::format("{} is still open", told(outer)));
+      if (!open_subs.empty()) {
+        error(Code::o_misplaced, s.span, "a sub inside a sub",
+              fmt::format("{} is still open", told(open_subs.front())));
       }
+      open_subs.push_back(index);
       const auto [it, is_new] = structure.subs_.try_emplace(s.name, index);
       if (!is_new) {
         error(Code::o_label_twice, s.span, "a second sub of this name",
@@ -216,7 +219,14 @@ struct Structure::Reader {
             "give it a label of its own, and the words that belong to it as well");
     }
     open.push_back(index);
+    open_of[{s.word, s.name}].push_back(index);
     last_branch.push_back(index);
+  }
+
+  /// The innermost open beginning of that word and label, -1 if there is none.
+  int innermost(FlowWord word, std::int32_t name) const {
+    const auto it = open_of.find({word, name});
+    return it == open_of.end() || it->second.empty() ? -1 : it->second.back();
   }
 
   /// An end word: it must name the innermost thing that is open.
@@ -240,11 +250,8 @@ struct Structure::Reader {
           fmt::format("no {} {} is open here", name_of(s.name), word_text(beginning_of(s.word))),
           open.empty() ? "nothing is open here" : fmt::format("open here: {}", told(open.back())));
     // an end that fits something further out also ends what is inside it, or one slip would be reported often
-    for (std::size_t i = open.size(); i-- > 0;) {
-      if (structure[open[i]].name != s.name || structure[open[i]].word != beginning_of(s.word)) continue;
-      while (open.size() > i) drop();
-      return;
-    }
+    const int fitting = innermost(beginning_of(s.word), s.name);
+    while (fitting >= 0 && !open.empty() && open.back() >= fitting) drop();
   }
 
   void close(int index) {
@@ -257,10 +264,13 @@ struct Structure::Reader {
   }
 
   void drop() {
-    if (structure[open.back()].word == FlowWord::sub) {
+    const Statement& s = structure[open.back()];
+    if (s.word == FlowWord::sub) {
       labels_in_scope.swap(labels_of_main);
       labels_of_main.clear();
+      open_subs.pop_back();
     }
+    open_of[{s.word, s.name}].pop_back();
     open.pop_back();
     last_branch.pop_back();
   }
@@ -283,16 +293,17 @@ struct Structure::Reader {
   /// return, break, continue.
   void leave(int index) {
     Statement& s = structure.statements_[static_cast<std::size_t>(index)];
-    for (std::size_t i = open.size(); i-- > 0;) {
-      const Statement& outer = structure[open[i]];
-      const bool fits = s.word == FlowWord::return_from ? outer.word == FlowWord::sub
-                                                        : is_loop(outer.word) && outer.name == s.name;
-      if (!fits) continue;
-      s.begin = open[i];
+    if (s.word == FlowWord::return_from) {
+      if (open_subs.empty()) return error(Code::o_misplaced, s.span, "no sub is open here");
+      s.begin = open_subs.back();
       return;
     }
-    if (s.word == FlowWord::return_from) {
-      return error(Code::o_misplaced, s.span, "no sub is open here");
+    const int loop = std::max(innermost(FlowWord::while_true, s.name), innermost(FlowWord::do_once, s.name));
+    if (loop >= 0) {
+      s.begin = loop;
+      if (s.word == FlowWord::break_loop)
+        structure.statements_[static_cast<std::size_t>(loop)].last_break = index;
+      return;
     }
     error(Code::o_misplaced, s.span, fmt::format("no while or do loop {} is open here", name_of(s.name)),
           open.empty() ? "nothing is open here" : fmt::format("open here: {}", told(open.back())));

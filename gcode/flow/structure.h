@@ -14,9 +14,10 @@ struct Statement {
   Span span;
   Program::Position at;     ///< its own line
   Program::Position after;  ///< the line after it
-  int begin = -1;  ///< the sub, if, while, do or repeat that it belongs to; -1: it is a beginning itself
-  int next = -1;   ///< if, elseif, else: the next branch or the end
-  int end = -1;    ///< of a beginning: endsub, endif, endwhile, endrepeat, or the while of a do
+  int begin = -1;       ///< the sub, if, while, do or repeat that it belongs to; -1: it is a beginning itself
+  int next = -1;        ///< if, elseif, else: the next branch or the end
+  int end = -1;         ///< of a beginning: endsub, endif, endwhile, endrepeat, or the while of a do
+  int last_break = -1;  ///< of a loop: the last break that leaves it
 };
 
 /// All O words of a file, bound together before anything runs.
@@ -30,6 +31,9 @@ class Structure {
   int at_line(std::uint32_t line) const;
   std::size_t size() const { return statements_.size(); }
   const Statement& operator[](int index) const { return statements_[static_cast<std::size_t>(index)]; }
+  /// Statements of all subs by name, and of the O numbers that head subroutines for M98.
+  const std::unordered_map<std::int32_t, int>& subs() const { return subs_; }
+  const std::unordered_map<std::int32_t, int>& labels() const { return labels_; }
   /// The `sub` of that name, -1 if there is none.
   int sub(std::int32_t name) const { return find(subs_, name); }
   /// The O number alone that heads a subroutine for M98, -1 if there is none.

@@ -16,6 +16,8 @@ namespace kadr::gcode {
 namespace {
 
 constexpr std::size_t kIndent = 2;
+/// Deeper lines are indented no further: a program must not grow with the square of its length.
+constexpr std::size_t kMostIndented = 40;
 /// Longer lines don't push the comments of their neighbours to the right.
 constexpr std::size_t kAlignedUpTo = 60;
 /// Letters whose number is a name, not a length: a point after it means nothing.
@@ -284,20 +286,24 @@ void Formatter::append_lexemes(std::string& out, const Line& line, std::uint32_t
 
 /// Indentation of this line, in blanks; opens and closes what its O word says.
 std::size_t Formatter::indentation(const Line& line) {
-  if (!line.has_flow) return kIndent * open_.size();
+  const auto blanks = [](std::size_t depth) { return kIndent * std::min(depth, kMostIndented); };
+  if (!line.has_flow) return blanks(open_.size());
   const FlowStatement& flow = line.flow;
   const auto close = [&](FlowWord word) {
     // a label that closes nothing is reported elsewhere
-    for (std::size_t i = open_.size(); i-- > 0;) {
-      if (open_[i].word != word || open_[i].name != flow.name) continue;
-      open_.resize(i);
-      return true;
+    int& still_open = open_of_[{word, flow.name}];
+    if (still_open == 0) return false;
+    for (bool closed = false; !closed; open_.pop_back()) {
+      const Open& last = open_.back();
+      closed = last.word == word && last.name == flow.name;
+      --open_of_[{last.word, last.name}];
     }
-    return false;
+    return true;
   };
   const auto open = [&] {
     open_.push_back({flow.word, flow.name});
-    return kIndent * (open_.size() - 1);
+    ++open_of_[{flow.word, flow.name}];
+    return blanks(open_.size() - 1);
   };
   switch (flow.word) {
     case FlowWord::sub:
@@ -310,7 +316,7 @@ std::size_t Formatter::indentation(const Line& line) {
       return open();
     case FlowWord::else_if:
     case FlowWord::otherwise:
-      return kIndent * (open_.empty() ? 0 : open_.size() - 1);
+      return blanks(open_.empty() ? 0 : open_.size() - 1);
     case FlowWord::end_sub:
       close(FlowWord::sub);
       break;
@@ -330,7 +336,7 @@ std::size_t Formatter::indentation(const Line& line) {
     case FlowWord::continue_loop:
       break;
   }
-  return kIndent * open_.size();
+  return blanks(open_.size());
 }
 
 /// The first % opens a program, the next one, or the first after a word, ends it.

@@ -1,8 +1,10 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gcode/read/tree.h"
@@ -16,7 +18,7 @@
 /// - one blank between words, none inside; capital letters; no needless zeros (a point stays: other controls
 ///   read X10 and X10. differently)
 /// - blanks round the operators of an expression, none elsewhere in it
-/// - two blanks of indentation per level of O words; comments of neighbouring lines are aligned
+/// - two blanks of indentation per level of O words, of 40 levels at most; comments of neighbouring lines are aligned
 /// - lines end in LF, the last one too
 ///
 /// A line that could not be read stays as it is, and so does everything after the % that ends the program.
@@ -59,10 +61,11 @@ class Formatter {
   };
 
   std::string& out_;
-  std::vector<Open> open_;            ///< O words whose end has not come
-  std::vector<Formatted> run_;        ///< neighbouring lines with code and a comment
-  std::vector<std::uint32_t> order_;  ///< items of the line in the order printed
-  std::vector<std::int32_t> ranks_;   ///< [items]
+  std::vector<Open> open_;                                    ///< O words whose end has not come
+  std::map<std::pair<FlowWord, std::int32_t>, int> open_of_;  ///< how many, by word and label
+  std::vector<Formatted> run_;                                ///< neighbouring lines with code and a comment
+  std::vector<std::uint32_t> order_;                          ///< items of the line in the order printed
+  std::vector<std::int32_t> ranks_;                           ///< [items]
   std::vector<Lexeme> lexemes_;
   bool started_ = false;
   bool ended_ = false;

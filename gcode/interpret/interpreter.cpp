@@ -137,22 +137,40 @@ void Interpreter::finish(Span end, bool by_percent) {
 void Interpreter::emit(Span span, Action action) {
   if (silent_ || ended_) return;
   Block block{span, std::move(action)};
-  if (compensation_.active()) return compensate(block);
-  hand_out(block);
+  if (!compensation_.active()) return hand_out(block);
+  if (block_allowed(span, compensation_.waiting())) compensate(block);
 }
 
 void Interpreter::hand_out(Block& block) {
-  if (ended_) return;
-  if (options_.bounds.blocks != 0 && blocks_ >= options_.bounds.blocks) {
-    error(problem(Code::too_many_blocks, block.span, fmt::format("block {} would begin here", blocks_ + 1),
-                  fmt::format("allowed: {} (--limit blocks=N)", options_.bounds.blocks)));
-    ended_ = true;
-    return;
-  }
+  if (ended_ || !block_allowed(block.span, 0)) return;
   ++blocks_;
   if (place_) block.span = *place_;
   advice_.watch(block);
   sink_(block);
+}
+
+/// @param waiting  what is not handed out yet: blocks under compensation, points of a NURBS
+bool Interpreter::block_allowed(Span span, std::size_t waiting) {
+  const auto& bound = options_.bounds.blocks;
+  const std::uint64_t most = bound.value_or(ReadingBounds::kBlocks + text_lines_);
+  if (most == 0 || blocks_ + waiting < most) return true;
+  const std::string by_text =
+      bound ? "" : fmt::format(", {} and one for each line of the text", ReadingBounds::kBlocks);
+  error(problem(Code::too_many_blocks, span, fmt::format("block {} would begin here", blocks_ + waiting + 1),
+                fmt::format("allowed: {}{} (--limit blocks=N)", most, by_text)));
+  ended_ = true;
+  return false;
+}
+
+bool Interpreter::message_allowed(Span span, std::size_t bytes) {
+  const std::uint64_t most = options_.bounds.messages;
+  messages_ += weight_of(bytes);
+  if (most == 0 || messages_ <= most) return true;
+  Diagnostic d = problem(Code::too_many_messages, span, fmt::format("message {} of the run", messages_));
+  d.notes.push_back(fmt::format("allowed: {} (--limit messages=N)", most));
+  error(std::move(d));
+  ended_ = true;
+  return false;
 }
 
 Span Interpreter::line_span() const {

@@ -63,6 +63,8 @@ class Interpreter {
   void leave_level(Span place);
   /// A flow line has been read: the program has begun.
   void start() { started_ = true; }
+  /// Raises the default bound on blocks: one for each line of a text.
+  void allow_blocks(std::uint64_t lines) { text_lines_ += lines; }
   State& state() { return state_; }
   /// True after M2, M30, the closing % or the bound on blocks.
   bool ended() const { return ended_; }
@@ -282,6 +284,8 @@ class Interpreter {
   void recover(bool syntax);
   void emit(Span span, Action action);
   void hand_out(Block& block);
+  bool block_allowed(Span span, std::size_t waiting);
+  bool message_allowed(Span span, std::size_t bytes);
   Span line_span() const;
   Span action_span() const;
   Span g_span(GGroup group) const { return words_.span(*line_, group); }
@@ -310,7 +314,9 @@ class Interpreter {
   bool probe_stock_told_ = false;
   std::uint32_t axes_on_machine_ = 0;
   std::uint64_t blocks_ = 0;
-  bool started_ = false;  ///< some line with words has been run, or the opening % was seen
+  std::uint64_t messages_ = 0;    ///< weighed
+  std::uint64_t text_lines_ = 0;  ///< of all texts read
+  bool started_ = false;          ///< some line with words has been run, or the opening % was seen
   bool ended_ = false;
   bool threading_ = false;         ///< feed moves follow the spindle's angle, by thread_pitch_u_rev_
   double thread_pitch_u_rev_ = 0;  ///< as written

@@ -36,8 +36,9 @@ void Interpreter::comment() {
   if (!message && !debug && !same_letters(active.command, "PRINT")) return;
   if (debug && state_.parameters[parameter::kDebug] == 0) return;
   const Span span = line_->span(item.bytes);
-  if (message) return emit(span, Message{valid_text(active.text)});
-  const std::string text = expanded_text(active.text, state_, line_->number);
+  std::string text = message ? valid_text(active.text) : expanded_text(active.text, state_, line_->number);
+  if (!message_allowed(span, text.size())) return;
+  if (message) return emit(span, Message{std::move(text)});
   if (debug) return emit(span, Message{text});
   emit(span, Comment{text});
 }

@@ -146,7 +146,8 @@ void Interpreter::add_nurbs_point() {
 }
 
 void Interpreter::add_nurbs_control(const AxisValues& program, double weight) {
-  nurbs_.points.push_back({program[0], program[1], weight});
+  if (block_allowed(line_span(), nurbs_.points.size()))
+    nurbs_.points.push_back({program[0], program[1], weight});
 }
 
 void Interpreter::set_nurbs_order() {

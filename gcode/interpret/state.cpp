@@ -143,10 +143,9 @@ const double* find_named(const State& state, std::int32_t name) {
   if (is_global(state.names[name])) {
     return at < state.global_named.size() && state.global_named_set[at] ? &state.global_named[at] : nullptr;
   }
-  for (const auto& [number, value] : state.levels.back().named) {
-    if (number == name) return &value;
-  }
-  return nullptr;
+  const auto& named = state.levels.back().named;
+  const auto it = named.find(name);
+  return it == named.end() ? nullptr : &it->second;
 }
 
 void set_named(State& state, std::int32_t name, double value) {
@@ -160,12 +159,7 @@ void set_named(State& state, std::int32_t name, double value) {
     state.global_named_set[at] = true;
     return;
   }
-  for (auto& [number, old] : state.levels.back().named) {
-    if (number != name) continue;
-    old = value;
-    return;
-  }
-  state.levels.back().named.emplace_back(name, value);
+  state.levels.back().named.insert_or_assign(name, value);
 }
 
 AxisValues read_axis_parameters(const State& state, int first) {

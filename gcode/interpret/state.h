@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -126,11 +127,11 @@ struct ModalState {
 
 /// State of one call of a subroutine; the main program is the first.
 struct CallLevel {
-  std::array<double, 30> numbered{};                   ///< #1 to #30 of the caller, restored at the return
-  bool own_numbered = true;                            ///< false: M98, which shares the caller's
-  std::optional<ModalState> modal;                     ///< kept by M70 or M73
-  bool restores_modal = false;                         ///< M73: restored at the return
-  std::vector<std::pair<std::int32_t, double>> named;  ///< local named parameters by number of the name
+  std::array<double, 30> numbered{};               ///< #1 to #30 of the caller, restored at the return
+  bool own_numbered = true;                        ///< false: M98, which shares the caller's
+  std::optional<ModalState> modal;                 ///< kept by M70 or M73
+  bool restores_modal = false;                     ///< M73: restored at the return
+  std::unordered_map<std::int32_t, double> named;  ///< local named parameters by number of the name
 };
 
 /// Everything that a line of a program depends on besides its own words.

@@ -49,8 +49,7 @@ LineHead head_of(std::string_view line) {
 
 Program::Program(const SourceSet& sources, std::uint32_t file, const ReadingBounds& bounds, Names& names,
                  Report& report)
-    : source_(sources[file]),
-      text_(source_.text()),
+    : text_(sources[file].text()),
       file_(file),
       line_bytes_(bounds.line_bytes),
       parser_(names, report),
@@ -72,7 +71,6 @@ void Program::rewind() {
 
 bool Program::has_o_words() const {
   bool at_head = true;
-  std::size_t held_from = 0;
   for (std::size_t at = 0; at < text_.size();) {
     const auto* newline = static_cast<const char*>(std::memchr(text_.data() + at, '\n', text_.size() - at));
     const std::size_t end = newline ? static_cast<std::size_t>(newline - text_.data()) : text_.size();
@@ -88,16 +86,12 @@ bool Program::has_o_words() const {
     }
     if (head != LineHead::nothing) at_head = false;
     at = end + 1;
-    if (at < held_from + SourceText::kWindow_bytes) continue;
-    source_.let_go(held_from, std::min(at, text_.size()));
-    held_from = at;
   }
   return false;
 }
 
 bool Program::read(Line& line) {
   if (at_.offset >= text_.size()) return false;
-  let_go_what_was_read();
   const char* begin = text_.data() + at_.offset;
   const std::size_t left = text_.size() - at_.offset;
   const auto* newline = static_cast<const char*>(std::memchr(begin, '\n', left));
@@ -119,13 +113,6 @@ bool Program::read(Line& line) {
   }
   parser_.parse(line, line.number == 1 ? byte_order_mark(line.text) : 0);
   return true;
-}
-
-void Program::let_go_what_was_read() {
-  if (at_.offset < held_from_) held_from_ = at_.offset;
-  if (at_.offset - held_from_ < SourceText::kWindow_bytes) return;
-  source_.let_go(held_from_, at_.offset);
-  held_from_ = at_.offset;
 }
 
 }  // namespace kadr::gcode

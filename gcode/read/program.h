@@ -10,7 +10,7 @@
 namespace kadr::gcode {
 
 /// A control program as a stream of parsed lines. One line is held at a time, so memory does not grow with
-/// the file; loops and calls can save a position and return to it.
+/// the text; loops and calls can save a position and return to it.
 class Program {
  public:
   /// Where the next line begins.
@@ -37,14 +37,11 @@ class Program {
 
  private:
   bool read(Line& line);
-  void let_go_what_was_read();
 
-  const SourceText& source_;
   std::string_view text_;
   std::uint32_t file_;
   std::uint32_t line_bytes_;
   Position at_;
-  std::size_t held_from_ = 0;  ///< the text before it has been released
   Parser parser_;
   Report& report_;
   Line line_;

@@ -19,26 +19,31 @@ bool lies_below(const fs::path& path, const fs::path& folder) {
 }
 
 FoundText refuse(std::string reason) {
-  return {
-      {}, std::move(reason), "put the file below the program's folder, or name its folder with --subs", {}};
+  return {{},
+          std::move(reason),
+          "put the file below the program's folder, or name its folder with --subs",
+          {},
+          false};
 }
 
-FoundText open_text(const std::string& path) {
+FoundText open_text(const std::string& path, std::uint64_t most_bytes) {
   try {
-    return {SourceText::open(path), {}, {}, {}};
-  } catch (const std::system_error& e) {
-    return {{}, fmt::format("{}: {}", path, e.code().message()), {}, {}};
+    return {SourceText::open(path, most_bytes), {}, {}, {}, false};
+  } catch (const UnreadableText& e) {
+    const bool too_large = e.code() == std::errc::file_too_large;
+    return {{}, fmt::format("{}{}", e.what(), too_large ? " (--limit file_bytes=N)" : ""), {}, {}, too_large};
   }
 }
 
 }  // namespace
 
-FolderTexts FolderTexts::beside(const std::string& program, const std::vector<std::string>& others) {
+FolderTexts FolderTexts::beside(const std::string& program, const std::vector<std::string>& others,
+                                std::uint64_t most_bytes) {
   std::vector<std::string> folders;
   const fs::path path = program;
   if (path != "-") folders.push_back(path.has_parent_path() ? path.parent_path().string() : ".");
   folders.insert(folders.end(), others.begin(), others.end());
-  return FolderTexts(std::move(folders));
+  return FolderTexts(std::move(folders), most_bytes);
 }
 
 FoundText FolderTexts::find(std::string_view name) const {
@@ -53,7 +58,7 @@ FoundText FolderTexts::find(std::string_view name) const {
     if (error) return refuse(wanted.string() + ": " + error.message());
     if (!lies_below(real, root)) return refuse(wanted.string() + " is a link that leads out of its folder");
     if (!fs::is_regular_file(real, error)) return refuse(wanted.string() + " is not a plain file");
-    return open_text(wanted.string());
+    return open_text(wanted.string(), most_bytes_);
   }
   std::string looked;
   for (const std::string& folder : folders_) looked += (looked.empty() ? "" : ", ") + folder;
@@ -61,14 +66,15 @@ FoundText FolderTexts::find(std::string_view name) const {
           {},
           {},
           looked.empty() ? "a program from standard input has no folder; --subs names one"
-                         : fmt::format("kadr looked for {}.ngc in {}", name, looked)};
+                         : fmt::format("kadr looked for {}.ngc in {}", name, looked),
+          false};
 }
 
 FoundText MemoryTexts::find(std::string_view name) const {
   if (const auto text = texts_.find(name); text != texts_.end())
-    return {SourceText(text->first + ".ngc", text->second), {}, {}, {}};
+    return {SourceText(text->first + ".ngc", text->second), {}, {}, {}, false};
   if (behind_) return behind_->find(name);
-  return {{}, {}, {}, fmt::format("{}.ngc is not among the files at hand", name)};
+  return {{}, {}, {}, fmt::format("{}.ngc is not among the files at hand", name), false};
 }
 
 }  // namespace kadr::gcode

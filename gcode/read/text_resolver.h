@@ -1,10 +1,12 @@
 #pragma once
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "gcode/reading_bounds.h"
 #include "machine/base/diagnostic.h"
 
 namespace kadr::gcode {
@@ -12,9 +14,10 @@ namespace kadr::gcode {
 /// Result of looking for the text of a name: a text, a refusal, or neither if there is none.
 struct FoundText {
   std::optional<SourceText> text;
-  std::string refusal;  ///< why there is one that can't be used
-  std::string help;     ///< what would be right; of a refusal
-  std::string looked;   ///< where it was looked for, a note for people; where there is none
+  std::string refusal;     ///< why there is one that can't be used
+  std::string help;        ///< what would be right; of a refusal
+  std::string looked;      ///< where it was looked for, a note for people; where there is none
+  bool too_large = false;  ///< the refusal is about its size
 };
 
 /// Finds the texts of the files that a program calls.
@@ -29,13 +32,18 @@ class TextResolver {
 /// its folder once all symbolic links are followed; names that contain a path are refused.
 class FolderTexts final : public TextResolver {
  public:
-  explicit FolderTexts(std::vector<std::string> folders) : folders_(std::move(folders)) {}
+  /// @param most_bytes  larger files are refused; 0: no bound
+  explicit FolderTexts(std::vector<std::string> folders,
+                       std::uint64_t most_bytes = ReadingBounds().file_bytes)
+      : folders_(std::move(folders)), most_bytes_(most_bytes) {}
   /// The folder of a program, unless it comes from standard input ("-"), then the others.
-  static FolderTexts beside(const std::string& program, const std::vector<std::string>& others);
+  static FolderTexts beside(const std::string& program, const std::vector<std::string>& others,
+                            std::uint64_t most_bytes = ReadingBounds().file_bytes);
   FoundText find(std::string_view name) const override;
 
  private:
   std::vector<std::string> folders_;
+  std::uint64_t most_bytes_;
 };
 
 /// Texts held in memory (dropped files, an editor's buffers). Other names are passed on to another resolver.

@@ -55,6 +55,7 @@ enum class Code : std::uint16_t {
   loop_too_long = 1041,
   file_too_large = 1042,
   line_too_long = 1043,
+  too_many_lines = 1044,
 
   // K1xxx reading a control program: words and codes (codes/reading.inc)
   word_not_run = 1101,
@@ -106,6 +107,7 @@ enum class Code : std::uint16_t {
   parameter_read_only = 1204,
   value_too_large = 1205,
   too_many_blocks = 1301,
+  too_many_messages = 1302,
 
   // K2xxx geometry of blocks (codes/geometry.inc)
   feed_missing = 2101,
@@ -181,6 +183,7 @@ enum class Code : std::uint16_t {
   file_setting = 3010,
   file_keys_exclude = 3011,
   file_duplicate_key = 3012,
+  file_too_deep = 3013,
   machine_no_axis = 3101,
   machine_duplicate_axis = 3102,
   machine_axis_letter = 3103,

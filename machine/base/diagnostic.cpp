@@ -9,9 +9,38 @@
 
 namespace kadr {
 
+namespace {
+
+/// Cuts a text that quotes a file, between two code points.
+void shorten(std::string& text) {
+  if (text.size() <= Diagnostics::kMostText_bytes) return;
+  std::size_t end = Diagnostics::kMostText_bytes;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  text.resize(end);
+  text.shrink_to_fit();
+  text += "...";
+}
+
+}  // namespace
+
 void Diagnostics::add(Diagnostic d) {
   if (d.severity == Severity::error) ++errors_;
   if (d.severity == Severity::warning) ++warnings_;
+  const std::size_t of_kind = d.severity == Severity::error     ? errors_
+                              : d.severity == Severity::warning ? warnings_
+                                                                : 0;
+  if (of_kind > kMost) {
+    if (std::exchange(told_full_, true)) return;
+    d = {.code = Code::too_many_errors,
+         .severity = Severity::note,
+         .span = d.span,
+         .message = std::string(code_entry(Code::too_many_errors).title),
+         .label = fmt::format("after {} errors or warnings further ones are not shown", kMost),
+         .notes = {},
+         .help = {}};
+  }
+  for (std::string* text : {&d.message, &d.label, &d.help}) shorten(*text);
+  for (std::string& note : d.notes) shorten(note);
   list_.push_back(std::move(d));
 }
 
@@ -24,6 +53,7 @@ constexpr std::size_t kExcerpt = 160;
 constexpr std::size_t kLongestText = 400;
 
 constexpr std::size_t kTab_columns = 8;
+constexpr std::size_t kLongestCodePoint_bytes = 4;
 
 /// Calls shown from either end of a long chain.
 constexpr std::size_t kCallsShown = 4;
@@ -102,6 +132,12 @@ Excerpt excerpt(std::string_view line, const Span& span) {
   Excerpt e{line.substr(0, begin), line.substr(begin, length), line.substr(begin + length)};
 
   // generated programs have lines of any length: keep what a screen can show around the caret
+  if (e.before.size() > kExcerpt * kLongestCodePoint_bytes) {
+    e.before.remove_prefix(e.before.size() - kExcerpt * kLongestCodePoint_bytes);
+    while (!e.before.empty() && (static_cast<unsigned char>(e.before.front()) & 0xC0U) == 0x80U)
+      e.before.remove_prefix(1);
+    e.cut_before = true;
+  }
   for (std::size_t columns = columns_of(e.before); columns > kExcerpt / 2;) {
     const CodePoint c = decode_utf8(e.before, 0);
     columns -= columns_of(c.value);

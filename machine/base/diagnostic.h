@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "machine/base/codes.h"
@@ -20,34 +21,53 @@ struct Span {
   constexpr bool operator==(const Span&) const = default;
 };
 
+/// A text can't be read. what() is "PATH: reason".
+class UnreadableText : public std::system_error {
+ public:
+  UnreadableText(const std::string& path, std::errc code, std::string reason);
+  const char* what() const noexcept override { return what_.c_str(); }
+  const std::string& reason() const { return reason_; }
+
+ private:
+  std::string reason_, what_;
+};
+
+/// The largest machine, scenario or problem file that is read: TOML in memory takes 100 times its bytes and more.
+inline constexpr std::uint64_t kMostSettings_bytes = std::uint64_t{8} << 20;
+/// The largest table of tools or of a path that is read.
+inline constexpr std::uint64_t kMostTable_bytes = std::uint64_t{1} << 30;
+
 /// A text as read: a control program, machine or scenario file. The bytes stay as they are (no line-end conversion).
 class SourceText {
  public:
   /// A text already in memory.
   SourceText(std::string name, std::string text);
-  /// Maps a file read-only; throws std::system_error with the path if it can't be opened. "-" is standard
-  /// input, read into memory unless it is a file itself.
-  static SourceText open(const std::string& path);
+  /// Reads a regular file, or standard input for "-", into memory: what happens to the file afterwards changes nothing.
+  /// @param most_bytes  a larger file is refused before it is read, a longer input as soon as it is; 0: no bound
+  /// Throws UnreadableText if the file can't be opened, is a folder, pipe or device, is too large, or changes while it is
+  /// read.
+  static SourceText open(const std::string& path, std::uint64_t most_bytes);
 
   SourceText(SourceText&&) noexcept;
   SourceText& operator=(SourceText&&) noexcept;
   ~SourceText();
 
   const std::string& name() const { return name_; }  ///< as the user gave it
-  std::string_view text() const { return text_; }
+  std::string_view text() const { return *text_; }
   /// Line by 1-based number, without its line end; empty beyond the end. The line index is built at the first call.
   std::string_view line(std::uint32_t number) const;
-  /// Gives the memory of bytes [begin, end) of a mapped file back to the system; the text stays as it is, and
-  /// reading there reads the file again. Call it every kWindow_bytes when going through a text once.
-  void let_go(std::size_t begin, std::size_t end) const;
-  static constexpr std::size_t kWindow_bytes = std::size_t{1} << 20;
 
  private:
-  struct Storage;
+  struct LineStart {
+    std::uint32_t number = 1;
+    std::size_t at = 0;
+  };
+  void index_lines() const;
+
   std::string name_;
-  std::unique_ptr<Storage> storage_;
-  std::string_view text_;
-  mutable std::vector<std::size_t> line_starts_;  ///< of every 256th line
+  std::unique_ptr<const std::string> text_;  ///< stays where it is when this is moved
+  mutable std::vector<LineStart>
+      line_starts_;  ///< of some lines: at most 256 lines or 64 kB and a line apart
 };
 
 /// The texts that spans point into.
@@ -74,10 +94,16 @@ struct Diagnostic {
   std::size_t calls_left_out = 0;  ///< further calls, between the two halves of `calls`
 };
 
-/// Diagnostics in the order found. Reading continues after an error; nothing moves while has_errors().
+/// Diagnostics in the order found. Reading continues after an error; nothing moves while has_errors(). Memory is
+/// bounded: at most kMost errors and kMost warnings are kept, and texts that quote a file are cut.
 class Diagnostics {
  public:
+  static constexpr std::size_t kMost = 2000;
+  static constexpr std::size_t kMostText_bytes = 4000;
+
   void add(Diagnostic d);
+  /// No further error is kept: reading on is pointless.
+  bool full() const { return errors_ >= kMost; }
   bool has_errors() const { return errors_ > 0; }
   std::size_t errors() const { return errors_; }
   std::size_t warnings() const { return warnings_; }
@@ -87,6 +113,7 @@ class Diagnostics {
   std::vector<Diagnostic> list_;
   std::size_t errors_ = 0;
   std::size_t warnings_ = 0;
+  bool told_full_ = false;
 };
 
 /// A place for people and tools: code points, not bytes.

@@ -1,38 +1,26 @@
 #include <fcntl.h>
-#include <sys/mman.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
-#include <system_error>
+#include <iterator>
 #include <utility>
 
 #include "machine/base/diagnostic.h"
 #include "machine/base/input_files.h"
-#include "machine/base/require.h"
 
 namespace kadr {
 
-// smaller files are copied: an editor that truncates a mapped file would kill us with SIGBUS
-constexpr std::size_t kMapFrom_bytes = std::size_t{4} << 20;
-constexpr std::size_t kIndexStride = 256;  // lines; an index of all lines would grow with the file
-
-struct SourceText::Storage {
-  std::string owned;
-  void* mapped = nullptr;
-  std::size_t mapped_size = 0;
-
-  Storage() = default;
-  Storage(const Storage&) = delete;
-  Storage& operator=(const Storage&) = delete;
-  ~Storage() {
-    if (mapped) ::munmap(mapped, mapped_size);
-  }
-};
+// an index of all lines would grow with the file
+constexpr std::uint32_t kIndexStride = 256;
+constexpr std::size_t kIndexStride_bytes = std::size_t{1} << 16;
 
 namespace {
+
+constexpr std::size_t kPiece_bytes = std::size_t{1} << 16;
+constexpr std::size_t kLongestRead_bytes = std::size_t{1} << 30;
 
 struct Descriptor {
   int fd;
@@ -42,52 +30,96 @@ struct Descriptor {
 };
 
 [[noreturn]] void fail(const std::string& path) {
-  throw std::system_error(errno, std::generic_category(), path);
+  const auto code = static_cast<std::errc>(errno);
+  throw UnreadableText(path, code, std::make_error_code(code).message());
 }
 
-std::string read_all(int fd, const std::string& path, std::size_t size_hint) {
-  std::string text;
-  text.reserve(size_hint + 1);
-  char buffer[1 << 16];
+[[noreturn]] void refuse_size(const std::string& path, const std::string& size, std::uint64_t most_bytes) {
+  throw UnreadableText(path, std::errc::file_too_large,
+                       fmt::format("{} bytes; at most {} are read", size, most_bytes));
+}
+
+struct stat status_of(int fd, const std::string& path) {
+  struct stat status {};
+  if (::fstat(fd, &status) != 0) fail(path);
+  return status;
+}
+
+/// Only a regular file has an end that is known before it is read.
+void require_regular(const struct stat& status, const std::string& path) {
+  if (S_ISREG(status.st_mode)) return;
+  if (S_ISDIR(status.st_mode))
+    throw UnreadableText(path, std::errc::is_a_directory,
+                         std::make_error_code(std::errc::is_a_directory).message());
+  throw UnreadableText(path, std::errc::invalid_argument,
+                       S_ISFIFO(status.st_mode) ? "is a pipe, not a file; `-` reads standard input"
+                                                : "is a device or socket, not a file");
+}
+
+/// Appends what can be read, at most `most_bytes` + 1 bytes if that is not 0.
+void read_rest(int fd, const std::string& path, std::uint64_t most_bytes, std::string& text) {
   for (;;) {
-    const ssize_t got = ::read(fd, buffer, sizeof buffer);
-    if (got > 0) {
-      text.append(buffer, static_cast<std::size_t>(got));
-    } else if (got == 0) {
-      return text;
-    } else if (errno != EINTR) {
-      fail(path);
-    }
+    const std::size_t have = text.size();
+    if (most_bytes != 0 && have > most_bytes) return;
+    // a file that is no larger than it was needs no more than what was reserved
+    const std::size_t room = text.capacity() > have ? text.capacity() - have : kPiece_bytes;
+    const std::size_t wanted = std::min(room, kLongestRead_bytes);
+    text.resize(have + wanted);
+    const ssize_t got = ::read(fd, text.data() + have, wanted);
+    text.resize(have + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    if (got == 0) return;
+    if (got < 0 && errno != EINTR) fail(path);
   }
+}
+
+bool same_content(const struct stat& a, const struct stat& b) {
+  return a.st_size == b.st_size && a.st_mtim.tv_sec == b.st_mtim.tv_sec &&
+         a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
+}
+
+std::string read_file(int fd, const std::string& path, std::uint64_t most_bytes) {
+  const struct stat before = status_of(fd, path);
+  require_regular(before, path);
+  note_input_file(before);
+  const auto size = static_cast<std::uint64_t>(before.st_size);
+  if (most_bytes != 0 && size > most_bytes) refuse_size(path, std::to_string(size), most_bytes);
+  std::string text;
+  text.reserve(size + 1);
+  read_rest(fd, path, most_bytes, text);
+  // files of the kernel have no size until they are read
+  const bool whole = text.size() == size || size == 0;
+  if (!whole || !same_content(before, status_of(fd, path)))
+    throw UnreadableText(path, std::errc::io_error, "changed while it was read");
+  if (most_bytes != 0 && text.size() > most_bytes)
+    refuse_size(path, fmt::format("more than {}", most_bytes), most_bytes);
+  return text;
+}
+
+std::string read_input(const std::string& path, std::uint64_t most_bytes) {
+  note_input_file(status_of(STDIN_FILENO, path));
+  std::string text;
+  read_rest(STDIN_FILENO, path, most_bytes, text);
+  if (most_bytes != 0 && text.size() > most_bytes)
+    refuse_size(path, fmt::format("more than {}", most_bytes), most_bytes);
+  return text;
 }
 
 }  // namespace
 
+UnreadableText::UnreadableText(const std::string& path, std::errc code, std::string reason)
+    : std::system_error(std::make_error_code(code)),
+      reason_(std::move(reason)),
+      what_(fmt::format("{}: {}", path == "-" ? "standard input" : path, reason_)) {}
+
 SourceText::SourceText(std::string name, std::string text)
-    : name_(std::move(name)), storage_(std::make_unique<Storage>()) {
-  storage_->owned = std::move(text);
-  text_ = storage_->owned;
-}
+    : name_(std::move(name)), text_(std::make_unique<const std::string>(std::move(text))) {}
 
-SourceText SourceText::open(const std::string& path) {
-  const bool input = path == "-";
-  const Descriptor file{input ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+SourceText SourceText::open(const std::string& path, std::uint64_t most_bytes) {
+  if (path == "-") return {path, read_input(path, most_bytes)};
+  // without O_NONBLOCK opening a pipe waits for its writer
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
   if (file.fd < 0) fail(path);
-  struct stat status {};
-  if (::fstat(file.fd, &status) != 0) fail(path);
-  note_input_file(status);
-  const auto size = static_cast<std::size_t>(status.st_size);
-  const bool whole_file = S_ISREG(status.st_mode) && (!input || ::lseek(file.fd, 0, SEEK_CUR) == 0);
-  if (!whole_file || size < kMapFrom_bytes) return {path, read_all(file.fd, path, whole_file ? size : 0)};
-
-  SourceText source(path, {});
-  void* mapped = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.fd, 0);
-  if (mapped == MAP_FAILED) fail(path);
-  ::madvise(mapped, size, MADV_SEQUENTIAL);
-  source.storage_->mapped = mapped;
-  source.storage_->mapped_size = size;
-  source.text_ = {static_cast<const char*>(mapped), size};
-  return source;
+  return {path, read_file(file.fd, path, most_bytes)};
 }
 
 SourceText::SourceText(SourceText&&) noexcept = default;
@@ -104,36 +136,30 @@ std::size_t next_line(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-void SourceText::let_go(std::size_t begin, std::size_t end) const {
-  if (storage_->mapped == nullptr) return;
-  static const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  begin -= begin % page;
-  end = std::min(end, text_.size());
-  end -= end % page;
-  // only a hint: a system that ignores it is slower, not wrong
-  if (begin < end) ::madvise(static_cast<char*>(storage_->mapped) + begin, end - begin, MADV_DONTNEED);
+void SourceText::index_lines() const {
+  line_starts_.push_back({});
+  LineStart line;
+  while ((line.at = next_line(text(), line.at)) != std::string_view::npos) {
+    ++line.number;
+    const LineStart& known = line_starts_.back();
+    if (line.number - known.number >= kIndexStride || line.at - known.at >= kIndexStride_bytes)
+      line_starts_.push_back(line);
+  }
 }
 
 std::string_view SourceText::line(std::uint32_t number) const {
-  if (line_starts_.empty()) {
-    std::size_t line_index = 0;
-    std::size_t held = 0;
-    for (std::size_t at = 0; at != std::string_view::npos; at = next_line(text_, at)) {
-      if (line_index++ % kIndexStride == 0) line_starts_.push_back(at);
-      if (at - held >= kWindow_bytes) {
-        let_go(held, at);
-        held = at;
-      }
-    }
+  if (line_starts_.empty()) index_lines();
+  if (number == 0) return {};
+  const auto behind =
+      std::upper_bound(line_starts_.begin(), line_starts_.end(), number,
+                       [](std::uint32_t wanted, const LineStart& start) { return wanted < start.number; });
+  LineStart start = *std::prev(behind);
+  for (; start.number < number; ++start.number) {
+    start.at = next_line(text(), start.at);
+    if (start.at == std::string_view::npos) return {};
   }
-  if (number == 0 || (number - 1) / kIndexStride >= line_starts_.size()) return {};
-  std::size_t begin = line_starts_[(number - 1) / kIndexStride];
-  for (std::size_t left = (number - 1) % kIndexStride; left > 0; --left) {
-    begin = next_line(text_, begin);
-    if (begin == std::string_view::npos) return {};
-  }
-  const std::size_t end = std::min(text_.find('\n', begin), text_.size());
-  std::string_view line = text_.substr(begin, end - begin);
+  const std::size_t end = std::min(text().find('\n', start.at), text().size());
+  std::string_view line = text().substr(start.at, end - start.at);
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   return line;
 }

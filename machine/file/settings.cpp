@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
 
+#include "machine/file/toml_places.h"
 #include "machine/file/tree.h"
 
 namespace kadr::machine {
@@ -18,6 +21,10 @@ class Setting {
       return problem(0, text_.size(), "is not key=value", "for example feed.max_mm_s=50");
     if (text_.find_first_of("\n\r") != std::string_view::npos)
       return problem(0, text_.size(), "is more than one line", "");
+    const std::string_view path = text_.substr(0, equal_);
+    const auto parts = 1 + static_cast<std::size_t>(std::count(path.begin(), path.end(), '.'));
+    if (parts > kMostKeyParts)
+      return problem(0, equal_, fmt::format("has {} parts, allowed: {}", parts, kMostKeyParts), "");
     Node* table = &root;
     std::size_t begin = 0;
     for (;;) {

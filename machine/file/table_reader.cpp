@@ -265,7 +265,8 @@ bool TableReader::tell_other_unit(const Entry& entry) {
   for (const std::string& key : known_) {
     const KeyParts known = split_key(key);
     if (!known.unit) continue;
-    const bool same_stem = edit_distance(given.stem, known.stem) == 0;
+    const bool same_stem =
+        given.stem.size() == known.stem.size() && edit_distance(given.stem, known.stem) == 0;
     if (!same_stem || (given.unit && given.unit->suffix == known.unit->suffix)) continue;
 
     Diagnostic d = file_diagnostic(Code::file_other_unit, entry.key_span, "");
@@ -299,6 +300,8 @@ void TableReader::tell_unknown(const Entry& entry) {
   const std::string* nearest = nullptr;
   int distance = 0;
   for (const std::string& key : known_) {
+    // a key of any length would take the time of its length times that of each name
+    if (entry.key.size() > 2 * key.size()) continue;
     const int edits = edit_distance(entry.key, key);
     if (!nearest || edits < distance) {
       nearest = &key;
@@ -320,8 +323,9 @@ void TableReader::tell_unknown(const Entry& entry) {
 void TableReader::finish() {
   if (table_)
     for (const Entry& entry : table_->entries)
-      if (std::find(known_.begin(), known_.end(), entry.key) == known_.end()) tell_unknown(entry);
-  if (!context_.complete) return;
+      if (!context_.diagnostics.full() && std::find(known_.begin(), known_.end(), entry.key) == known_.end())
+        tell_unknown(entry);
+  if (!context_.complete || context_.diagnostics.full()) return;
   for (const std::string& key : missing_) {
     Diagnostic d = file_diagnostic(Code::file_missing_key, header_, fmt::format("{} is not given", key));
     d.message = fmt::format("{}: missing key", path_of(key));

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 
 #include "machine/base/parse_number.h"
 #include "machine/base/utf8.h"
+#include "machine/file/toml_places.h"
 #include "machine/file/tree.h"
 
 namespace kadr::machine {
@@ -14,28 +16,21 @@ namespace {
 
 constexpr int kMaxSyntaxErrors = 20;
 
-/// toml++ counts columns in code points, a Span in bytes.
-std::uint32_t byte_column(std::string_view line, std::uint32_t code_point_column) {
-  std::size_t at = 0;
-  for (std::uint32_t i = 1; i < code_point_column && at < line.size(); ++i) at += decode_utf8(line, at).bytes;
-  return static_cast<std::uint32_t>(at + 1);
-}
-
 /// Turns toml++ nodes into ours; spans count in the text of one file.
 class Converter {
  public:
-  Converter(const SourceText& source, std::uint32_t file) : source_(source), file_(file) {}
+  Converter(std::string_view text, std::uint32_t file) : places_(text), file_(file) {}
 
-  Span span(const toml::source_region& region) const {
-    const std::string_view line = source_.line(region.begin.line);
-    const std::uint32_t begin = byte_column(line, region.begin.column);
-    const auto line_end = static_cast<std::uint32_t>(line.size() + 1);
-    const std::uint32_t end =
-        region.end.line == region.begin.line ? byte_column(line, region.end.column) : line_end;
+  Span span(const toml::source_region& region) {
+    const std::uint32_t begin = places_.byte_column(region.begin.line, region.begin.column);
+    const auto line_end = static_cast<std::uint32_t>(places_.line(region.begin.line).size() + 1);
+    const std::uint32_t end = region.end.line == region.begin.line
+                                  ? places_.byte_column(region.begin.line, region.end.column)
+                                  : line_end;
     return {file_, region.begin.line, begin, end > begin ? end - begin : 1};
   }
 
-  Node node(const toml::node& from) const {
+  Node node(const toml::node& from) {
     Node to;
     to.span = span(from.source());
     if (const auto* table = from.as_table()) {
@@ -66,7 +61,7 @@ class Converter {
   }
 
  private:
-  const SourceText& source_;
+  TomlPlaces places_;
   std::uint32_t file_;
 };
 
@@ -113,8 +108,9 @@ std::string syntax_help(std::string_view line) {
 /// The first syntax error of the text as a diagnostic, with the line as written in the file.
 Diagnostic syntax_error(const toml::parse_error& error, const SourceSet& sources, std::uint32_t file) {
   const std::string_view line = sources[file].line(error.source().begin.line);
-  Diagnostic d = file_diagnostic(Code::file_syntax, Converter(sources[file], file).span(error.source()),
-                                 plain_words(error.description()));
+  Diagnostic d =
+      file_diagnostic(Code::file_syntax, Converter(sources[file].text(), file).span(error.source()),
+                      plain_words(error.description()));
   if (d.label.starts_with("cannot redefine existing")) {
     const auto first = line.find_first_not_of(" \t");
     const auto end = std::min(line.find_first_of(" \t=#", first), line.size());
@@ -130,6 +126,17 @@ Diagnostic syntax_error(const toml::parse_error& error, const SourceSet& sources
     d.help = syntax_help(line);
   }
   d.message = code_entry(d.code).title;
+  return d;
+}
+
+Diagnostic too_deep(const TooDeep& place, std::uint32_t file) {
+  const Span span{file, place.line, static_cast<std::uint32_t>(place.begin + 1),
+                  static_cast<std::uint32_t>(place.length)};
+  const bool key = place.kind == TooDeep::Kind::key;
+  Diagnostic d = file_diagnostic(Code::file_too_deep, span,
+                                 key ? fmt::format("{} parts", place.levels)
+                                     : fmt::format("{} lists or tables within each other", place.levels));
+  d.notes.push_back(fmt::format("allowed: {}", key ? kMostKeyParts : kMostNestedValues));
   return d;
 }
 
@@ -155,9 +162,16 @@ ParsedTree parse_toml(const SourceSet& sources, std::uint32_t file, Diagnostics&
   ParsedTree tree;
   std::string text(sources[file].text());
   for (int errors = 0; errors < kMaxSyntaxErrors; ++errors) {
+    // the parser would take each part of a key as a level of its stack
+    if (const auto deep = find_too_deep(text)) {
+      tree.complete = false;
+      diagnostics.add(too_deep(*deep, file));
+      if (!blank_line(text, deep->line)) break;
+      continue;
+    }
     try {
       const toml::table table = toml::parse(text, sources[file].name());
-      tree.root = Converter(sources[file], file).node(table);
+      tree.root = Converter(sources[file].text(), file).node(table);
       return tree;
     } catch (const toml::parse_error& error) {
       tree.complete = false;
@@ -179,10 +193,10 @@ Node parse_value(const std::string& value, const Span& span) {
     node.kind = Node::Kind::text;
     node.text = value;
     try {
-      const SourceText source("", "v = " + value);
-      const toml::table table = toml::parse(source.text());
+      const std::string line = "v = " + value;
+      const toml::table table = find_too_deep(line) ? toml::table() : toml::parse(line);
       if (table.size() == 1 && value.find('\n') == std::string::npos)
-        node = Converter(source, 0).node(*table.get("v"));
+        node = Converter(line, 0).node(*table.get("v"));
     } catch (const toml::parse_error&) {
     }
   }

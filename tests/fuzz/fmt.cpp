@@ -34,8 +34,13 @@ std::string trace(const std::string& text) {
   SourceSet sources;
   const auto file = sources.add(SourceText("/nowhere/fuzz.ngc", text));
   InterpretOptions options;
-  options.bounds = {
-      .blocks = 1000, .call_depth = 20, .loop_passes = 1000, .file_bytes = 1 << 20, .line_bytes = 0};
+  options.bounds = {.blocks = 1000,
+                    .lines = 50'000,
+                    .messages = 1000,
+                    .call_depth = 20,
+                    .loop_passes = 1000,
+                    .file_bytes = 1 << 20,
+                    .line_bytes = 0};
   Diagnostics diagnostics;
   std::string out;
   interpret(

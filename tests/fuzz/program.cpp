@@ -54,8 +54,13 @@ InterpretOptions options_of(const Choices& choices) {
   if (choices.few_axes) options.axis_letters = "XZC";
   options.g28 = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   options.g30 = {-1, -2, -3};
-  options.bounds = {
-      .blocks = 2000, .call_depth = 20, .loop_passes = 2000, .file_bytes = 1 << 20, .line_bytes = 8192};
+  options.bounds = {.blocks = 2000,
+                    .lines = 50'000,
+                    .messages = 1000,
+                    .call_depth = 20,
+                    .loop_passes = 2000,
+                    .file_bytes = 1 << 20,
+                    .line_bytes = 8192};
   options.tools = small_table();
   options.sub_folders = {KADR_SOURCE_DIR "/tests/fuzz/subs"};
   if (choices.stock) options.stock = StockPlane{.axis = 2, .position_u = -5, .below = true};

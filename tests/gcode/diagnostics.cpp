@@ -52,6 +52,8 @@ InterpretOptions machine_for(const std::string& program) {
   if (program.find("_stock.") != std::string::npos) options.stock = StockPlane{2, -5, true};
   if (program.rfind("K1042", 0) == 0) options.bounds.file_bytes = 64;
   if (program.rfind("K1043", 0) == 0) options.bounds.line_bytes = 64;
+  if (program.rfind("K1044", 0) == 0) options.bounds.lines = 50;
+  if (program.rfind("K1302", 0) == 0) options.bounds.messages = 10;
   return options;
 }
 

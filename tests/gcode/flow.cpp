@@ -370,3 +370,20 @@ TEST_CASE("behind an M2 with a mistake O words are not run") {
   CHECK(run("M2 #\no3 continue\n").diagnostics.list().size() == 1);
   CHECK(only_code("M2 Q1\no3 continue\n") == Code::word_unused);
 }
+
+TEST_CASE("nothing of a called file whose O words don't fit together is run, however often it is called") {
+  const Folder folder;
+  folder.write("parts/bad.ngc", "O<bad> sub\nO1 if [0]\nG0 X1\nO<bad> endsub\n");
+  const Outcome outcome =
+      run("O<bad> call\nO<bad> call\nM98 P1\nM2\n", {}, (folder / "parts/main.ngc").string());
+  CHECK(outcome.diagnostics.has_errors());
+  CHECK(outcome.moves().empty());
+}
+
+TEST_CASE("a break that is skipped on the way to a loop's end counts, wherever it is in the loop") {
+  // the second break of o1 is passed over by its continue: the do loop behind ends after one pass
+  const std::string text =
+      "#1=0\no1 while [#1 LT 2]\n#1=[#1+1]\no2 if [0]\no1 break\no2 endif\no1 continue\no3 if [0]\no1 break\n"
+      "o3 endif\no1 endwhile\n#2=0\no4 do\n#2=[#2+1]\nG0 X#2\no4 while [#2 LT 3]\nM2\n";
+  CHECK(run(text).codes() == std::vector<Code>{Code::loop_mark_kept});
+}

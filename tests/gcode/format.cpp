@@ -231,3 +231,17 @@ TEST_CASE("an expression of a megabyte is formatted without a deep stack") {
   for (int i = 0; i < 200'000; ++i) text += "+1";
   CHECK(form(text + "]\n").size() > 800'000);
 }
+
+TEST_CASE("the form of nested O words grows with their number, not with its square") {
+  const auto nested = [](int n) {
+    std::string text;
+    for (int i = 1; i <= n; ++i) text += "o" + std::to_string(i) + " if [1]\n";
+    for (int i = n; i >= 1; --i) text += "o" + std::to_string(i) + " endif\n";
+    return text + "M2\n";
+  };
+  const std::string text = nested(2000);
+  CHECK(form(text).size() < text.size() + 4000 * 80);
+  check_form(nested(100));
+  // 40 levels of two blanks
+  CHECK(form(nested(100)).find("\n" + std::string(80, ' ') + "O60 if") != std::string::npos);
+}

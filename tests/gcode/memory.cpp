@@ -42,7 +42,9 @@ std::int64_t used_bytes() {
 
 }  // namespace
 
-TEST_CASE("a program file of 16 MB is interpreted in 4 MB of memory, a warning in its last line included") {
+TEST_CASE(
+    "a program file of 16 MB is interpreted in 4 MB of memory beside its text, a warning in its last line "
+    "included") {
   const std::string path =
       (std::filesystem::temp_directory_path() / fmt::format("kadr_memory_{}.ngc", ::getpid())).string();
   {
@@ -55,7 +57,7 @@ TEST_CASE("a program file of 16 MB is interpreted in 4 MB of memory, a warning i
     file << "(LOG,x)\n";
   }
   SourceSet sources;
-  const auto program = sources.add(SourceText::open(path));
+  const auto program = sources.add(SourceText::open(path, 0));
   std::remove(path.c_str());
   Diagnostics diagnostics;
   const std::int64_t before = used_bytes();

@@ -1,6 +1,7 @@
 #include "machine/base/diagnostic.h"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -247,28 +248,98 @@ TEST_CASE("files of 0 bytes, 1 kB and 5 MB read back as written") {
     for (std::size_t i = 79; i < size; i += 80) text[i] = '\n';
     const std::string path = temporary("file");
     std::ofstream(path, std::ios::binary) << text;
-    const SourceText read = SourceText::open(path);
+    const SourceText read = SourceText::open(path, size);
     std::remove(path.c_str());
     CHECK(read.text() == text);
     CHECK(read.name() == path);
-    // released memory is read again from the file, although the file has no name any more
-    read.let_go(0, size);
-    CHECK(read.text() == text);
     if (size > 160) CHECK(read.line(2) == std::string(79, 'a'));
   }
 }
 
-TEST_CASE("a file that is missing or a folder throws with its path") {
-  for (const std::string& path :
-       {temporary("no_such_file"), std::filesystem::temp_directory_path().string()}) {
-    bool thrown = false;
-    try {
-      SourceText::open(path);
-    } catch (const std::system_error& e) {
-      thrown = true;
-      CHECK(std::string(e.what()).find(path) != std::string::npos);
-    }
-    CHECK(thrown);
+namespace {
+
+/// Why a file is not read; empty if it is.
+std::string refusal(const std::string& path, std::uint64_t most_bytes) {
+  try {
+    SourceText::open(path, most_bytes);
+  } catch (const UnreadableText& e) {
+    CHECK(std::string(e.what()) == path + ": " + e.reason());
+    return e.reason();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a file that is missing, a folder, pipe or device is refused with its path, at once") {
+  CHECK(refusal(temporary("no_such_file"), 1000) == "No such file or directory");
+  CHECK(refusal(std::filesystem::temp_directory_path().string(), 1000) == "Is a directory");
+  CHECK(refusal("/dev/zero", 1000) == "is a device or socket, not a file");
+  const std::string pipe = temporary("pipe");
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(refusal(pipe, 1000) == "is a pipe, not a file; `-` reads standard input");
+  std::remove(pipe.c_str());
+}
+
+TEST_CASE("a file above its bound is refused before it is read") {
+  const std::string path = temporary("large");
+  std::ofstream(path) << "text";
+  CHECK(refusal(path, 4).empty());
+  CHECK(refusal(path, 3) == "4 bytes; at most 3 are read");
+  CHECK(refusal(path, 0).empty());
+  // larger than memory
+  std::filesystem::resize_file(path, std::uintmax_t{1} << 42);
+  CHECK(refusal(path, kMostSettings_bytes) == "4398046511104 bytes; at most 8388608 are read");
+  std::remove(path.c_str());
+}
+
+TEST_CASE("a text stays as it was read while its file is cut short") {
+  const std::string path = temporary("cut");
+  const std::string text(5'000'000, 'a');
+  std::ofstream(path, std::ios::binary) << text;
+  const SourceText read = SourceText::open(path, 0);
+  std::filesystem::resize_file(path, 0);
+  CHECK(read.text() == text);
+  std::remove(path.c_str());
+}
+
+TEST_CASE("of any number of diagnostics 2000 errors and 2000 warnings are kept, of their texts 4000 bytes") {
+  Diagnostics list;
+  for (std::size_t i = 0; i < Diagnostics::kMost; ++i) {
+    CHECK_FALSE(list.full());
+    list.add(plain({}, ""));
+  }
+  CHECK(list.full());
+  Diagnostic warning = plain({}, "");
+  warning.severity = Severity::warning;
+  for (std::size_t i = 0; i < 3 * Diagnostics::kMost; ++i) {
+    list.add(plain({}, ""));
+    list.add(warning);
+  }
+  CHECK(list.errors() == 4 * Diagnostics::kMost);
+  CHECK(list.warnings() == 3 * Diagnostics::kMost);
+  // and one note that says so
+  CHECK(list.list().size() == 2 * Diagnostics::kMost + 1);
+  CHECK(std::count_if(list.list().begin(), list.list().end(),
+                      [](const Diagnostic& d) { return d.code == Code::too_many_errors; }) == 1);
+
+  Diagnostics long_texts;
+  std::string label = "x";
+  while (label.size() < 100'000) label += "\xD0\xBF";
+  long_texts.add(plain({}, label));
+  const std::string& kept = long_texts.list().front().label;
+  CHECK(kept.size() <= Diagnostics::kMostText_bytes + 3);
+  CHECK(kept.ends_with("..."));
+  CHECK(is_utf8(kept));
+}
+
+TEST_CASE("lines of any length are found, in any order") {
+  std::string text;
+  for (int i = 1; i <= 20; ++i) text += std::to_string(i) + std::string(100'000, ' ') + "\n\n";
+  const SourceText t("p", text);
+  for (const std::uint32_t i : {20U, 1U, 7U, 19U, 2U}) {
+    CHECK(t.line(2 * i - 1).starts_with(std::to_string(i) + " "));
+    CHECK(t.line(2 * i) == "");
   }
 }
 

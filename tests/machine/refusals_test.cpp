@@ -38,7 +38,7 @@ struct Refusal {
 };
 
 Refusal refuse(const std::filesystem::path& path) {
-  const SourceText on_disk = SourceText::open(path.string());
+  const SourceText on_disk = SourceText::open(path.string(), 0);
   SourceSet sources;
   const auto file = read_machine(SourceText(path.filename().string(), std::string(on_disk.text())), sources,
                                  settings_of(on_disk));

@@ -8,6 +8,16 @@
 
 namespace kadr::cycle {
 
+namespace {
+
+/// Below 0.01 % the path all but stands, and a run would take ten thousand times as long as its plan: such an override
+/// is a standstill, as 0 is.
+constexpr double kLeastOverride = 1e-4;
+
+double or_standstill(double override) { return override < kLeastOverride ? 0.0 : override; }
+
+}  // namespace
+
 OperatorPanel::OperatorPanel(const std::vector<OperatorStep>& steps, std::vector<double> places_u,
                              const machine::MachineModel& machine, EventList& events)
     : steps_(steps),
@@ -38,7 +48,7 @@ const planner::OperatorInput& OperatorPanel::advance(ControlTicks tick, double s
   if (spindle_override_ != before)
     tell(begin, log::EventKind::spindle_override, spindle_override_ * 100,
          fmt::format("spindle load {:.6g} %: feed at {:.6g} %", load_ * 100, spindle_override_ * 100));
-  input_.feed_override = operator_override_ * spindle_override_;
+  input_.feed_override = or_standstill(operator_override_ * spindle_override_);
   return input_;
 }
 
@@ -50,7 +60,7 @@ void OperatorPanel::take(const OperatorStep& step, Ticks tick) {
       return tell(tick, log::EventKind::feed_override, percent,
                   fmt::format("feed override {:.6g} %", percent));
     case OperatorAction::rapid_override:
-      input_.rapid_override = step.value;
+      input_.rapid_override = or_standstill(step.value);
       return tell(tick, log::EventKind::rapid_override, percent,
                   fmt::format("rapid override {:.6g} %", percent));
     case OperatorAction::hold:

@@ -253,7 +253,7 @@ class ProblemReader {
     }
     std::vector<std::string> names;
     for (const PathAxis& axis : out_.axes) names.push_back(axis.name);
-    const std::uint32_t file = sources_.add(SourceText::open(path.string()));
+    const std::uint32_t file = sources_.add(SourceText::open(path.string(), kMostTable_bytes));
     auto rows = read_path_table(sources_, file, names, context_.diagnostics);
     if (!rows || !small_enough(nodes_ ? nodes_->value : static_cast<double>(rows->s_u.size()))) return false;
     out_.table.emplace(std::move(rows->s_u), std::move(rows->values), out_.axes.size(), ends_);

@@ -25,7 +25,7 @@ std::optional<machine::MachineFile> open_problem_machine(SourceSet& sources, std
     context.diagnostics.add(std::move(d));
     return {};
   }
-  auto read = machine::read_machine(shipped.empty() ? SourceText::open(beside.string())
+  auto read = machine::read_machine(shipped.empty() ? SourceText::open(beside.string(), kMostSettings_bytes)
                                                     : SourceText(name.value + ".toml", std::string(shipped)),
                                     sources);
   if (read) return std::move(*read);

@@ -87,14 +87,15 @@ bool ProgramProblem::override_axes(machine::MachineModel& machine) {
 
 bool ProgramProblem::lay_out(machine::MachineFile machine, TimeLawProblem& out) {
   const fs::path folder = fs::path(sources_[file_].name()).parent_path();
-  const auto open = [&](const machine::Reading<std::string>& file) -> std::optional<SourceText> {
+  const auto open = [&](const machine::Reading<std::string>& file,
+                        std::uint64_t most_bytes) -> std::optional<SourceText> {
     const fs::path path = folder / file.value;
-    if (fs::is_regular_file(path)) return SourceText::open(path.string());
+    if (fs::is_regular_file(path)) return SourceText::open(path.string(), most_bytes);
     tell(Code::problem_program, file.span, fmt::format("there is no file {}", path.string()));
     return {};
   };
-  auto program = open(program_);
-  auto tools = tools_ ? open(*tools_) : std::nullopt;
+  auto program = open(program_, gcode::ReadingBounds().file_bytes);
+  auto tools = tools_ ? open(*tools_, kMostTable_bytes) : std::nullopt;
   if (!program || (tools_ && !tools)) return false;
   cycle::JobInputs given;
   given.machine = std::move(machine);

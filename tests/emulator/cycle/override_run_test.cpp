@@ -86,6 +86,23 @@ TEST_CASE("a hold that nobody ends ends the run, and says so") {
   CHECK(zero.summary.outcome == log::Outcome::held);
 }
 
+TEST_CASE("an override below 0.01 % is a hold: a run that nothing releases ends") {
+  for (const double almost_0 : {1e-11, 9e-5}) {
+    CAPTURE(almost_0);
+    Ride feed;
+    run_with(feed, kRunLine, {operator_step(400, OperatorAction::feed_override, almost_0)});
+    CHECK(feed.summary.outcome == log::Outcome::held);
+    CHECK(alarms(feed) == std::vector<Code>{Code::held_to_the_end});
+    Ride rapid;
+    run_with(rapid, "G0 X100\nM2\n", {operator_step(0, OperatorAction::rapid_override, almost_0)});
+    CHECK(rapid.summary.outcome == log::Outcome::held);
+    CHECK(alarms(rapid) == std::vector<Code>{Code::held_to_the_end});
+  }
+  Ride slow;
+  run_with(slow, "F6000 G1 X0.01\nM2\n", {operator_step(0, OperatorAction::feed_override, 1e-3)});
+  CHECK(slow.summary.outcome == log::Outcome::complete);
+}
+
 TEST_CASE("a spindle overload inside a thread is told once and waits") {
   Ride r;
   run_with(r, kThread, {operator_step(600, OperatorAction::spindle_load, 1.25)});

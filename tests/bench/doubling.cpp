@@ -1,0 +1,159 @@
+#include <benchmark/benchmark.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "emulator/text/json.h"
+#include "emulator/text/sarif.h"
+#include "gcode/gcode.h"
+#include "machine/machine.h"
+#include "machine/machine_file.h"
+
+/// Time of each construct at n, 2n and 4n: it grows with the text, not with its square. A mean ratio above 2.5 is an error.
+namespace {
+
+using namespace kadr;
+
+constexpr double kMostRatio = 2.5;
+constexpr int kRepeats = 3;
+
+struct Construct {
+  const char* name;
+  int n;  ///< so many that 4n take a tenth of a second or less
+  std::string (*text)(int n);
+  void (*read)(const std::string& text);
+};
+
+std::string repeated(int n, const std::function<std::string(int)>& piece) {
+  std::string text;
+  for (int i = 1; i <= n; ++i) text += piece(i);
+  return text;
+}
+
+void check_program(const std::string& text) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const auto file = sources.add(SourceText("p.ngc", text));
+  std::uint64_t blocks = 0;
+  gcode::interpret(
+      sources, file, {}, [&](const gcode::Block&) { ++blocks; }, diagnostics);
+  std::size_t told = 0;
+  for (const Diagnostic& d : diagnostics.list()) told += render_human(d, sources).size();
+  benchmark::DoNotOptimize(blocks + told);
+}
+
+void check_as_sarif(const std::string& text) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const auto file = sources.add(SourceText("p.ngc", text));
+  gcode::interpret(
+      sources, file, {}, [](const gcode::Block&) {}, diagnostics);
+  text::SarifLog log("/");
+  for (const Diagnostic& d : diagnostics.list()) log.add(d, sources);
+  benchmark::DoNotOptimize(text::json_line(log.document(1)).size());
+}
+
+void format(const std::string& text) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  std::string out;
+  gcode::format_program(sources, sources.add(SourceText("p.ngc", text)), diagnostics, out);
+  benchmark::DoNotOptimize(out.size());
+}
+
+void read_machine(const std::string& text) {
+  SourceSet sources;
+  const auto read = machine::read_machine(SourceText("m.toml", text), sources);
+  std::size_t told = 0;
+  if (!read)
+    for (const Diagnostic& d : read.error().list()) told += render_human(d, sources).size();
+  benchmark::DoNotOptimize(told);
+}
+
+std::string nested_ifs(int n) {
+  return repeated(n, [](int i) { return fmt::format("O{} if [1]\n", i); }) +
+         repeated(n, [n](int i) { return fmt::format("O{} endif\n", n + 1 - i); }) + "M2\n";
+}
+
+const Construct kConstructs[] = {
+    {"names", 20'000,
+     [](int n) { return repeated(n, [](int i) { return fmt::format("#<v{0}>={0}\n", i); }); }, check_program},
+    {"names_of_one_line", 4'000,
+     [](int n) { return repeated(n, [](int i) { return fmt::format("#<v{0}>=#<v{0}> ", i); }) + "\nM2\n"; },
+     check_program},
+    {"open_subs", 20'000, [](int n) { return repeated(n, [](int) { return "O1 sub\n"; }); }, check_program},
+    {"ends_without_begin", 10'000,
+     [](int n) {
+       return repeated(n, [](int i) { return fmt::format("O{} if [1]\n", i); }) +
+              repeated(n, [](int) { return "O0 endif\n"; });
+     },
+     check_program},
+    {"nested_ifs", 10'000, nested_ifs, check_program},
+    {"form_of_nested_ifs", 10'000, nested_ifs, format},
+    {"elseifs_of_a_loop", 5'000,
+     [](int n) {
+       return "O1 repeat [20]\nO2 if [0]\n" + repeated(n, [](int) { return "O2 elseif [0]\n"; }) +
+              "O2 endif\nO1 endrepeat\nM2\n";
+     },
+     check_program},
+    {"calls", 20'000,
+     [](int n) { return "O1 sub\nO1 endsub\n" + repeated(n, [](int) { return "O1 call\n"; }) + "M2\n"; },
+     check_program},
+    {"errors_of_one_line", 50'000, [](int n) { return repeated(n, [](int) { return "X1 "; }) + "\n"; },
+     check_program},
+    {"sarif_of_one_line", 50'000, [](int n) { return repeated(n, [](int) { return "X1 "; }) + "\n"; },
+     check_as_sarif},
+    {"toml_array", 50'000,
+     [](int n) { return "[xx]\na = [" + repeated(n, [](int) { return "1,"; }) + "]\n"; }, read_machine},
+    {"toml_array_of_cyrillic", 20'000,
+     [](int n) { return "[xx]\na = [" + repeated(n, [](int) { return "'\xD0\xB4',"; }) + "]\n"; },
+     read_machine},
+    {"toml_inline_table", 5'000,
+     [](int n) {
+       return "a = {" + repeated(n, [](int i) { return fmt::format("k{} = 1, ", i); }) + "z = 1}\n";
+     },
+     read_machine},
+    {"toml_keys", 10'000,
+     [](int n) { return repeated(n, [](int i) { return fmt::format("k{} = 1\n", i); }); }, read_machine},
+    {"toml_axes", 5'000, [](int n) { return repeated(n, [](int) { return "[[axis]]\n"; }); }, read_machine},
+};
+
+/// Shortest time of some, in seconds.
+double time_s(const Construct& construct, int n) {
+  const std::string text = construct.text(n);
+  double shortest_s = 1e9;
+  for (int i = 0; i < kRepeats; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    construct.read(text);
+    shortest_s =
+        std::min(shortest_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
+  return shortest_s;
+}
+
+void doubling(benchmark::State& state, const Construct& construct) {
+  double ratio = 0, time_4n_s = 0;
+  for (auto _ : state) {
+    const double time_n_s = time_s(construct, construct.n);
+    time_4n_s = time_s(construct, 4 * construct.n);
+    ratio = std::sqrt(time_4n_s / time_n_s);
+  }
+  state.counters["ratio"] = ratio;
+  state.counters["time_4n_ms"] = 1e3 * time_4n_s;
+  if (ratio > kMostRatio) state.SkipWithError("the time grows faster than the text");
+}
+
+const bool registered = [] {
+  for (const Construct& construct : kConstructs)
+    benchmark::RegisterBenchmark(construct.name, doubling, construct)
+        ->Iterations(1)
+        ->Unit(benchmark::kMillisecond);
+  return true;
+}();
+
+}  // namespace

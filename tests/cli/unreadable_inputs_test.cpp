@@ -1,0 +1,66 @@
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/cli/run_kadr.h"
+
+using kadr::test::call;
+using kadr::test::contains;
+using kadr::test::Finished;
+using kadr::test::Scratch;
+
+namespace {
+
+/// Every way in which a command is given an input, IN being its name.
+std::vector<std::vector<std::string>> commands(const std::string& in) {
+  return {{"check", in},
+          {"canon", in},
+          {"fmt", in},
+          {"plan", in},
+          {"run", in, "--no-log"},
+          {"check", "p.ngc", "-m", in},
+          {"check", "p.ngc", "--tools", in},
+          {"machine", "check", in},
+          {"machine", "show", in},
+          {"run", "-s", in, "--no-log"},
+          {"tube", in}};
+}
+
+}  // namespace
+
+TEST_CASE("a pipe or device as any input is refused at once, with its name") {
+  const Scratch scratch;
+  scratch.write("p.ngc", "G0 X1\nM2\n");
+  REQUIRE(::mkfifo(scratch.file("pipe").c_str(), 0600) == 0);
+  for (const auto& [in, reason] : {std::pair<std::string, std::string>{"pipe", "is a pipe, not a file"},
+                                   {"/dev/zero", "is a device or socket"}}) {
+    for (const std::vector<std::string>& command : commands(in)) {
+      CAPTURE(command.front());
+      CAPTURE(command.back());
+      const Finished done = call(command, scratch.path());
+      CHECK(done.code == 2);
+      CHECK(contains(done.err, in + ": " + reason));
+    }
+  }
+}
+
+TEST_CASE("an input far larger than any of its kind is refused before it is read") {
+  const Scratch scratch;
+  scratch.write("p.ngc", "G0 X1\nM2\n");
+  scratch.write("large", "");
+  std::filesystem::resize_file(scratch.file("large"), std::uintmax_t{1} << 42);
+  for (const std::vector<std::string>& command : commands("large")) {
+    CAPTURE(command.front());
+    CAPTURE(command.back());
+    const Finished done = call(command, scratch.path());
+    CHECK(done.code == 2);
+    CHECK(contains(done.err, "large: 4398046511104 bytes; at most "));
+  }
+  CHECK(contains(call({"check", "large"}, scratch.path()).err,
+                 "at most 1073741824 are read (--limit file_bytes=N)"));
+  CHECK(contains(call({"check", "p.ngc", "--limit", "file_bytes=5"}, scratch.path()).err,
+                 "p.ngc: 9 bytes; at most 5 are read (--limit file_bytes=N)"));
+}

@@ -1,0 +1,138 @@
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <regex>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "gcode/read/report.h"
+#include "support.h"
+
+using namespace kadr;
+using namespace kadr::gcode;
+using namespace kadr::gcode::test;
+
+namespace {
+
+/// The bounds with names, all others removed.
+InterpretOptions bounded(std::initializer_list<std::pair<std::string_view, std::uint64_t>> bounds) {
+  InterpretOptions options;
+  for (const BoundEntry& entry : bound_entries()) set_bound(options.bounds, entry.name, 0);
+  for (const auto& [name, value] : bounds) REQUIRE(set_bound(options.bounds, name, value));
+  return options;
+}
+
+/// Subs that call the next one twice: 2^(n-1) calls of the last.
+std::string doubled_calls(int n) {
+  std::string text;
+  for (int i = 1; i < n; ++i) text += fmt::format("O{0} sub\nO{1} call\nO{1} call\nO{0} endsub\n", i, i + 1);
+  return text + fmt::format("O{0} sub\nO{0} endsub\nO1 call\nM2\n", n);
+}
+
+void check_ends(const std::string& text, const InterpretOptions& options, Code code,
+                const std::string& allowed) {
+  CAPTURE(text.substr(0, 100));
+  const Outcome outcome = run(text, options);
+  CHECK(outcome.codes() == std::vector<Code>{code});
+  CHECK(outcome.rendered.find("allowed: " + allowed) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("whatever a program repeats ends at one bound by its name") {
+  const InterpretOptions lines = bounded({{"lines", 10'000}});
+  const std::string allowed = "10000 (--limit lines=N)";
+  check_ends(doubled_calls(60), lines, Code::too_many_lines, allowed);
+  check_ends("M98 P1 L10000\nM2\nO1\nM98 P2 L10000\nM99\nO2\nM98 P3 L10000\nM99\nO3\nM99\n", lines,
+             Code::too_many_lines, allowed);
+  check_ends("O1 while [1]\nO1 endwhile\nM2\n", lines, Code::too_many_lines, allowed);
+  check_ends("O1 do\n#1=1\nO1 while [1]\nM2\n", lines, Code::too_many_lines, allowed);
+  check_ends("O1 repeat [1000000000]\nO1 endrepeat\nM2\n", lines, Code::too_many_lines, allowed);
+  // a long line takes as long as many short ones
+  check_ends("O1 repeat [100]\n#1=1(" + std::string(256'000, 'x') + ")\nO1 endrepeat\nM2\n", lines,
+             Code::too_many_lines, allowed);
+  // every elseif is a line run
+  std::string branches = "O1 repeat [100]\nO2 if [0]\n";
+  for (int i = 0; i < 1000; ++i) branches += "O2 elseif [0]\n";
+  check_ends(branches + "O2 endif\nO1 endrepeat\nM2\n", lines, Code::too_many_lines, allowed);
+
+  const InterpretOptions blocks = bounded({{"blocks", 100}});
+  const std::string allowed_blocks = "100 (--limit blocks=N)";
+  for (const char* body : {"G0 X1", "G4 P1", "M8", "(MSG,x)", "M62 P1", "G83 X1 Z-9 R1 Q1 F9"}) {
+    CAPTURE(body);
+    check_ends(fmt::format("O1 while [1]\n{}\nO1 endwhile\nM2\n", body), blocks, Code::too_many_blocks,
+               allowed_blocks);
+  }
+  check_ends("F9 G83 X1 Z-1000 R1 Q.001\nM2\n", blocks, Code::too_many_blocks, allowed_blocks);
+  check_ends("F9 G5.2 X1 Y1 P1\nO1 while [1]\nX2 Y2 P1\nO1 endwhile\nG5.3\nM2\n", blocks,
+             Code::too_many_blocks, allowed_blocks);
+  // what compensation holds back counts as well
+  check_ends("F9 G41.1 D1 G1 X9\nO1 while [1]\nZ1\nZ2\nO1 endwhile\nG40 X0\nM2\n", blocks,
+             Code::too_many_blocks, allowed_blocks);
+
+  const InterpretOptions messages = bounded({{"messages", 100}});
+  for (const char* body : {"(MSG,x)", "(DEBUG,x)", "(PRINT,x)"})
+    check_ends(fmt::format("O1 while [1]\n{}\nO1 endwhile\nM2\n", body), messages, Code::too_many_messages,
+               "100 (--limit messages=N)");
+  // one of 25 600 characters is 101
+  check_ends("(MSG," + std::string(25'600, 'x') + ")\nM2\n", messages, Code::too_many_messages,
+             "100 (--limit messages=N)");
+}
+
+TEST_CASE("under the defaults every program ends, and one of many lines that run once is let through") {
+  const ReadingBounds defaults;
+  for (const std::uint64_t bound :
+       {defaults.lines, defaults.messages, defaults.loop_passes, defaults.file_bytes,
+        std::uint64_t{defaults.call_depth}, std::uint64_t{defaults.line_bytes}})
+    CHECK(bound > 0);
+  // blocks: with the lines of the text
+  InterpretOptions options = bounded({});
+  options.bounds.blocks.reset();
+  SourceSet sources;
+  Diagnostics diagnostics;
+  std::uint64_t blocks = 0;
+  const auto file = sources.add(SourceText("p.ngc", "G0 X1\nF1000 G83 X1 Z-4000 R0 Q.001\nM2\n"));
+  interpret(
+      sources, file, options, [&](const Block&) { ++blocks; }, diagnostics);
+  CHECK(blocks == ReadingBounds::kBlocks + 4);
+  REQUIRE(diagnostics.list().size() == 1);
+  CHECK(diagnostics.list().front().code == Code::too_many_blocks);
+  CHECK(render_human(diagnostics.list().front(), sources)
+            .find("3000000 and one for each line of the text (--limit blocks=N)") != std::string::npos);
+  // lines that run once are not counted
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text += "G0 X1\n";
+  CHECK(run(text + "M2\n", bounded({{"lines", 10}})).codes().empty());
+}
+
+TEST_CASE("80 kB of open subs gather no more errors than are shown") {
+  for (const char* line :
+       {"O1 sub\n", "O1 if [1]\n", "O1 endsub\n", "O1 return\n", "O1 break\n", "O1 else\n"}) {
+    CAPTURE(line);
+    std::string text;
+    for (int i = 0; i < 10'000; ++i) text += line;
+    const Outcome outcome = run(text);
+    CHECK(outcome.diagnostics.errors() <= Report::kMaxErrors);
+    CHECK(outcome.diagnostics.errors() >= 1);
+  }
+}
+
+TEST_CASE("an error that quotes a name of a megabyte keeps little of it") {
+  const Outcome outcome = run("G0 X#<" + std::string(1'000'000, 'a') + ">\nM2\n");
+  REQUIRE(outcome.diagnostics.list().size() == 1);
+  CHECK(outcome.diagnostics.list().front().label.size() < 5000);
+}
+
+TEST_CASE("docs/gcode.md lists every bound with its default, and no other") {
+  std::ifstream page(KADR_SOURCE_DIR "/docs/gcode.md");
+  std::string line, table, expected;
+  for (bool inside = false; std::getline(page, line);) {
+    if (line.starts_with("| NAME |")) inside = true;
+    if (inside && line.empty()) break;
+    if (inside && !line.starts_with("| NAME |") && !line.starts_with("|---")) table += line + "\n";
+  }
+  for (const BoundEntry& entry : bound_entries())
+    expected += fmt::format("| {} | {} | {} |\n", entry.name, entry.normal, entry.bounds);
+  CHECK(table == expected);
+}
