@@ -42,8 +42,8 @@ struct Writer {
   std::vector<std::string> arguments;
   std::vector<std::string> outputs;
   Files inputs = {{"p.ngc", kProgram}};
-  bool keeps_part = false;  ///< what a run wrote before a fault can be read
-  std::string report_end;   ///< end of an output that tells of the fault itself, and is whole then
+  bool keeps_part = false;      ///< what a run wrote before a fault can be read
+  std::string report_end = {};  ///< end of an output that tells of the fault itself, and is whole then
 };
 
 class FaultRun {

@@ -19,7 +19,7 @@ void check_model(const machine::MachineModel& model) {
   require(model.clock.control_tick.value > 0, "a control tick has a length");
   for (const machine::AxisModel& axis : model.axis) {
     require(std::isfinite(axis.step_u) && axis.step_u > 0, "a step has a length");
-    require(std::isfinite(axis.max_u_s) && axis.max_u_s > 0, "an axis moves");
+    require(std::isfinite(axis.max_feed_u_s) && axis.max_feed_u_s > 0, "an axis moves");
   }
 }
 

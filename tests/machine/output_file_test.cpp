@@ -301,7 +301,7 @@ TEST_CASE("no output replaces a file that was read, by any of its names, nor is 
   folder.put("b.part", "a log under way");
   fs::create_symlink("input", folder / "link");
   fs::create_hard_link(folder / "input", folder / "twin");
-  for (const char* name : {"input", "b.part"}) SourceText::open(folder / name);
+  for (const char* name : {"input", "b.part"}) SourceText::open(folder / name, 0);
   for (const char* name : {"input", "link", "twin", "./input", "b"})
     CHECK(write_whole(folder / name, "x").find("this output would overwrite an input") == 0);
   CHECK(folder.text("input") == "text");
