@@ -51,7 +51,8 @@ TEST_CASE("Ctrl-C during a run closes the log as interrupted: X.part is readable
   const Scratch scratch;
   scratch.write("long.ngc", kLong);
   for (const auto& [signal, code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}}) {
-    CAPTURE(signal);
+    const int sent = signal;
+    CAPTURE(sent);
     // the log of the run before would be taken for this one's
     scratch.remove("long.lcmlog.part");
     Launch launch;

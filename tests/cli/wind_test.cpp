@@ -109,7 +109,8 @@ TEST_CASE("a parameter of a winding that can't be is refused: exit 2, no file, n
       {{"knot"}, "kadr wind: there is no command 'knot'; commands: hoop, helix, dome\n"},
   };
   for (auto [arguments, complaint] : cases) {
-    CAPTURE(complaint);
+    const std::string& expected = complaint;
+    CAPTURE(expected);
     arguments.insert(arguments.begin(), "wind");
     arguments.insert(arguments.end(), {"-o", "part.ngc"});
     const Finished run = call(arguments, scratch.path());

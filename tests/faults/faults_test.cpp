@@ -108,14 +108,18 @@ class FaultRun {
       CHECK(found == whole_);
       CHECK(done.out == whole_run_.out);
     }
-    for (const auto& [name, text] : found) {
+    for (const auto& file : found) {
+      const auto& name = file.first;
+      const auto& text = file.second;
       CAPTURE(name);
       // whole, or as it was before
       const auto before = inputs_.find(name);
       const bool reports = !writer_.report_end.empty() && text.ends_with(writer_.report_end);
       CHECK((text == whole_.at(name) || (before != inputs_.end() && text == before->second) || reports));
     }
-    for (const auto& [name, text] : inputs_) {
+    for (const auto& file : inputs_) {
+      const auto& name = file.first;
+      const auto& text = file.second;
       CAPTURE(name);
       if (whole_.contains(name))
         CHECK(scratch_.has(name));
