@@ -65,10 +65,10 @@ bool is_stream(const struct stat& status) {
 std::optional<OutputFault> refusal_of(const std::string& path, const struct stat& status, OutputRules rules) {
   const auto refuse = [&](std::string reason) { return OutputFault{path, std::move(reason)}; };
   if (!rules.overwrite) return refuse(std::strerror(EEXIST));
+  if (!rules.own_input && is_input_file(status)) return refuse("this output would overwrite an input");
   if (is_stream(status)) return std::nullopt;
   if (S_ISDIR(status.st_mode)) return refuse("is a folder");
   if (!S_ISREG(status.st_mode)) return refuse("is neither a regular file, nor a pipe or character device");
-  if (!rules.own_input && is_input_file(status)) return refuse("this output would overwrite an input");
   if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) return refuse(std::strerror(errno));
   return std::nullopt;
 }
@@ -180,7 +180,7 @@ std::optional<OutputFault> OutputFile::open_stream(int descriptor) {
 std::optional<OutputFault> OutputFile::open_part(std::string file) {
   file_ = std::move(file);
   part_ = file_ + ".part";
-  const std::string shown = rules_.keeps_part ? path_ + ".part" : path_;
+  const std::string shown = rules_.keeps_part ? part_ : path_;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (fd_ >= 0) {
@@ -232,7 +232,7 @@ OutputFile::~OutputFile() {
 }
 
 OutputFile::Done OutputFile::fail(int number) {
-  return fail(rules_.keeps_part && !part_.empty() ? path_ + ".part" : path_,
+  return fail(rules_.keeps_part && !part_.empty() ? part_ : path_,
               number == 0 ? "unknown error" : std::strerror(number));
 }
 

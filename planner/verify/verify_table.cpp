@@ -101,7 +101,9 @@ void verify_table(VerifyContext& c) {
            (jump == 0.0 ? pieces[piece + 1].begin_s <= time : pieces[piece + 1].begin_s < time))
       ++piece;
     speed = rows[i].end_u_s + jump;
-    const bool sampled = c.path.size() <= c.options.whole_up_to || i % c.options.stride < c.options.window;
+    const std::size_t size = c.path.size();
+    const bool sampled = size <= c.options.whole_up_to || i % c.options.stride < c.options.window ||
+                         i + c.options.window >= size;
     if (sampled) verify_row_end(c, i, pieces[piece]);
   }
 }

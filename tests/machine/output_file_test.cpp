@@ -306,6 +306,16 @@ TEST_CASE("no output replaces a file that was read, by any of its names, nor is 
     CHECK(write_whole(folder / name, "x").find("this output would overwrite an input") == 0);
   CHECK(folder.text("input") == "text");
   CHECK(folder.text("b.part") == "a log under way");
+  // nor does one that is standard output
+  const int before = ::dup(STDOUT_FILENO);
+  const int onto = ::open((folder / "input").c_str(), O_WRONLY | O_APPEND);
+  REQUIRE(::dup2(onto, STDOUT_FILENO) == STDOUT_FILENO);
+  const std::string said = write_whole(folder / "input", "x");
+  REQUIRE(::dup2(before, STDOUT_FILENO) == STDOUT_FILENO);
+  ::close(before);
+  ::close(onto);
+  CHECK(said.find("this output would overwrite an input") == 0);
+  CHECK(folder.text("input") == "text");
   // but on purpose, as a formatter does
   CHECK(write_whole(folder / "input", "formatted", {.own_input = true}) == "");
   CHECK(folder.text("input") == "formatted");

@@ -176,6 +176,13 @@ TEST_CASE(
   CHECK_MESSAGE(has(said, " mm/s, allowed 50 mm/s, at "), said);
   CHECK(!said_of(program, too_fast_on(980, 1000)).empty());
   CHECK(said_of(program, too_fast_on(300, 480)).empty());
+  // the same sample of the table's rows: of the last 16, one between two windows, one in a window
+  const auto slower_in = [](std::size_t row) {
+    return [row](planner::FeedPlan& plan) { plan.segments[row].end_u_s *= 0.5; };
+  };
+  CHECK(has(said_of_damage(slower_in(990), program), ": table speed is "));
+  CHECK(said_of_damage(slower_in(400), program).empty());
+  CHECK(has(said_of_damage(slower_in(520), program), ": table speed is "));
   // a jump is found wherever it is: here in the cruise between two windows
   const std::string jump = said_of_damage(
       [](auto& p) {
