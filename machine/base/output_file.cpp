@@ -35,6 +35,13 @@ std::optional<struct stat> status_of(const std::string& path) {
   return status;
 }
 
+/// True if `path`, no link followed, is the file of this descriptor.
+bool names(const std::string& path, int fd) {
+  struct stat own {
+  }, named{};
+  return ::fstat(fd, &own) == 0 && ::lstat(path.c_str(), &named) == 0 && same(own, named);
+}
+
 /// The descriptor of standard output or standard error if that is what `status` names, and it can be written; else -1.
 int standard_stream(const struct stat& status) {
   for (const int fd : {STDOUT_FILENO, STDERR_FILENO}) {
@@ -184,12 +191,9 @@ std::optional<OutputFault> OutputFile::open_part(std::string file) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (fd_ >= 0) {
-      struct stat own {
-      }, named{};
       // a file system without locks still has O_EXCL
       const bool locked = ::flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
-      if (locked && ::fstat(fd_, &own) == 0 && ::lstat(part_.c_str(), &named) == 0 && same(own, named))
-        return std::nullopt;
+      if (locked && names(part_, fd_)) return std::nullopt;
       // another writer has taken it for a leftover before it was locked
       ::close(std::exchange(fd_, -1));
       continue;
@@ -225,7 +229,7 @@ OutputFile::~OutputFile() {
   if (rules_.keeps_part || part_.empty()) {
     // a file that ends early holds what was written, but nothing behind a gap
     if (!fault_) write_all(fd_, buffer_);
-  } else {
+  } else if (names(part_, fd_)) {
     ::unlink(part_.c_str());
   }
   ::close(fd_);
@@ -261,10 +265,9 @@ OutputFile::Done OutputFile::flush() {
 
 /// The names must still mean what they meant when the file was opened: a long run gives others time.
 OutputFile::Done OutputFile::check_name() {
-  struct stat own {
-  }, named{};
-  if (::fstat(fd_, &own) != 0 || ::lstat(part_.c_str(), &named) != 0 || !same(own, named))
+  if (!names(part_, fd_))
     return fail(path_, fmt::format("{} was moved or replaced while it was written", part_));
+  struct stat named {};
   if (::lstat(file_.c_str(), &named) != 0) return {};
   if (S_ISLNK(named.st_mode)) return fail(path_, "became a link while it was written");
   if (auto refused = refusal_of(path_, named, rules_)) return fail(path_, refused->reason);
