@@ -80,6 +80,20 @@ std::optional<OutputFault> refusal_of(const std::string& path, const struct stat
   return std::nullopt;
 }
 
+/// Gives a new file mode, group and owner of the one that it replaces. Where the system refuses, it belongs to who
+/// wrote it; another group gets what all others have.
+void keep_permissions(int fd, const struct stat& replaced) {
+  struct stat own {};
+  if (::fstat(fd, &own) != 0) return;
+  mode_t mode = replaced.st_mode & 0777;
+  constexpr auto kSameOwner = static_cast<uid_t>(-1);
+  constexpr auto kSameGroup = static_cast<gid_t>(-1);
+  if (own.st_gid != replaced.st_gid && ::fchown(fd, kSameOwner, replaced.st_gid) != 0)
+    mode = (mode & ~mode_t{070}) | ((mode & mode_t{07}) << 3U);
+  if (::fchmod(fd, mode) != 0) errno = 0;
+  if (own.st_uid != replaced.st_uid && ::fchown(fd, replaced.st_uid, kSameGroup) != 0) errno = 0;
+}
+
 /// A file that is left over from a writer that was killed, or belongs to one at work.
 enum class Leftover : std::uint8_t { removed, busy, not_a_file, input };
 
@@ -161,15 +175,10 @@ tl::expected<OutputFile, OutputFault> OutputFile::open(const std::string& path, 
   }
   auto file = follow(path);
   if (!file) return tl::unexpected(OutputFault{path, std::strerror(file.error())});
-  if (auto fault = output.open_part(std::move(*file))) return tl::unexpected(std::move(*fault));
-  if (status) {
-    // what replaces a file is as private as that was; where the system refuses, it belongs to who wrote it
-    struct stat own {};
-    if (::fstat(output.fd_, &own) == 0 && (own.st_uid != status->st_uid || own.st_gid != status->st_gid) &&
-        ::fchown(output.fd_, status->st_uid, status->st_gid) != 0)
-      errno = 0;
-    if (::fchmod(output.fd_, status->st_mode & 0777) != 0) errno = 0;
-  }
+  // what replaces a file is as private as that was, from its first moment
+  if (auto fault = output.open_part(std::move(*file), status ? 0600U : 0666U))
+    return tl::unexpected(std::move(*fault));
+  if (status) keep_permissions(output.fd_, *status);
   return output;
 }
 
@@ -184,12 +193,12 @@ std::optional<OutputFault> OutputFile::open_stream(int descriptor) {
   return std::nullopt;
 }
 
-std::optional<OutputFault> OutputFile::open_part(std::string file) {
+std::optional<OutputFault> OutputFile::open_part(std::string file, unsigned mode) {
   file_ = std::move(file);
   part_ = file_ + ".part";
   const std::string shown = rules_.keeps_part ? path_ + ".part" : path_;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
     if (fd_ >= 0) {
       // a file system without locks still has O_EXCL
       const bool locked = ::flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;

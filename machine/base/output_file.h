@@ -50,7 +50,7 @@ class OutputFile {
 
  private:
   explicit OutputFile(std::string path, OutputRules rules) : path_(std::move(path)), rules_(rules) {}
-  std::optional<OutputFault> open_part(std::string file);
+  std::optional<OutputFault> open_part(std::string file, unsigned mode);
   std::optional<OutputFault> open_stream(int descriptor);
   Done check_name();
   Done fail(int number);
