@@ -98,7 +98,10 @@ void keep_permissions(int fd, const struct stat& replaced) {
 enum class Leftover : std::uint8_t { removed, busy, not_a_file, input };
 
 Leftover remove_leftover(const std::string& part) {
-  const int fd = ::open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+  constexpr int kFlags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | O_NOCTTY;
+  // NFS locks only what is open to write; what others left may be only read
+  int fd = ::open(part.c_str(), O_RDWR | kFlags);
+  if (fd < 0 && errno == EACCES) fd = ::open(part.c_str(), O_RDONLY | kFlags);
   if (fd < 0) return errno == ENOENT ? Leftover::removed : Leftover::not_a_file;
   struct stat own {
   }, named{};
