@@ -199,7 +199,7 @@ std::optional<OutputFault> OutputFile::open_stream(int descriptor) {
 std::optional<OutputFault> OutputFile::open_part(std::string file, unsigned mode) {
   file_ = std::move(file);
   part_ = file_ + ".part";
-  const std::string shown = rules_.keeps_part ? path_ + ".part" : path_;
+  const std::string shown = rules_.keeps_part ? part_ : path_;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
     if (fd_ >= 0) {
@@ -248,7 +248,7 @@ OutputFile::~OutputFile() {
 }
 
 OutputFile::Done OutputFile::fail(int number) {
-  return fail(rules_.keeps_part && !part_.empty() ? path_ + ".part" : path_,
+  return fail(rules_.keeps_part && !part_.empty() ? part_ : path_,
               number == 0 ? "unknown error" : std::strerror(number));
 }
 
