@@ -76,6 +76,8 @@ std::optional<OutputFault> refusal_of(const std::string& path, const struct stat
   if (S_ISDIR(status.st_mode)) return refuse("is a folder");
   if (!S_ISREG(status.st_mode)) return refuse("is neither a regular file, nor a pipe or character device");
   if (!rules.own_input && is_input_file(status)) return refuse("this output would overwrite an input");
+  if (!rules.own_input && is_output_file(status))
+    return refuse("this output would overwrite another one of this command");
   if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) return refuse(std::strerror(errno));
   return std::nullopt;
 }
@@ -94,8 +96,8 @@ void keep_permissions(int fd, const struct stat& replaced) {
   if (own.st_uid != replaced.st_uid && ::fchown(fd, replaced.st_uid, kSameGroup) != 0) errno = 0;
 }
 
-/// A file that is left over from a writer that was killed, or belongs to one at work.
-enum class Leftover : std::uint8_t { removed, busy, not_a_file, input };
+/// A file that is left over from a writer that was killed, or belongs to one at work; `taken`: an input or output.
+enum class Leftover : std::uint8_t { removed, busy, not_a_file, taken };
 
 Leftover remove_leftover(const std::string& part) {
   constexpr int kFlags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | O_NOCTTY;
@@ -108,8 +110,8 @@ Leftover remove_leftover(const std::string& part) {
   Leftover found = Leftover::removed;
   if (::fstat(fd, &own) != 0 || !S_ISREG(own.st_mode))
     found = Leftover::not_a_file;
-  else if (is_input_file(own))
-    found = Leftover::input;
+  else if (is_input_file(own) || is_output_file(own))
+    found = Leftover::taken;
   else if (::flock(fd, LOCK_EX | LOCK_NB) != 0)
     found = errno == EWOULDBLOCK ? Leftover::busy : Leftover::not_a_file;
   else if (::lstat(part.c_str(), &named) == 0 && same(own, named) && ::unlink(part.c_str()) != 0)
@@ -216,9 +218,10 @@ std::optional<OutputFault> OutputFile::open_part(std::string file, unsigned mode
         continue;
       case Leftover::busy:
         return OutputFault{path_, fmt::format("another kadr is writing it: {} is locked", part_)};
-      case Leftover::input:
-        return OutputFault{path_,
-                           fmt::format("this output would overwrite an input: it is written as {}", part_)};
+      case Leftover::taken:
+        return OutputFault{
+            path_, fmt::format("this output would overwrite an input or another output: it is written as {}",
+                               part_)};
       case Leftover::not_a_file:
         return OutputFault{
             path_, fmt::format("it is written as {} first, and what has that name can't be replaced", part_)};
@@ -308,6 +311,8 @@ OutputFile::Done OutputFile::finish() {
   if (!renamed) return fail(path_, std::strerror(errno));
   // from here on the file is whole under its name; the lock goes with the descriptor
   part_.clear();
+  struct stat own {};
+  if (::fstat(fd_, &own) == 0) note_output_file(own);
   if (!sync_folder(file_)) return fail(path_, std::strerror(errno));
   return close();
 }

@@ -29,7 +29,7 @@ struct OutputRules {
 ///
 /// A pipe, a FIFO and a character device are written into as they are, and so is whatever this process has as
 /// standard output or standard error. Folders, sockets, block devices and files that the process has read
-/// (InputMemory) are refused.
+/// or made (InputMemory) are refused.
 class OutputFile {
  public:
   using Done = tl::expected<void, OutputFault>;
