@@ -42,6 +42,13 @@ bool names(const std::string& path, int fd) {
   return ::fstat(fd, &own) == 0 && ::lstat(path.c_str(), &named) == 0 && same(own, named);
 }
 
+/// True if `path`, links followed, is the file of this descriptor.
+bool leads_to(const std::string& path, int fd) {
+  struct stat own {};
+  const auto status = status_of(path);
+  return status && ::fstat(fd, &own) == 0 && same(*status, own);
+}
+
 /// The descriptor of standard output or standard error if that is what `status` names, and it can be written; else -1.
 int standard_stream(const struct stat& status) {
   for (const int fd : {STDOUT_FILENO, STDERR_FILENO}) {
@@ -164,11 +171,8 @@ std::string written_as(const std::string& path) {
   return follow(path).value_or(path) + ".part";
 }
 
-bool is_standard_output(const std::string& path) {
-  struct stat output {};
-  const auto status = status_of(path);
-  return status && ::fstat(STDOUT_FILENO, &output) == 0 && same(*status, output);
-}
+bool is_standard_output(const std::string& path) { return leads_to(path, STDOUT_FILENO); }
+bool is_standard_error(const std::string& path) { return leads_to(path, STDERR_FILENO); }
 
 tl::expected<OutputFile, OutputFault> OutputFile::open(const std::string& path, OutputRules rules) {
   OutputFile output(path, rules);

@@ -75,5 +75,7 @@ std::optional<OutputFault> output_refusal(const std::string& path, OutputRules r
 
 /// True if `path` is what this process has as standard output.
 bool is_standard_output(const std::string& path);
+/// The same of standard error.
+bool is_standard_error(const std::string& path);
 
 }  // namespace kadr

@@ -149,6 +149,8 @@ TEST_CASE("a link to /dev/stdout is standard output: a pipe, a file at its place
   const Finished mixed = shell("kadr run p.ngc -o stdout | cat", folder);
   CHECK(mixed.out.empty());
   CHECK(contains(mixed.err, "stdout: the summary goes there, too; -q leaves it out"));
+  CHECK(shell("kadr run p.ngc -o m.lcmlog 2>m.lcmlog", folder).code == 2);
+  CHECK(contains(scratch.read("m.lcmlog"), "m.lcmlog: messages go there, too; -q leaves them out"));
   if (::mknod(scratch.file("null").c_str(), S_IFCHR | 0600, makedev(1, 3)) != 0) {
     MESSAGE("not tested: this user can't make a device node");
     return;
