@@ -52,9 +52,8 @@ constexpr NamedBound named(std::string_view name, std::string_view bounds) {
 
 constexpr NamedBound kBounds[] = {
     named<&ReadingBounds::blocks>("blocks", "moves, dwells and all other calls that a program makes"),
-    named<&ReadingBounds::lines>("lines",
-                                 "lines run, of a program with O words; 256 characters count as a line"),
-    named<&ReadingBounds::messages>("messages", "messages that a program shows; 256 characters count as one"),
+    named<&ReadingBounds::lines>("lines", "lines run, of a program with O words; 256 bytes count as a line"),
+    named<&ReadingBounds::messages>("messages", "messages that a program shows; 256 bytes count as one"),
     named<&ReadingBounds::call_depth>("call_depth", "nested subroutine calls"),
     named<&ReadingBounds::loop_passes>("loop_passes", "passes of all loops together"),
     named<&ReadingBounds::file_bytes>("file_bytes", "the program, and each file that it calls"),

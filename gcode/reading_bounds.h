@@ -26,7 +26,9 @@ struct ReadingBounds {
 };
 
 /// How often a line or message of that many bytes counts.
-constexpr std::uint64_t weight_of(std::size_t bytes) { return 1 + bytes / ReadingBounds::kLineWeight_bytes; }
+constexpr std::uint64_t weight_of(std::size_t bytes) {
+  return bytes == 0 ? 1 : 1 + (bytes - 1) / ReadingBounds::kLineWeight_bytes;
+}
 
 /// A bound for people.
 struct BoundEntry {

@@ -30,7 +30,7 @@ std::string default_log_path(const std::string& program) {
   return (stem.empty() ? "program" : stem) + ".lcmlog";
 }
 
-/// Refuses a log path before anything is said of it: one that can't be written, or where the summary goes too.
+/// Refuses a log path before anything is said of it: one that can't be written, or where summary or messages go too.
 void refuse_bad_log_path(const std::string& log, const OutputOptions& output) {
   if (log == "-")
     throw WorldError(
@@ -40,6 +40,8 @@ void refuse_bad_log_path(const std::string& log, const OutputOptions& output) {
   const bool has_bytes = fs::status(log).type() != fs::file_type::character;
   if (has_bytes && is_standard_output(log) && (output.json || !output.quiet))
     throw WorldError(fmt::format("{}: the summary goes there, too; -q leaves it out", log));
+  if (has_bytes && is_standard_error(log) && !output.quiet)
+    throw WorldError(fmt::format("{}: messages go there, too; -q leaves them out", log));
 }
 
 /// Prints the expected size of the log before the run, and the free space if that is too little.

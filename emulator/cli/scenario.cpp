@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "emulator/cli/commands.h"
 #include "emulator/cli/exit_codes.h"
@@ -94,14 +96,18 @@ int scenario_check(const Arguments& arguments, Console& console) {
     SourceSet sources;
     cycle::JobInputs given;
     Diagnostics diagnostics;
-    const auto scenario = scenario::read_scenario(path, sources);
-    if (!scenario)
-      for (const Diagnostic& d : scenario.error().list()) diagnostics.add(d);
-    int code = scenario ? kYes : kNo;
+    std::optional<scenario::Scenario> scenario;
+    int code = kNo;
     try {
-      if (scenario && !scenario::open_job(*scenario, given, sources, diagnostics)) code = kNo;
+      if (auto read = scenario::read_scenario(path, sources)) {
+        scenario = std::move(*read);
+        if (scenario::open_job(*scenario, given, sources, diagnostics)) code = kYes;
+      } else {
+        for (const Diagnostic& d : read.error().list()) diagnostics.add(d);
+      }
     } catch (const std::system_error& e) {
-      console.error(fmt::format("{}: {}", path, e.what()));
+      // the other scenarios are still checked
+      console.error(scenario ? fmt::format("{}: {}", path, e.what()) : std::string(e.what()));
       code = kNotStarted;
     }
     worst = std::max(worst, code);
@@ -129,10 +135,19 @@ int scenario_list(const Arguments& arguments, Console& console) {
   int code = kYes;
   for (const std::string& path : scenarios_of(arguments)) {
     SourceSet sources;
-    const auto scenario = scenario::read_scenario(path, sources);
+    std::optional<scenario::Scenario> scenario;
+    try {
+      if (auto read = scenario::read_scenario(path, sources))
+        scenario = std::move(*read);
+      else
+        console.diagnostics(read.error(), sources, path, Console::Where::errors);
+    } catch (const std::system_error& e) {
+      // the other scenarios are still listed
+      console.error(e.what());
+      code = kNotStarted;
+    }
     if (!scenario) {
-      console.diagnostics(scenario.error(), sources, path, Console::Where::errors);
-      code = kNo;
+      code = std::max(code, kNo);
       continue;
     }
     table.add(

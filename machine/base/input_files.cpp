@@ -10,7 +10,7 @@ namespace {
 struct InputFiles {
   std::mutex mutex;
   bool remembers = false;
-  std::set<std::pair<dev_t, ino_t>> files;
+  std::set<std::pair<dev_t, ino_t>> files, outputs;
 };
 
 InputFiles& input_files() {
@@ -31,6 +31,7 @@ InputMemory::~InputMemory() {
   const std::scoped_lock lock(inputs.mutex);
   inputs.remembers = false;
   inputs.files.clear();
+  inputs.outputs.clear();
 }
 
 void note_input_file(const struct stat& status) {
@@ -44,6 +45,18 @@ bool is_input_file(const struct stat& status) {
   InputFiles& inputs = input_files();
   const std::scoped_lock lock(inputs.mutex);
   return inputs.files.contains({status.st_dev, status.st_ino});
+}
+
+void note_output_file(const struct stat& status) {
+  InputFiles& inputs = input_files();
+  const std::scoped_lock lock(inputs.mutex);
+  if (inputs.remembers) inputs.outputs.emplace(status.st_dev, status.st_ino);
+}
+
+bool is_output_file(const struct stat& status) {
+  InputFiles& inputs = input_files();
+  const std::scoped_lock lock(inputs.mutex);
+  return inputs.outputs.contains({status.st_dev, status.st_ino});
 }
 
 }  // namespace kadr

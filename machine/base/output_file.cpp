@@ -35,6 +35,20 @@ std::optional<struct stat> status_of(const std::string& path) {
   return status;
 }
 
+/// True if `path`, no link followed, is the file of this descriptor.
+bool names(const std::string& path, int fd) {
+  struct stat own {
+  }, named{};
+  return ::fstat(fd, &own) == 0 && ::lstat(path.c_str(), &named) == 0 && same(own, named);
+}
+
+/// True if `path`, links followed, is the file of this descriptor.
+bool leads_to(const std::string& path, int fd) {
+  struct stat own {};
+  const auto status = status_of(path);
+  return status && ::fstat(fd, &own) == 0 && same(*status, own);
+}
+
 /// The descriptor of standard output or standard error if that is what `status` names, and it can be written; else -1.
 int standard_stream(const struct stat& status) {
   for (const int fd : {STDOUT_FILENO, STDERR_FILENO}) {
@@ -69,23 +83,42 @@ std::optional<OutputFault> refusal_of(const std::string& path, const struct stat
   if (is_stream(status)) return std::nullopt;
   if (S_ISDIR(status.st_mode)) return refuse("is a folder");
   if (!S_ISREG(status.st_mode)) return refuse("is neither a regular file, nor a pipe or character device");
+  if (!rules.own_input && is_output_file(status))
+    return refuse("this output would overwrite another one of this command");
   if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) return refuse(std::strerror(errno));
   return std::nullopt;
 }
 
-/// A file that is left over from a writer that was killed, or belongs to one at work.
-enum class Leftover : std::uint8_t { removed, busy, not_a_file, input };
+/// Gives a new file mode, group and owner of the one that it replaces. Where the system refuses, it belongs to who
+/// wrote it; another group gets what all others have.
+void keep_permissions(int fd, const struct stat& replaced) {
+  struct stat own {};
+  if (::fstat(fd, &own) != 0) return;
+  mode_t mode = replaced.st_mode & 0777;
+  constexpr auto kSameOwner = static_cast<uid_t>(-1);
+  constexpr auto kSameGroup = static_cast<gid_t>(-1);
+  if (own.st_gid != replaced.st_gid && ::fchown(fd, kSameOwner, replaced.st_gid) != 0)
+    mode = (mode & ~mode_t{070}) | ((mode & mode_t{07}) << 3U);
+  if (::fchmod(fd, mode) != 0) errno = 0;
+  if (own.st_uid != replaced.st_uid && ::fchown(fd, replaced.st_uid, kSameGroup) != 0) errno = 0;
+}
+
+/// A file that is left over from a writer that was killed, or belongs to one at work; `taken`: an input or output.
+enum class Leftover : std::uint8_t { removed, busy, not_a_file, taken };
 
 Leftover remove_leftover(const std::string& part) {
-  const int fd = ::open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+  constexpr int kFlags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | O_NOCTTY;
+  // NFS locks only what is open to write; what others left may be only read
+  int fd = ::open(part.c_str(), O_RDWR | kFlags);
+  if (fd < 0 && errno == EACCES) fd = ::open(part.c_str(), O_RDONLY | kFlags);
   if (fd < 0) return errno == ENOENT ? Leftover::removed : Leftover::not_a_file;
   struct stat own {
   }, named{};
   Leftover found = Leftover::removed;
   if (::fstat(fd, &own) != 0 || !S_ISREG(own.st_mode))
     found = Leftover::not_a_file;
-  else if (is_input_file(own))
-    found = Leftover::input;
+  else if (is_input_file(own) || is_output_file(own))
+    found = Leftover::taken;
   else if (::flock(fd, LOCK_EX | LOCK_NB) != 0)
     found = errno == EWOULDBLOCK ? Leftover::busy : Leftover::not_a_file;
   else if (::lstat(part.c_str(), &named) == 0 && same(own, named) && ::unlink(part.c_str()) != 0)
@@ -138,11 +171,8 @@ std::string written_as(const std::string& path) {
   return follow(path).value_or(path) + ".part";
 }
 
-bool is_standard_output(const std::string& path) {
-  struct stat output {};
-  const auto status = status_of(path);
-  return status && ::fstat(STDOUT_FILENO, &output) == 0 && same(*status, output);
-}
+bool is_standard_output(const std::string& path) { return leads_to(path, STDOUT_FILENO); }
+bool is_standard_error(const std::string& path) { return leads_to(path, STDERR_FILENO); }
 
 tl::expected<OutputFile, OutputFault> OutputFile::open(const std::string& path, OutputRules rules) {
   OutputFile output(path, rules);
@@ -154,15 +184,10 @@ tl::expected<OutputFile, OutputFault> OutputFile::open(const std::string& path, 
   }
   auto file = follow(path);
   if (!file) return tl::unexpected(OutputFault{path, std::strerror(file.error())});
-  if (auto fault = output.open_part(std::move(*file))) return tl::unexpected(std::move(*fault));
-  if (status) {
-    // what replaces a file is as private as that was; where the system refuses, it belongs to who wrote it
-    struct stat own {};
-    if (::fstat(output.fd_, &own) == 0 && (own.st_uid != status->st_uid || own.st_gid != status->st_gid) &&
-        ::fchown(output.fd_, status->st_uid, status->st_gid) != 0)
-      errno = 0;
-    if (::fchmod(output.fd_, status->st_mode & 0777) != 0) errno = 0;
-  }
+  // what replaces a file is as private as that was, from its first moment
+  if (auto fault = output.open_part(std::move(*file), status ? 0600U : 0666U))
+    return tl::unexpected(std::move(*fault));
+  if (status) keep_permissions(output.fd_, *status);
   return output;
 }
 
@@ -177,19 +202,16 @@ std::optional<OutputFault> OutputFile::open_stream(int descriptor) {
   return std::nullopt;
 }
 
-std::optional<OutputFault> OutputFile::open_part(std::string file) {
+std::optional<OutputFault> OutputFile::open_part(std::string file, unsigned mode) {
   file_ = std::move(file);
   part_ = file_ + ".part";
   const std::string shown = rules_.keeps_part ? part_ : path_;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
     if (fd_ >= 0) {
-      struct stat own {
-      }, named{};
       // a file system without locks still has O_EXCL
       const bool locked = ::flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
-      if (locked && ::fstat(fd_, &own) == 0 && ::lstat(part_.c_str(), &named) == 0 && same(own, named))
-        return std::nullopt;
+      if (locked && names(part_, fd_)) return std::nullopt;
       // another writer has taken it for a leftover before it was locked
       ::close(std::exchange(fd_, -1));
       continue;
@@ -200,9 +222,10 @@ std::optional<OutputFault> OutputFile::open_part(std::string file) {
         continue;
       case Leftover::busy:
         return OutputFault{path_, fmt::format("another kadr is writing it: {} is locked", part_)};
-      case Leftover::input:
-        return OutputFault{path_,
-                           fmt::format("this output would overwrite an input: it is written as {}", part_)};
+      case Leftover::taken:
+        return OutputFault{
+            path_, fmt::format("this output would overwrite an input or another output: it is written as {}",
+                               part_)};
       case Leftover::not_a_file:
         return OutputFault{
             path_, fmt::format("it is written as {} first, and what has that name can't be replaced", part_)};
@@ -225,7 +248,7 @@ OutputFile::~OutputFile() {
   if (rules_.keeps_part || part_.empty()) {
     // a file that ends early holds what was written, but nothing behind a gap
     if (!fault_) write_all(fd_, buffer_);
-  } else {
+  } else if (names(part_, fd_)) {
     ::unlink(part_.c_str());
   }
   ::close(fd_);
@@ -261,10 +284,9 @@ OutputFile::Done OutputFile::flush() {
 
 /// The names must still mean what they meant when the file was opened: a long run gives others time.
 OutputFile::Done OutputFile::check_name() {
-  struct stat own {
-  }, named{};
-  if (::fstat(fd_, &own) != 0 || ::lstat(part_.c_str(), &named) != 0 || !same(own, named))
+  if (!names(part_, fd_))
     return fail(path_, fmt::format("{} was moved or replaced while it was written", part_));
+  struct stat named {};
   if (::lstat(file_.c_str(), &named) != 0) return {};
   if (S_ISLNK(named.st_mode)) return fail(path_, "became a link while it was written");
   if (auto refused = refusal_of(path_, named, rules_)) return fail(path_, refused->reason);
@@ -293,6 +315,8 @@ OutputFile::Done OutputFile::finish() {
   if (!renamed) return fail(path_, std::strerror(errno));
   // from here on the file is whole under its name; the lock goes with the descriptor
   part_.clear();
+  struct stat own {};
+  if (::fstat(fd_, &own) == 0) note_output_file(own);
   if (!sync_folder(file_)) return fail(path_, std::strerror(errno));
   return close();
 }

@@ -29,7 +29,7 @@ struct OutputRules {
 ///
 /// A pipe, a FIFO and a character device are written into as they are, and so is whatever this process has as
 /// standard output or standard error. Folders, sockets, block devices and files that the process has read
-/// (InputMemory) are refused.
+/// or made (InputMemory) are refused.
 class OutputFile {
  public:
   using Done = tl::expected<void, OutputFault>;
@@ -50,7 +50,7 @@ class OutputFile {
 
  private:
   explicit OutputFile(std::string path, OutputRules rules) : path_(std::move(path)), rules_(rules) {}
-  std::optional<OutputFault> open_part(std::string file);
+  std::optional<OutputFault> open_part(std::string file, unsigned mode);
   std::optional<OutputFault> open_stream(int descriptor);
   Done check_name();
   Done fail(int number);
@@ -75,5 +75,7 @@ std::optional<OutputFault> output_refusal(const std::string& path, OutputRules r
 
 /// True if `path` is what this process has as standard output.
 bool is_standard_output(const std::string& path);
+/// The same of standard error.
+bool is_standard_error(const std::string& path);
 
 }  // namespace kadr

@@ -20,7 +20,6 @@ constexpr std::size_t kIndexStride_bytes = std::size_t{1} << 16;
 namespace {
 
 constexpr std::size_t kPiece_bytes = std::size_t{1} << 16;
-constexpr std::size_t kLongestRead_bytes = std::size_t{1} << 30;
 
 struct Descriptor {
   int fd;
@@ -61,9 +60,10 @@ void read_rest(int fd, const std::string& path, std::uint64_t most_bytes, std::s
   for (;;) {
     const std::size_t have = text.size();
     if (most_bytes != 0 && have > most_bytes) return;
-    // a file that is no larger than it was needs no more than what was reserved
+    // a file that is no larger than it was needs no more than what was reserved; a pipe gives little at a time, and
+    // clearing all that is reserved for each piece would take the square of its bytes
     const std::size_t room = text.capacity() > have ? text.capacity() - have : kPiece_bytes;
-    const std::size_t wanted = std::min(room, kLongestRead_bytes);
+    const std::size_t wanted = std::min(room, kPiece_bytes);
     text.resize(have + wanted);
     const ssize_t got = ::read(fd, text.data() + have, wanted);
     text.resize(have + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));

@@ -21,7 +21,10 @@ std::size_t behind_string(std::string_view text, std::size_t at) {
     if (quote == '"' && text[at] == '\\') {
       ++at;
     } else if (text.substr(at, closing.size()) == closing) {
-      return at + closing.size();
+      at += closing.size();
+      // up to two more quotes in front of the closing ones belong to the text: """a"""" is a"
+      for (int more = 0; many_lines && more < 2 && at < text.size() && text[at] == quote; ++more) ++at;
+      return at;
     }
   }
   return text.size();

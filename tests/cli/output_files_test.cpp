@@ -78,6 +78,27 @@ TEST_CASE("no command writes over a file that it has read, by whatever name") {
   CHECK(std::filesystem::is_symlink(scratch.file("link")));
 }
 
+TEST_CASE("a second output of one command does not replace its first, nor a scenario that it has updated") {
+  const Scratch scratch;
+  write_inputs(scratch);
+  for (const char* command : {"law --zeta 0.005", "tube t.toml"}) {
+    CAPTURE(command);
+    REQUIRE(shell(std::string("kadr ") + command + " --csv alone", scratch.path()).code == 0);
+    const Finished done = shell(std::string("kadr ") + command + " --csv both --page both", scratch.path());
+    CHECK(done.code == 2);
+    CHECK(contains(done.err, "both: this output would overwrite another one of this command"));
+    CHECK(scratch.read("both") == scratch.read("alone"));
+    scratch.remove("both");
+  }
+  scratch.write("u.toml",
+                "format = 1\nname = \"u\"\nsummary = \"a square\"\nprogram = \"p.ngc\"\nmachine = "
+                "\"mill3\"\n[expect]\ntime_s = 1000.0\nwithin_s = 0.001\n");
+  const Finished done = shell("kadr scenario run --update --junit u.toml u.toml", scratch.path());
+  CHECK(done.code == 2);
+  CHECK(contains(done.err, "u.toml: this output would overwrite another one of this command"));
+  CHECK(scratch.read("u.toml").starts_with("format = 1\n"));
+}
+
 TEST_CASE("--publish writes no file: that is what -o is for") {
   const Scratch scratch;
   scratch.write("p.ngc", test::kSquare);
@@ -128,6 +149,8 @@ TEST_CASE("a link to /dev/stdout is standard output: a pipe, a file at its place
   const Finished mixed = shell("kadr run p.ngc -o stdout | cat", folder);
   CHECK(mixed.out.empty());
   CHECK(contains(mixed.err, "stdout: the summary goes there, too; -q leaves it out"));
+  CHECK(shell("kadr run p.ngc -o m.lcmlog 2>m.lcmlog", folder).code == 2);
+  CHECK(contains(scratch.read("m.lcmlog"), "m.lcmlog: messages go there, too; -q leaves them out"));
   if (::mknod(scratch.file("null").c_str(), S_IFCHR | 0600, makedev(1, 3)) != 0) {
     MESSAGE("not tested: this user can't make a device node");
     return;

@@ -64,3 +64,20 @@ TEST_CASE("an input far larger than any of its kind is refused before it is read
   CHECK(contains(call({"check", "p.ngc", "--limit", "file_bytes=5"}, scratch.path()).err,
                  "p.ngc: 9 bytes; at most 5 are read (--limit file_bytes=N)"));
 }
+
+TEST_CASE("of several scenarios one that can't be read leaves the others checked and listed") {
+  const Scratch scratch;
+  scratch.write("p.ngc", "G0 X1\nM2\n");
+  scratch.write(
+      "s.toml",
+      "format = 1\nname = \"good\"\nsummary = \"a line\"\nprogram = \"p.ngc\"\nmachine = \"mill3\"\n");
+  scratch.write("large.toml", "");
+  std::filesystem::resize_file(scratch.file("large.toml"), std::uintmax_t{1} << 42);
+  for (const char* command : {"check", "list"}) {
+    CAPTURE(command);
+    const Finished done = call({"scenario", command, "large.toml", "s.toml"}, scratch.path());
+    CHECK(done.code == 2);
+    CHECK(contains(done.err, "kadr: large.toml: 4398046511104 bytes; at most "));
+    CHECK(contains(done.out, "good"));
+  }
+}

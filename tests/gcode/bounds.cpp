@@ -75,9 +75,10 @@ TEST_CASE("whatever a program repeats ends at one bound by its name") {
   for (const char* body : {"(MSG,x)", "(DEBUG,x)", "(PRINT,x)"})
     check_ends(fmt::format("O1 while [1]\n{}\nO1 endwhile\nM2\n", body), messages, Code::too_many_messages,
                "100 (--limit messages=N)");
-  // one of 25 600 characters is 101
-  check_ends("(MSG," + std::string(25'600, 'x') + ")\nM2\n", messages, Code::too_many_messages,
+  // one of 25 601 bytes is 101
+  check_ends("(MSG," + std::string(25'601, 'x') + ")\nM2\n", messages, Code::too_many_messages,
              "100 (--limit messages=N)");
+  CHECK(run("(MSG," + std::string(25'600, 'x') + ")\nM2\n", messages).codes().empty());
 }
 
 TEST_CASE("under the defaults every program ends, and one of many lines that run once is let through") {

@@ -283,15 +283,19 @@ TEST_CASE("a file that came to the name meanwhile is not overwritten where that 
 
 TEST_CASE("PATH.part that was taken away or exchanged is not given the name") {
   const OutputFolder folder;
-  auto file = OutputFile::open(folder / "a");
-  REQUIRE(file);
-  REQUIRE(file->write("mine"));
-  fs::remove(folder / "a.part");
-  folder.put("a.part", "theirs");
-  const auto done = file->finish();
-  REQUIRE_FALSE(done);
-  CHECK(done.error().reason.find("moved or replaced while it was written") != std::string::npos);
-  CHECK_FALSE(fs::exists(folder / "a"));
+  {
+    auto file = OutputFile::open(folder / "a");
+    REQUIRE(file);
+    REQUIRE(file->write("mine"));
+    fs::remove(folder / "a.part");
+    folder.put("a.part", "theirs");
+    const auto done = file->finish();
+    REQUIRE_FALSE(done);
+    CHECK(done.error().reason.find("moved or replaced while it was written") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "a"));
+  }
+  // nor is what is there now taken away
+  CHECK(folder.text("a.part") == "theirs");
 }
 
 TEST_CASE("no output replaces a file that was read, by any of its names, nor is written beside into one") {

@@ -65,6 +65,13 @@ TEST_CASE("a key or header of 16 parts is read, one of 17 is found wherever it i
     CHECK(deep("x = 1\n[" + dotted(17, part) + "]\n"));
     CHECK(deep("x = [1, {" + dotted(17, part) + " = 1}]\n"));
     CHECK(deep("x = \"\"\"\n\"\"\"\n" + dotted(17, part) + " = 1"));
+    // texts that end in quotes hide nothing behind them
+    for (const std::string quoted : {"\"\"\"x\"\"\"\"", "\"\"\"x\"\"\"\"\"", "\"\"\"\"\"\"", "\"\"",
+                                     "\"\"\"\\\"\"\"\"\"", "'''x''''", "'''x'''''", "''"}) {
+      CAPTURE(quoted);
+      CHECK(deep("x = {b = " + quoted + ", " + dotted(17, part) + " = 1}\n"));
+      CHECK_FALSE(deep("x = {b = " + quoted + ", " + dotted(16, part) + " = 1}\n"));
+    }
   }
   const auto found = find_too_deep("x = 1.5\n  " + dotted(20) + " = 1\n");
   REQUIRE(found);
