@@ -24,7 +24,8 @@ std::string grouped(std::uint64_t value) {
 
 std::string text_of(std::uint64_t value) { return grouped(value); }
 std::string text_of(const std::optional<std::uint64_t>& value) {
-  return value ? grouped(*value) : grouped(ReadingBounds::kBlocks) + ", and one for each line of the text";
+  return value ? grouped(*value)
+               : grouped(ReadingBounds::kBlocks) + ", and one for each line of the text (without O words 16)";
 }
 
 template <class T>
@@ -53,7 +54,8 @@ constexpr NamedBound named(std::string_view name, std::string_view bounds) {
 constexpr NamedBound kBounds[] = {
     named<&ReadingBounds::blocks>("blocks", "moves, dwells and all other calls that a program makes"),
     named<&ReadingBounds::lines>("lines", "lines run, of a program with O words; 256 bytes count as a line"),
-    named<&ReadingBounds::messages>("messages", "messages that a program shows; 256 bytes count as one"),
+    named<&ReadingBounds::messages>("messages",
+                                    "messages shown, of a program with O words; 256 bytes count as one"),
     named<&ReadingBounds::call_depth>("call_depth", "nested subroutine calls"),
     named<&ReadingBounds::loop_passes>("loop_passes", "passes of all loops together"),
     named<&ReadingBounds::file_bytes>("file_bytes", "the program, and each file that it calls"),

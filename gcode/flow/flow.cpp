@@ -110,8 +110,8 @@ bool Flow::add_unit(std::uint32_t file, std::string name) {
   Unit& unit = *units_.back();
   // a called file contains a subroutine, even if its O word looks like a program number
   const bool is_main = unit.name.empty();
-  if (!options_.bounds.blocks) interpreter_.allow_blocks(count_lines(sources_[file].text()));
   straight_ = is_main && !unit.program.has_o_words();
+  interpreter_.add_text(count_lines(sources_[file].text()), straight_);
   if (straight_) return true;
   if (!unit.structure.read(unit.program, options_.block_delete, state_.names, report_)) return false;
   unit.passes_left.assign(unit.structure.size(), kNoPasses);

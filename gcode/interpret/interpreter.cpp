@@ -152,10 +152,11 @@ void Interpreter::hand_out(Block& block) {
 /// @param waiting  what is not handed out yet: blocks under compensation, points of a NURBS
 bool Interpreter::block_allowed(Span span, std::size_t waiting) {
   const auto& bound = options_.bounds.blocks;
-  const std::uint64_t most = bound.value_or(ReadingBounds::kBlocks + text_lines_);
+  const std::uint64_t per_line = runs_once_ ? ReadingBounds::kBlocksOfLine : 1;
+  const std::uint64_t most = bound.value_or(ReadingBounds::kBlocks + per_line * text_lines_);
   if (most == 0 || blocks_ + waiting < most) return true;
   const std::string by_text =
-      bound ? "" : fmt::format(", {} and one for each line of the text", ReadingBounds::kBlocks);
+      bound ? "" : fmt::format(", {} and {} for each line of the text", ReadingBounds::kBlocks, per_line);
   error(problem(Code::too_many_blocks, span, fmt::format("block {} would begin here", blocks_ + waiting + 1),
                 fmt::format("allowed: {}{} (--limit blocks=N)", most, by_text)));
   ended_ = true;
@@ -165,7 +166,7 @@ bool Interpreter::block_allowed(Span span, std::size_t waiting) {
 bool Interpreter::message_allowed(Span span, std::size_t bytes) {
   const std::uint64_t most = options_.bounds.messages;
   messages_ += weight_of(bytes);
-  if (most == 0 || messages_ <= most) return true;
+  if (runs_once_ || most == 0 || messages_ <= most) return true;
   Diagnostic d = problem(Code::too_many_messages, span, fmt::format("message {} of the run", messages_));
   d.notes.push_back(fmt::format("allowed: {} (--limit messages=N)", most));
   error(std::move(d));

@@ -63,8 +63,9 @@ class Interpreter {
   void leave_level(Span place);
   /// A flow line has been read: the program has begun.
   void start() { started_ = true; }
-  /// Raises the default bound on blocks: one for each line of a text.
-  void allow_blocks(std::uint64_t lines) { text_lines_ += lines; }
+  /// A text joins the program: its lines raise the default bound on blocks.
+  /// @param runs_once  nothing repeats or calls any of the texts
+  void add_text(std::uint64_t lines, bool runs_once) { text_lines_ += lines, runs_once_ = runs_once; }
   State& state() { return state_; }
   /// True after M2, M30, the closing % or the bound on blocks.
   bool ended() const { return ended_; }
@@ -316,6 +317,7 @@ class Interpreter {
   std::uint64_t blocks_ = 0;
   std::uint64_t messages_ = 0;    ///< weighed
   std::uint64_t text_lines_ = 0;  ///< of all texts read
+  bool runs_once_ = false;        ///< each line at most once: its messages need no bound
   bool started_ = false;          ///< some line with words has been run, or the opening % was seen
   bool ended_ = false;
   bool threading_ = false;         ///< feed moves follow the spindle's angle, by thread_pitch_u_rev_

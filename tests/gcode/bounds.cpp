@@ -76,9 +76,12 @@ TEST_CASE("whatever a program repeats ends at one bound by its name") {
     check_ends(fmt::format("O1 while [1]\n{}\nO1 endwhile\nM2\n", body), messages, Code::too_many_messages,
                "100 (--limit messages=N)");
   // one of 25 601 bytes is 101
-  check_ends("(MSG," + std::string(25'601, 'x') + ")\nM2\n", messages, Code::too_many_messages,
-             "100 (--limit messages=N)");
-  CHECK(run("(MSG," + std::string(25'600, 'x') + ")\nM2\n", messages).codes().empty());
+  const auto once = [](int bytes) {
+    return "O1 repeat [1]\n(MSG," + std::string(static_cast<std::size_t>(bytes), 'x') +
+           ")\nO1 endrepeat\nM2\n";
+  };
+  check_ends(once(25'601), messages, Code::too_many_messages, "100 (--limit messages=N)");
+  CHECK(run(once(25'600), messages).codes().empty());
 }
 
 TEST_CASE("under the defaults every program ends, and one of many lines that run once is let through") {
@@ -96,15 +99,27 @@ TEST_CASE("under the defaults every program ends, and one of many lines that run
   const auto file = sources.add(SourceText("p.ngc", "G0 X1\nF1000 G83 X1 Z-900 R0 Q.001\nX2\nX3\nX4\nM2\n"));
   interpret(
       sources, file, options, [&](const Block&) { ++blocks; }, diagnostics);
-  CHECK(blocks == ReadingBounds::kBlocks + 7);
+  CHECK(blocks == ReadingBounds::kBlocks + 7 * ReadingBounds::kBlocksOfLine);
   REQUIRE(diagnostics.list().size() == 1);
   CHECK(diagnostics.list().front().code == Code::too_many_blocks);
   CHECK(render_human(diagnostics.list().front(), sources)
-            .find("3000000 and one for each line of the text (--limit blocks=N)") != std::string::npos);
-  // lines that run once are not counted
+            .find("3000000 and 16 for each line of the text (--limit blocks=N)") != std::string::npos);
+  // neither lines that run once are counted, nor their messages
   std::string text;
-  for (int i = 0; i < 1000; ++i) text += "G0 X1\n";
-  CHECK(run(text + "M2\n", bounded({{"lines", 10}})).codes().empty());
+  for (int i = 0; i < 1000; ++i) text += "G0 X1 (MSG,x)\n";
+  CHECK(run(text + "M2\n", bounded({{"lines", 10}, {"messages", 10}})).codes().empty());
+  // and each of them may be a cycle of some moves
+  constexpr std::uint64_t kHoles = 250'000;
+  text = "F100 G83 X1 Z-.5 R0 Q.1\n";
+  for (std::uint64_t i = 0; i < kHoles; ++i) text += i % 2 == 0 ? "X2\n" : "X1\n";
+  SourceSet plate;
+  Diagnostics none;
+  blocks = 0;
+  const auto holes = plate.add(SourceText("p.ngc", text + "M2\n"));
+  interpret(
+      plate, holes, options, [&](const Block&) { ++blocks; }, none);
+  CHECK(none.list().empty());
+  CHECK(blocks > ReadingBounds::kBlocks + kHoles);
 }
 
 TEST_CASE("80 kB of open subs gather no more errors than are shown") {
