@@ -203,7 +203,7 @@ RunProblem run_problem(const Joints& joints, const PathLimitTable& table, const 
   return ProblemMaker(joints, table, run, machine, limits).make();
 }
 
-tl::expected<void, PlanError> plan_time_law(const RunTask& task, const Run& run, const RunSolver& solve,
+tl::expected<void, PlanError> plan_time_law(const RunTask& task, const Run& run, RunSolver& solve,
                                             std::vector<Element>& out) {
   const auto& [joints, table, machine] = task;
   RunProblem stated = run_problem(joints, table, run, machine);

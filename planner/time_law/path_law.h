@@ -39,7 +39,7 @@ using RunSolver = LawResult(const LawProblem& problem, const machine::MachineMod
 
 /// Plans a run by a law of constant acceleration between nodes: one element for every interval whose speed
 /// changes, holds joined.
-tl::expected<void, PlanError> plan_time_law(const RunTask& task, const Run& run, const RunSolver& solve,
+tl::expected<void, PlanError> plan_time_law(const RunTask& task, const Run& run, RunSolver& solve,
                                             std::vector<Element>& out);
 
 }  // namespace kadr::planner

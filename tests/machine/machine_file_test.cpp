@@ -165,7 +165,8 @@ class MachineMaker {
     m.planner = {pick(2) == 0, static_cast<AxisLimitRule>(pick(2)), static_cast<TickFeed>(pick(2)),
                  positive(9)};
     m.plant = {static_cast<IntegratorKind>(pick(3)), positive(1e-3)};
-    m.log = {pick(2) == 0, pick(2) == 0, static_cast<int>(16 + pick(49)), 0.5 / m.clock.tau_s() * unit()};
+    m.log = {pick(2) == 0, pick(2) == 0, ControlTicks{static_cast<std::int64_t>(16 + pick(49))},
+             0.5 / m.clock.tau_s() * unit()};
     std::string letters(kAxisLetters);
     std::shuffle(letters.begin(), letters.end(), random_);
     letters.resize(1 + pick(9));

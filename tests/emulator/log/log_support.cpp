@@ -178,8 +178,8 @@ log::RunSummary log_summary(const machine::MachineModel& machine, std::int64_t c
     const auto n = static_cast<std::int64_t>(a + 1);
     const auto u = static_cast<double>(n);
     x = {n,
-         -n,
-         10 * n,
+         Steps{-n},
+         Steps{10 * n},
          u / 2,
          -u,
          3 * u,
@@ -194,7 +194,7 @@ log::RunSummary log_summary(const machine::MachineModel& machine, std::int64_t c
          13 * u,
          14 * u,
          15 * u,
-         16 * n};
+         Steps{16 * n}};
     s.axis.push_back(x);
   }
   s.limited_by = {{"program", 23.5}, {"axis X speed", 14.75}};
