@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "emulator/interpolator/lattice/lattice.h"
+#include "machine/base/count.h"
 #include "planner/path/path.h"
 
 namespace kadr::interpolator {

@@ -123,7 +123,8 @@ class DepthScan {
     begin = std::min(line.find_first_not_of(" \t", begin), line.size());
     std::size_t end = std::max(begin, std::min(at_ - line_begin_, line.size()));
     while (end > begin && (line[end - 1] == ' ' || line[end - 1] == '\t' || line[end - 1] == '\r')) --end;
-    return {TooDeep::Kind::key, line_, begin, end - begin, parts_};
+    // a key that ends with a text of many lines may have nothing on its last one: a caret then
+    return {TooDeep::Kind::key, line_, begin, std::max<std::size_t>(end - begin, 1), parts_};
   }
 
   std::string_view text_;

@@ -73,6 +73,11 @@ TEST_CASE("a key or header of 16 parts is read, one of 17 is found wherever it i
       CHECK_FALSE(deep("x = {b = " + quoted + ", " + dotted(16, part) + " = 1}\n"));
     }
   }
+  // where a text of many lines in a key is not closed, the last line may be empty: one caret
+  const auto behind = find_too_deep(dotted(20) + "\"\"\"\n");
+  REQUIRE(behind);
+  CHECK(behind->line == 2);
+  CHECK(behind->length == 1);
   const auto found = find_too_deep("x = 1.5\n  " + dotted(20) + " = 1\n");
   REQUIRE(found);
   CHECK(found->line == 2);
