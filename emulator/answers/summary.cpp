@@ -8,6 +8,7 @@
 #include "emulator/text/text.h"
 #include "emulator/text/units.h"
 #include "machine/base/hash.h"
+#include "machine/base/terminal_text.h"
 #include "machine/machine.h"
 
 namespace kadr::answers {
@@ -217,8 +218,8 @@ std::string render_summary(const log::RunSummary& s, const SummaryContext& c) {
   out += alarm_lines(s, c);
   out += head("steps hash", hash_text(s.steps_hash));
   if (!c.log_path.empty())
-    out += head(
-        "log", c.log_bytes ? fmt::format("{}   {}", c.log_path, text::bytes_text(*c.log_bytes)) : c.log_path);
+    out += head("log", displayable(c.log_path) +
+                           (c.log_bytes ? fmt::format("   {}", text::bytes_text(*c.log_bytes)) : ""));
   if (c.wall_s >= 0) {
     const double factor = c.wall_s > 0 ? time_s / c.wall_s : 0;
     out += head("wall", fmt::format("{} s, {}x real time", text::fixed(c.wall_s, 2),

@@ -42,7 +42,7 @@ class Reader {
     if (help) words.erase(words.begin());
     if (const std::string mistake = help ? unknown_command(app_, words) : usage_mistake(app_, words);
         !mistake.empty()) {
-      tell(fmt::format("{0}\nsee {1} --help\n", mistake, mistake.substr(0, mistake.find(':'))));
+      tell(fmt::format("{}\nsee {} --help\n", displayable(mistake), mistake.substr(0, mistake.find(':'))));
       return kNotStarted;
     }
     try {
@@ -71,7 +71,7 @@ class Reader {
       std::string complaint = e.what();
       if (const std::string names = command_names(*asked); !names.empty())
         complaint = "which command? " + names;
-      tell(fmt::format("{}: {}\nsee {} --help\n", name, complaint, name));
+      tell(fmt::format("{}: {}\nsee {} --help\n", name, displayable(complaint), name));
       return kNotStarted;
     }
     return arguments_;

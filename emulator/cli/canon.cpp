@@ -7,6 +7,7 @@
 #include "emulator/cli/inputs.h"
 #include "emulator/text/text.h"
 #include "gcode/gcode.h"
+#include "machine/base/terminal_text.h"
 
 namespace kadr::cli {
 namespace {
@@ -82,7 +83,8 @@ int canon_program(const Arguments& arguments, Console& console) {
         if (block.span.line < arguments.first_line || block.span.line > arguments.last_line) return;
         const std::size_t before = text.size();
         const bool called = block.span.file != program;
-        gcode::append_canon(text, block, called ? sources[block.span.file].name() : std::string_view());
+        gcode::append_canon(text, block,
+                            called ? displayable(sources[block.span.file].name()) : std::string());
         if (text.size() == before) return;
         if (json) {
           console.data((first ? "\n    " : ",\n    ") + call_json(text, block.span.line));

@@ -95,7 +95,7 @@ void print_plan_csv(const cycle::Job& job, Console& console) {
   const machine::MachineModel& model = job.given.machine.model;
   console.data(answers::plan_csv_title(model));
   answers::for_each_plan_row(
-      job, [&](const answers::PlanRow& row) { console.data(answers::plan_csv_row(row, model)); });
+      job, [&](const answers::PlanRow& row) { console.bytes(answers::plan_csv_row(row, model)); });
 }
 
 void print_plan_table(const cycle::Job& job, Console& console) {

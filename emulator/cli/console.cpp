@@ -32,7 +32,8 @@ std::string current_folder() {
 
 }  // namespace
 
-Console::Console(const OutputOptions& options) : options_(options), sarif_(current_folder()) {
+Console::Console(const OutputOptions& options)
+    : options_(options), terminal_(::isatty(STDOUT_FILENO) != 0), sarif_(current_folder()) {
   buffer_.reserve(kBuffer_bytes + 4096);
 }
 
@@ -41,14 +42,22 @@ Console::~Console() {
   write_all(STDOUT_FILENO, buffer_);
 }
 
-void Console::data(std::string_view text) {
-  buffer_ += text;
+void Console::data(std::string_view text) { gather(text, Styles::replaced); }
+
+void Console::gather(std::string_view text, Styles styles) {
+  append_shown(buffer_, text, styles);
+  if (buffer_.size() >= kBuffer_bytes) flush();
+}
+
+void Console::bytes(std::string_view bytes) {
+  if (terminal_) return data(bytes);
+  buffer_ += bytes;
   if (buffer_.size() >= kBuffer_bytes) flush();
 }
 
 void Console::flush() {
   try {
-    print_result(buffer_);
+    print_gathered(buffer_);
   } catch (...) {
     // what can't be written is not tried again
     buffer_.clear();
@@ -63,21 +72,24 @@ void Console::finish(int exit_code) {
     if (sarif_where_ == Where::output)
       data(text);
     else
-      message(text);
+      message(text, Styles::replaced);
   }
   flush();
 }
 
-void Console::message(std::string_view text) {
+void Console::message(std::string_view text, Styles styles) {
   flush();
-  tell(text);
+  tell(text, styles);
 }
 
 void Console::note(std::string_view text) {
-  if (!options_.quiet && !sarif()) message(fmt::format("kadr: {}\n", text));
+  if (!options_.quiet && !sarif()) error(text);
 }
 
-void Console::error(std::string_view text) { message(fmt::format("kadr: {}\n", text)); }
+void Console::error(std::string_view text) {
+  flush();
+  tell_line(text);
+}
 
 bool Console::colour(Where where) const {
   if (options_.color != When::automatic) return options_.color == When::always;
@@ -134,12 +146,13 @@ void Console::diagnostics(const Diagnostics& list, const SourceSet& sources, con
   if (options_.format == DiagnosticFormat::human) {
     if (shown < list.list().size())
       out += fmt::format("{} more not shown (--max-errors 0 shows all)\n", list.list().size() - shown);
-    out += fmt::format("{} in {}\n", count_text(list.errors(), list.warnings()), subject);
+    out += fmt::format("{} in {}\n", count_text(list.errors(), list.warnings()), displayable(subject));
   }
+  const Styles styles = colour(where) ? Styles::kept : Styles::replaced;
   if (where == Where::output)
-    data(out);
+    gather(out, styles);
   else
-    message(out);
+    message(out, styles);
   if (options_.format != DiagnosticFormat::human && shown < list.list().size())
     note(fmt::format("{} more diagnostics not shown (--max-errors 0 shows all)", list.list().size() - shown));
 }

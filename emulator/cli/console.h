@@ -7,6 +7,7 @@
 #include "emulator/text/json.h"
 #include "emulator/text/sarif.h"
 #include "machine/base/diagnostic.h"
+#include "machine/base/terminal_text.h"
 
 namespace kadr::cli {
 
@@ -16,7 +17,8 @@ class WorldError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Standard output and standard error of a command. Data go out in large pieces; messages at once.
+/// Standard output and standard error of a command. Data go out in large pieces; messages at once. All text is held to
+/// what a terminal may be shown (emulator/cli/standard_streams.h).
 class Console {
  public:
   explicit Console(const OutputOptions& options);
@@ -25,11 +27,14 @@ class Console {
   ~Console();
 
   const OutputOptions& options() const { return options_; }
-  /// Data, to standard output. Throws WorldError when it can't be written.
+  /// Text for people or in `--json`, to standard output. Throws WorldError when it can't be written.
   void data(std::string_view text);
+  /// What else is written to files, such as a program, CSV or a page: byte for byte, but on a terminal as data().
+  void bytes(std::string_view bytes);
   /// A document in `--json`, as text with a line end.
   void document(const text::Json& json) { data(text::json_text(json) + '\n'); }
   /// A message with "kadr: " before it, to standard error; -q leaves notes out, and so does a document there.
+  /// It is one line, whatever names it quotes.
   void note(std::string_view text);
   void error(std::string_view text);
   /// Diagnostics in the requested format, at most --max-errors of them, and a line that counts them; in SARIF
@@ -44,12 +49,14 @@ class Console {
   void finish(int exit_code);
 
  private:
-  void message(std::string_view text);
+  void gather(std::string_view text, Styles styles);
+  void message(std::string_view text, Styles styles);
   bool colour(Where where) const;
   bool sarif() const { return options_.format == DiagnosticFormat::sarif && !options_.json; }
 
   OutputOptions options_;
-  std::string buffer_;
+  std::string buffer_;  ///< what goes to standard output next, as it goes there
+  bool terminal_;       ///< standard output is one
   text::SarifLog sarif_;
   Where sarif_where_ = Where::errors;
 };

@@ -8,6 +8,7 @@
 #include "emulator/cli/result_file.h"
 #include "emulator/log_tools/export/export.h"
 #include "emulator/text/text.h"
+#include "machine/base/terminal_text.h"
 
 /// `kadr export` and `kadr plot`: a log's signals for other tools and for a quick look.
 namespace kadr::cli {
@@ -67,7 +68,7 @@ std::string code_legend(const LogSamples& log) {
   std::string out;
   for (const log_tools::Signal& s : log.signals()) {
     if (s.words.empty()) continue;
-    out += fmt::format("\n{}:", s.name);
+    out += fmt::format("\n{}:", displayable(s.name));
     for (std::size_t i = 0; i < s.words.size(); ++i)
       out += fmt::format("{} {} {}", i == 0 ? "" : ",", i, s.words[i]);
   }
@@ -120,7 +121,7 @@ int export_log(const Arguments& arguments, Console& console) {
     if (file)
       file->write(text);
     else
-      console.data(text);
+      console.bytes(text);
   });
   if (file) {
     file->close();

@@ -8,6 +8,7 @@
 #include "emulator/cli/inputs.h"
 #include "emulator/cli/result_file.h"
 #include "gcode/gcode.h"
+#include "machine/base/terminal_text.h"
 
 /// `kadr fmt`: programs in normal form.
 namespace kadr::cli {
@@ -24,11 +25,11 @@ struct Formatted {
 int act(const Formatted& formatted, const std::string& path, const Arguments& arguments, Console& console) {
   const int code = formatted.readable ? kYes : kNo;
   if (arguments.only_check) {
-    if (formatted.differs && !console.options().json) console.data(program_text(path) + '\n');
+    if (formatted.differs && !console.options().json) console.data(displayable(program_text(path)) + '\n');
     return formatted.differs ? kNo : code;
   }
   if (!arguments.in_place) {
-    if (!console.options().json) console.data(formatted.text);
+    if (!console.options().json) console.bytes(formatted.text);
     return code;
   }
   if (!formatted.readable) {

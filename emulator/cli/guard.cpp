@@ -25,6 +25,19 @@ int report_fault(const char* what, int argc, const char* const* argv) {
   return kInternal;
 }
 
+std::string quoted(std::string_view word) {
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + '\'';
+}
+
+/// A word that a terminal may not be shown: its bytes by number.
+std::string quoted_bytes(std::string_view word) {
+  std::string out = "$'";
+  for (const char c : word) out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+  return out + '\'';
+}
+
 }  // namespace
 
 std::string shell_line(int argc, const char* const* argv) {
@@ -38,9 +51,7 @@ std::string shell_line(int argc, const char* const* argv) {
       line += word;
       continue;
     }
-    line += '\'';
-    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    line += '\'';
+    line += displayable(word) == word ? quoted(word) : quoted_bytes(word);
   }
   return line;
 }
@@ -49,12 +60,12 @@ int guarded(int argc, const char* const* argv, const std::function<int()>& work)
   try {
     return work();
   } catch (const WorldError& e) {
-    tell(fmt::format("kadr: {}\n", e.what()));
+    tell_line(e.what());
     return kNotStarted;
   } catch (const BrokenPromise& e) {
     return report_fault(e.what(), argc, argv);
   } catch (const std::system_error& e) {
-    tell(fmt::format("kadr: {}\n", e.what()));
+    tell_line(e.what());
     return kNotStarted;
   } catch (const std::bad_alloc&) {
     tell("kadr: out of memory\n");

@@ -9,7 +9,8 @@ namespace kadr::cli {
 /// with a line that reproduces it.
 int guarded(int argc, const char* const* argv, const std::function<int()>& work);
 
-/// The command line, quoted so that it can be pasted into a shell.
+/// The command line, quoted so that it can be pasted into a shell (bash or zsh, where a word holds what a terminal may
+/// not be shown).
 std::string shell_line(int argc, const char* const* argv);
 
 }  // namespace kadr::cli

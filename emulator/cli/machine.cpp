@@ -8,6 +8,7 @@
 #include "emulator/cli/inputs.h"
 #include "emulator/cli/key_list.h"
 #include "emulator/text/text.h"
+#include "machine/base/terminal_text.h"
 
 namespace kadr::cli {
 namespace {
@@ -104,8 +105,8 @@ int machine_check(const Arguments& arguments, Console& console) {
     }
     console.diagnostics(diagnostics, sources, file, Console::Where::output);
     if (good && !console.options().quiet && console.options().format == DiagnosticFormat::human)
-      console.data(fmt::format("{}: machine {}, axes {}: no errors\n", file, machine.model.name,
-                               axis_letters(machine.model)));
+      console.data(fmt::format("{}: machine {}, axes {}: no errors\n", displayable(file),
+                               displayable(machine.model.name), axis_letters(machine.model)));
   }
   if (console.options().json) console.document(documents);
   return worst;

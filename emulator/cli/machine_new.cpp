@@ -13,6 +13,7 @@
 #include "emulator/text/text.h"
 #include "machine/base/parse_number.h"
 #include "machine/base/require.h"
+#include "machine/base/terminal_text.h"
 
 /// `kadr machine new`: a machine file to start from, a copy of another machine or made from a data sheet.
 namespace kadr::cli {
@@ -278,7 +279,7 @@ int copy_machine(const Arguments& arguments, const std::string& name, Console& c
         "wrote {0}, a copy of {1}; change it, then: kadr machine check {0}\n"
         "from a data sheet instead: kadr machine new {2} --axes XYZ --travel 800,800,80 --max-speed "
         "5000mm/min ...\n",
-        path, machine.model.name, name));
+        path, displayable(machine.model.name), name));
   return kYes;
 }
 

@@ -74,7 +74,7 @@ double ProgressLine::wall_s() const {
 void ProgressLine::show(const std::string& text) {
   const double now_s = wall_s();
   if (kind_ == Kind::bar) {
-    tell(fmt::format("\r{}\x1b[K", text));
+    tell_over(text);
     drawn_ = true;
     next_s_ = now_s + kRedraw_s;
   } else {
@@ -84,7 +84,7 @@ void ProgressLine::show(const std::string& text) {
 }
 
 void ProgressLine::erase() {
-  if (drawn_) tell("\r\x1b[K");
+  if (drawn_) tell_over({});
   drawn_ = false;
 }
 

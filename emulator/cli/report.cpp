@@ -46,7 +46,7 @@ int report_log(const Arguments& arguments, Console& console) {
     return kNotStarted;
   }
   if (name == "-") {
-    console.data(page);
+    console.bytes(page);
   } else {
     write_file(name, page);
     console.note(fmt::format("wrote {}: {}", name, text::bytes_text(static_cast<std::int64_t>(page.size()))));

@@ -11,6 +11,7 @@
 #include "emulator/cli/result_file.h"
 #include "emulator/scenario/scenario.h"
 #include "emulator/text/text.h"
+#include "machine/base/terminal_text.h"
 
 namespace kadr::cli {
 namespace {
@@ -118,8 +119,9 @@ int scenario_check(const Arguments& arguments, Console& console) {
     }
     console.diagnostics(diagnostics, sources, path, Console::Where::output);
     if (code == kYes && tells)
-      console.data(fmt::format("{}: scenario {}, program {}, machine {}: no errors\n", path, scenario->name,
-                               scenario->program_name, given.machine.model.name));
+      console.data(fmt::format("{}: scenario {}, program {}, machine {}: no errors\n", displayable(path),
+                               displayable(scenario->name), displayable(scenario->program_name),
+                               displayable(given.machine.model.name)));
   }
   if (console.options().json) console.document(documents);
   return worst;

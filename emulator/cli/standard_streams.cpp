@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <new>
+#include <string>
 
 #include "emulator/cli/console.h"
 #include "machine/base/write_all.h"
@@ -23,8 +25,10 @@ void open_missing_streams() {
   }
 }
 
-void print_result(std::string_view text) {
-  if (write_all(STDOUT_FILENO, text)) return;
+void print_result(std::string_view text) { print_gathered(shown_text(text)); }
+
+void print_gathered(std::string_view bytes) {
+  if (write_all(STDOUT_FILENO, bytes)) return;
   const int reason = errno;
   if (reason == EPIPE) {
     std::signal(SIGPIPE, SIG_DFL);
@@ -33,6 +37,33 @@ void print_result(std::string_view text) {
   throw WorldError(fmt::format("standard output: {}", std::strerror(reason)));
 }
 
-void tell(std::string_view text) noexcept { write_all(STDERR_FILENO, text); }
+void tell(std::string_view text, Styles styles) noexcept {
+  try {
+    // what needs no change needs no memory either
+    if (shown_bytes(text) == text.size())
+      write_all(STDERR_FILENO, text);
+    else
+      write_all(STDERR_FILENO, shown_text(text, styles));
+  } catch (const std::bad_alloc&) {
+    // the message is lost
+  }
+}
+
+void tell_line(std::string_view text) noexcept {
+  try {
+    tell(fmt::format("kadr: {}\n", displayable(text)));
+  } catch (const std::bad_alloc&) {
+    // the message is lost
+  }
+}
+
+void tell_over(std::string_view text) noexcept {
+  try {
+    // back to the line's beginning; behind the text, erase to its end
+    write_all(STDERR_FILENO, fmt::format("\r{}\x1b[K", displayable(text)));
+  } catch (const std::bad_alloc&) {
+    // the line is lost
+  }
+}
 
 }  // namespace kadr::cli

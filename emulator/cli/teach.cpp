@@ -112,7 +112,7 @@ int teach_page(const Arguments& arguments, Console& console) {
       studies::render_teach_page(studies::teach_address(arguments.files, arguments.methods));
   const std::string& path = arguments.teach.page_path;
   if (path == "-") {
-    console.data(page);
+    console.bytes(page);
     return kYes;
   }
   write_file(path, page);

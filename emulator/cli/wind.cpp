@@ -33,7 +33,7 @@ int write_winding(const Arguments& arguments, Console& console) {
     console.note(fmt::format("wrote {}: {}, {}", path, winding->title,
                              text::counted(static_cast<std::int64_t>(winding->points.size() - 1), "block")));
   } else {
-    console.data(text);
+    console.bytes(text);
   }
   return kYes;
 }

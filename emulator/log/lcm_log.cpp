@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <lcm/lcm-cpp.hpp>
@@ -37,6 +38,9 @@ class Sink {
     // LCM would open it over whatever is there, and stamp it with the time of the day
     if (url_.starts_with("file:"))
       return fail(url_, "a live channel is not a file (udpm://, tcpq://, memq://); -o writes the log");
+    // LCM quotes what it can't read on standard error, as it is
+    if (std::any_of(url_.begin(), url_.end(), [](char c) { return c <= ' ' || c > '~'; }))
+      return fail(url_, "an LCM provider is named in printable ASCII without blanks");
     if (!url_.empty()) {
       errno = 0;
       live_.emplace(url_);

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "machine/base/hash.h"
+#include "machine/base/terminal_text.h"
 #include "machine/step_hash.h"
 
 namespace kadr::log {
@@ -133,9 +134,11 @@ std::string log_state_name(LogState state) {
 std::string render_log_info(const LogInfo& info) {
   const LogHeader& h = info.header;
   std::string out =
-      fmt::format("{}: {}\n", info.path, info.end.state == LogState::complete ? "complete" : info.end.detail);
+      fmt::format("{}: {}\n", displayable(info.path),
+                  displayable(info.end.state == LogState::complete ? "complete" : info.end.detail));
+  // the log's own names are a stranger's
   const auto line = [&](const char* name, const std::string& text) {
-    out += fmt::format("  {:<12}{}\n", name, text);
+    out += fmt::format("  {:<12}{}\n", name, displayable(text));
   };
   line("program",
        fmt::format("{}, {}, on {} (kadr {}, log format {})", h.program_name, counted(h.program_bytes, "byte"),
@@ -159,7 +162,8 @@ std::string render_log_info(const LogInfo& info) {
   for (const std::string& note : info.end.passed_over) line("newer", note);
   out += fmt::format("  {:<20}{:>12}{:>16}{:>9}\n", "channel", "messages", "bytes", "share");
   for (const ChannelInfo& c : info.channels)
-    out += fmt::format("  {:<20}{:>12}{:>16}{:>7.1f} %\n", c.name, grouped(c.messages), grouped(c.bytes),
+    out += fmt::format("  {:<20}{:>12}{:>16}{:>7.1f} %\n", displayable(c.name), grouped(c.messages),
+                       grouped(c.bytes),
                        100.0 * static_cast<double>(c.bytes) / static_cast<double>(info.end.file_bytes));
   return out;
 }

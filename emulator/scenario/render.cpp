@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "emulator/scenario/scenario.h"
+#include "emulator/text/json.h"
 #include "emulator/text/text.h"
+#include "machine/base/terminal_text.h"
 
 namespace kadr::scenario {
 namespace {
@@ -18,11 +19,12 @@ std::size_t failures(const std::vector<ScenarioResult>& results) {
 /// The differences, line by line; empty if there are none.
 std::string differences(const ScenarioResult& result) {
   std::string out;
-  if (!result.failure.empty()) out += fmt::format("{}\n", result.failure);
+  if (!result.failure.empty()) out += fmt::format("{}\n", displayable(result.failure));
   bool told = !result.failure.empty();
   for (const ScenarioCheck& check : result.checks) {
     if (check.passed) continue;
-    out += fmt::format("{}: {}, expected {}\n", check.what, check.measured, check.expected);
+    out += fmt::format("{}: {}, expected {}\n", displayable(check.what), displayable(check.measured),
+                       displayable(check.expected));
     told = told || check.what == "diagnostics";
   }
   // the program's messages explain a refusal; they are noise where a number differs
@@ -37,7 +39,7 @@ std::string render_result(const ScenarioResult& result) {
                                     [](const ScenarioCheck& c) { return c.passed; });
   std::string out =
       fmt::format("{:<7} {:<22} {:>11.3f} s  {} of {} checks\n", result.passed() ? "passed" : "FAILED",
-                  result.name, result.machine_s, passed, result.checks.size());
+                  displayable(result.name), result.machine_s, passed, result.checks.size());
   const std::string what = differences(result);
   std::size_t at = 0;
   while (at < what.size()) {
@@ -75,19 +77,19 @@ std::string render_junit(const std::vector<ScenarioResult>& results) {
 }
 
 std::string render_json(const std::vector<ScenarioResult>& results) {
-  auto list = nlohmann::ordered_json::array();
+  auto list = text::Json::array();
   for (const ScenarioResult& r : results) {
-    nlohmann::ordered_json item = {
+    text::Json item = {
         {"name", r.name}, {"file", r.file}, {"passed", r.passed()}, {"machine_s", r.machine_s}};
     if (!r.failure.empty()) item["failure"] = r.failure;
-    auto checks = nlohmann::ordered_json::array();
+    auto checks = text::Json::array();
     for (const ScenarioCheck& c : r.checks)
       checks.push_back(
           {{"what", c.what}, {"expected", c.expected}, {"measured", c.measured}, {"passed", c.passed}});
     item["checks"] = std::move(checks);
     list.push_back(std::move(item));
   }
-  return list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return text::json_text(list) + '\n';
 }
 
 }  // namespace kadr::scenario

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 /// places of the calls that led here, innermost first; the ones left out stand between its two halves.
 Json json_of(const Diagnostic& d, const SourceSet& sources);
 Json json_of(const Diagnostics& diagnostics, const SourceSet& sources);
-/// Indented by two; bytes that are not UTF-8 become U+FFFD.
+/// Indented by two; bytes that are not UTF-8 become U+FFFD, and what a terminal may not be shown is escaped (\u202e).
 std::string json_text(const Json& json);
 /// The same on one line, without line end.
 std::string json_line(const Json& json);

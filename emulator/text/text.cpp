@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/base/terminal_text.h"
 #include "machine/base/utf8.h"
 
 namespace kadr::text {
@@ -85,7 +86,7 @@ std::size_t display_width(std::string_view text) {
 }
 
 std::string one_line(std::string_view text, std::size_t most) {
-  const auto blank = [](char c) { return static_cast<unsigned char>(c) <= 0x20; };
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
   // a line of any length, of which little is shown
@@ -114,6 +115,15 @@ std::string pad_left(std::string_view text, std::size_t width) {
 std::string pad_right(std::string_view text, std::size_t width) {
   const std::size_t cells = display_width(text);
   return std::string(text) + std::string(width > cells ? width - cells : 0, ' ');
+}
+
+TextTable::TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {
+  for (Column& column : columns_) column.title = displayable(column.title);
+}
+
+void TextTable::add(std::vector<std::string> cells) {
+  for (std::string& cell : cells) cell = displayable(cell);
+  rows_.push_back(std::move(cells));
 }
 
 std::string TextTable::render(std::string_view indent, std::string_view gap) const {
@@ -148,7 +158,7 @@ std::string xml_text(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const CodePoint c = decode_utf8(text, at);
     const bool forbidden = c.value == 0xFFFD || c.value == 0xFFFE || c.value == 0xFFFF ||
-                           (c.value < 0x20 && c.value != '\n' && c.value != '\t');
+                           (!may_be_shown(c.value) && c.value != '\n' && c.value != '\t');
     switch (c.value) {
       case '&':
         out += "&amp;";

@@ -23,19 +23,19 @@ std::string bytes_text(std::int64_t bytes);
 /// "0.044 s", "38.412 s", "12 min 03.4 s", "1 h 02 min 03 s"
 std::string duration_text(double time_s);
 
-/// Number of terminal cells of a text.
+/// Number of terminal cells of a text as it is shown (machine/base/terminal_text.h).
 std::size_t display_width(std::string_view text);
-/// The text on one line, safe for a terminal: tabs become spaces, control characters and bytes that are not
-/// UTF-8 become U+FFFD, outer blanks are dropped; beyond `most` (>= 3) cells it is cut and ends in "...".
+/// The text on one line, as displayable() shows it (machine/base/terminal_text.h); outer blanks are dropped; beyond `most` (>= 3) cells it is cut and ends in "...".
 std::string one_line(std::string_view text, std::size_t most);
 std::string pad_left(std::string_view text, std::size_t width);   ///< text at the right end
 std::string pad_right(std::string_view text, std::size_t width);  ///< text at the left end
 
-/// Text for XML and HTML: markup escaped; whatever XML 1.0 can't hold (control characters, bytes that are not
-/// UTF-8) is replaced.
+/// Text for XML and HTML: markup escaped; whatever XML 1.0 can't hold and a terminal may not be shown (control characters,
+/// marks of direction, bytes that are not UTF-8) is replaced.
 std::string xml_text(std::string_view text);
 
-/// Columns that align themselves. Cells are added row by row; render() pads each column to its widest cell.
+/// Columns that align themselves. Cells are added row by row, each as one line that a terminal may be shown; render()
+/// pads each column to its widest cell.
 class TextTable {
  public:
   enum class Align : std::uint8_t { left, right };
@@ -43,9 +43,9 @@ class TextTable {
     std::string title;
     Align align = Align::right;
   };
-  explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
+  explicit TextTable(std::vector<Column> columns);
   /// A row may have fewer cells than columns; a last left-aligned cell beyond the others is never padded.
-  void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+  void add(std::vector<std::string> cells);
   bool empty() const { return rows_.empty(); }
   /// Title line and rows, each starting with `indent` and ending in '\n'; no trailing blanks.
   std::string render(std::string_view indent = "", std::string_view gap = "  ") const;

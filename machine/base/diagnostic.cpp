@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "machine/base/terminal_text.h"
 #include "machine/base/utf8.h"
 
 namespace kadr {
@@ -108,16 +109,16 @@ Style style_of(Severity severity, bool colour) {
   std::string_view word;
   switch (severity) {
     case Severity::note:
-      word = "\x1b[1;36m";
+      word = style::kNote;
       break;
     case Severity::warning:
-      word = "\x1b[1;33m";
+      word = style::kWarning;
       break;
     case Severity::error:
-      word = "\x1b[1;31m";
+      word = style::kError;
       break;
   }
-  return {word, "\x1b[1;34m", "\x1b[1m", "\x1b[0m"};
+  return {word, style::kPlace, style::kBold, style::kOff};
 }
 
 /// A source line split at the span: before, at and after the carets.

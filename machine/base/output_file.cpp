@@ -10,9 +10,11 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <utility>
 
 #include "machine/base/input_files.h"
+#include "machine/base/terminal_text.h"
 #include "machine/base/write_all.h"
 
 namespace kadr {
@@ -199,6 +201,7 @@ std::optional<OutputFault> OutputFile::open_stream(int descriptor) {
   struct stat status {};
   if (::fstat(fd_, &status) != 0 || (descriptor < 0 && !is_stream(status)))
     return OutputFault{path_, "was replaced by another file while it was opened"};
+  terminal_ = ::isatty(fd_) != 0;
   return std::nullopt;
 }
 
@@ -240,6 +243,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       file_(std::move(other.file_)),
       part_(std::move(other.part_)),
       fd_(std::exchange(other.fd_, -1)),
+      terminal_(other.terminal_),
       buffer_(std::move(other.buffer_)),
       fault_(std::move(other.fault_)) {}
 
@@ -247,11 +251,21 @@ OutputFile::~OutputFile() {
   if (fd_ < 0) return;
   if (rules_.keeps_part || part_.empty()) {
     // a file that ends early holds what was written, but nothing behind a gap
-    if (!fault_) write_all(fd_, buffer_);
+    if (!fault_) put(buffer_);
   } else if (names(part_, fd_)) {
     ::unlink(part_.c_str());
   }
   ::close(fd_);
+}
+
+bool OutputFile::put(std::string_view bytes) noexcept {
+  if (!terminal_) return write_all(fd_, bytes);
+  try {
+    return write_all(fd_, shown_text(bytes));
+  } catch (const std::bad_alloc&) {
+    errno = ENOMEM;
+    return false;
+  }
 }
 
 OutputFile::Done OutputFile::fail(int number) {
@@ -272,12 +286,12 @@ OutputFile::Done OutputFile::write(std::string_view bytes) {
     buffer_ += bytes;
     return {};
   }
-  return write_all(fd_, bytes) ? Done{} : fail(errno);
+  return put(bytes) ? Done{} : fail(errno);
 }
 
 OutputFile::Done OutputFile::flush() {
   if (fault_) return tl::unexpected(*fault_);
-  if (!write_all(fd_, buffer_)) return fail(errno);
+  if (!put(buffer_)) return fail(errno);
   buffer_.clear();
   return {};
 }

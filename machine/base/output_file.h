@@ -28,7 +28,7 @@ struct OutputRules {
 /// names is replaced. Permissions and, where allowed, owner of a replaced file are kept.
 ///
 /// A pipe, a FIFO and a character device are written into as they are, and so is whatever this process has as
-/// standard output or standard error. Folders, sockets, block devices and files that the process has read
+/// standard output or standard error. A terminal gets what a terminal may be shown (machine/base/terminal_text.h). Folders, sockets, block devices and files that the process has read
 /// or made (InputMemory) are refused.
 class OutputFile {
  public:
@@ -50,6 +50,8 @@ class OutputFile {
 
  private:
   explicit OutputFile(std::string path, OutputRules rules) : path_(std::move(path)), rules_(rules) {}
+  /// @return false with errno if it can't be written
+  bool put(std::string_view bytes) noexcept;
   std::optional<OutputFault> open_part(std::string file, unsigned mode);
   std::optional<OutputFault> open_stream(int descriptor);
   Done check_name();
@@ -62,6 +64,7 @@ class OutputFile {
   std::string file_;  ///< with links followed; empty for a pipe or device
   std::string part_;
   int fd_ = -1;
+  bool terminal_ = false;
   std::string buffer_;
   std::optional<OutputFault> fault_;
 };

@@ -5,7 +5,6 @@
 namespace kadr {
 
 constexpr char32_t kReplacement = 0xFFFD;
-constexpr std::size_t kTab_columns = 8;
 
 CodePoint decode_utf8(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
@@ -60,41 +59,6 @@ std::size_t count_code_points(std::string_view text) {
     ++count;
   }
   return count;
-}
-
-int display_width(char32_t c) {
-  const auto in = [c](char32_t low, char32_t high) { return c >= low && c <= high; };
-  if (c < 0x300) return 1;
-  if (in(0x300, 0x36F) || in(0x483, 0x489) || in(0x200B, 0x200F) || in(0x20D0, 0x20FF) || in(0xFE00, 0xFE0F))
-    return 0;
-  if (in(0x1100, 0x115F) || in(0x2E80, 0x303E) || in(0x3041, 0xA4CF) || in(0xAC00, 0xD7A3) ||
-      in(0xF900, 0xFAFF) || in(0xFE30, 0xFE6F) || in(0xFF00, 0xFF60) || in(0xFFE0, 0xFFE6) ||
-      in(0x1F300, 0x1FAFF) || in(0x20000, 0x3FFFD))
-    return 2;
-  return 1;
-}
-
-std::string displayable(std::string_view text, std::size_t& column) {
-  std::string out;
-  out.reserve(text.size());
-  for (std::size_t at = 0; at < text.size();) {
-    const CodePoint c = decode_utf8(text, at);
-    const bool control = c.value < 0x20 || (c.value >= 0x7F && c.value < 0xA0) || c.value == 0x2028 ||
-                         c.value == 0x2029 || (c.value >= 0x202A && c.value <= 0x202E);
-    if (c.value == '\t') {
-      const std::size_t blanks = kTab_columns - column % kTab_columns;
-      out.append(blanks, ' ');
-      column += blanks;
-    } else if (control || (c.value == kReplacement && c.bytes == 1)) {
-      out += "\xEF\xBF\xBD";
-      column += 1;
-    } else {
-      out += text.substr(at, c.bytes);
-      column += static_cast<std::size_t>(display_width(c.value));
-    }
-    at += c.bytes;
-  }
-  return out;
 }
 
 }  // namespace kadr

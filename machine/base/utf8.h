@@ -1,7 +1,6 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 namespace kadr {
@@ -19,11 +18,5 @@ CodePoint decode_utf8(std::string_view text, std::size_t at);
 bool is_utf8(std::string_view text);
 /// Number of code points in the text.
 std::size_t count_code_points(std::string_view text);
-/// Terminal columns of a code point: 0 for combining marks, 2 for East Asian wide forms, 1 otherwise.
-int display_width(char32_t code_point);
-/// The text as a terminal may show it: tabs expanded to columns of 8 (counted from `column`), control
-/// characters and bytes that are not UTF-8 replaced by U+FFFD.
-/// @param column  display column at which the text begins; moved to where it ends
-std::string displayable(std::string_view text, std::size_t& column);
 
 }  // namespace kadr

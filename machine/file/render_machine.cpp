@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "machine/base/parse_number.h"
+#include "machine/base/terminal_text.h"
+#include "machine/base/utf8.h"
 #include "machine/file/machine_keys.h"
 #include "machine/file/technology.h"
 #include "machine/machine_file.h"
@@ -50,11 +52,18 @@ class TomlWriter {
   std::string out_;
 };
 
+/// A text of TOML; what a terminal may not be shown is escaped.
 std::string quoted(std::string_view text) {
   std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
+  for (std::size_t at = 0; at < text.size();) {
+    const CodePoint c = decode_utf8(text, at);
+    if (!may_be_shown(c.value))
+      out += fmt::format("\\U{:08X}", static_cast<std::uint32_t>(c.value));
+    else if (c.value == '"' || c.value == '\\')
+      out.append("\\").append(text.substr(at, 1));
+    else
+      out += text.substr(at, c.bytes);
+    at += c.bytes;
   }
   return out + '"';
 }

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "machine/base/require.h"
+#include "machine/base/terminal_text.h"
 #include "machine/base/utf8.h"
 #include "tests/support/seed.h"
 

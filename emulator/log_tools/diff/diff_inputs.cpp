@@ -8,6 +8,7 @@
 #include "emulator/text/text.h"
 #include "machine/base/hash.h"
 #include "machine/base/parse_number.h"
+#include "machine/base/terminal_text.h"
 
 namespace kadr::log_tools {
 namespace {
@@ -148,7 +149,8 @@ std::vector<InputDifference> compare_inputs(const log::LogHeader& a, const log::
 
 std::string ProgramPlace::name() const {
   if (line == 0) return "";
-  return file.empty() ? fmt::format("line {} of a called file", line) : fmt::format("{}:{}", file, line);
+  return file.empty() ? fmt::format("line {} of a called file", line)
+                      : fmt::format("{}:{}", displayable(file), line);
 }
 
 ProgramPlace place_of(const log::LogHeader& header, std::uint32_t line) {

@@ -8,6 +8,7 @@
 #include "emulator/log/log_info.h"
 #include "emulator/text/text.h"
 #include "machine/base/parse_number.h"
+#include "machine/base/terminal_text.h"
 
 namespace kadr::log_tools {
 namespace {
@@ -94,9 +95,10 @@ std::string headline(const LogDiff& diff) {
   if (diff.lengths_differ()) {
     const LogSide& longer = diff.a.control_ticks > diff.b.control_ticks ? diff.a : diff.b;
     const LogSide& shorter = diff.a.control_ticks > diff.b.control_ticks ? diff.b : diff.a;
-    return fmt::format("logs differ: {} has {} more than {}; the {} of both are the same\n", longer.path,
+    return fmt::format("logs differ: {} has {} more than {}; the {} of both are the same\n",
+                       displayable(longer.path),
                        text::counted(longer.control_ticks - shorter.control_ticks, "control tick"),
-                       shorter.path, text::grouped(diff.both));
+                       displayable(shorter.path), text::grouped(diff.both));
   }
   if (!diff.summary.empty()) return "logs differ: in KADR_SUMMARY alone\n";
   return fmt::format("no difference in {}\n", text::counted(diff.both, "control tick"));
@@ -107,7 +109,7 @@ std::string inputs_line(const std::vector<InputDifference>& inputs) {
   for (const InputDifference& input : inputs) {
     text +=
         fmt::format("{}{} {}", text.empty() ? "inputs: " : ", ", input.name, input.same ? "same" : "differs");
-    if (input.same && !input.detail.empty()) text += " (" + input.detail + ")";
+    if (input.same && !input.detail.empty()) text += " (" + displayable(input.detail) + ")";
   }
   return text + "\n";
 }
@@ -159,7 +161,9 @@ std::string ends(const LogDiff& diff) {
 }  // namespace
 
 std::string end_text(const LogSide& side) {
-  return side.end.detail.empty() ? "" : fmt::format("{}: {}", side.path, side.end.detail);
+  return side.end.detail.empty()
+             ? ""
+             : fmt::format("{}: {}", displayable(side.path), displayable(side.end.detail));
 }
 
 std::string render_input_differences(const std::vector<InputDifference>& inputs) {

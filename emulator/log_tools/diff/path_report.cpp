@@ -6,6 +6,7 @@
 #include "emulator/text/text.h"
 #include "emulator/text/units.h"
 #include "machine/base/parse_number.h"
+#include "machine/base/terminal_text.h"
 #include "machine/tick_motion.h"
 
 namespace kadr::log_tools {
@@ -75,11 +76,11 @@ std::string render_block_difference(const BlockDifference& d, const log::LogHead
   std::string text = fmt::format("block {}, {}", d.a.block, place_of(header, d.a).name());
   if (!d.a.text.empty()) text += ": " + text::one_line(d.a.text, kTextWidth);
   text += '\n';
-  if (!d.geometry.empty()) text += fmt::format("  not the same move: {}\n", d.geometry);
+  if (!d.geometry.empty()) text += fmt::format("  not the same move: {}\n", displayable(d.geometry));
   for (const auto& count : d.counts)
-    text += fmt::format("  {} pulses {} | {} ({:+d})\n", count.axis, text::grouped(count.a),
+    text += fmt::format("  {} pulses {} | {} ({:+d})\n", displayable(count.axis), text::grouped(count.a),
                         text::grouped(count.b), count.b - count.a);
-  if (!d.order.empty()) text += fmt::format("  {}\n", d.order);
+  if (!d.order.empty()) text += fmt::format("  {}\n", displayable(d.order));
   return text;
 }
 
@@ -94,7 +95,7 @@ std::string render_feed_span(const FeedSpan& span, const PathDiff& d) {
   const std::string unit = text::speed_unit(d.unit);
   for (const auto& [side, point] : {std::pair{&d.a, &span.a}, std::pair{&d.b, &span.b}})
     text += fmt::format("    {} {} at {:.6f} s, {}: {}\n", text::significant(point->feed_u_s), unit,
-                        side->header.seconds(point->tick), reason(*point), side->path);
+                        side->header.seconds(point->tick), reason(*point), displayable(side->path));
   return text;
 }
 

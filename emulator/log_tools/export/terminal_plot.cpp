@@ -8,6 +8,7 @@
 #include "emulator/log_tools/export/charts.h"
 #include "emulator/log_tools/export/export.h"
 #include "emulator/text/text.h"
+#include "machine/base/terminal_text.h"
 
 namespace kadr::log_tools {
 namespace {
@@ -126,9 +127,9 @@ std::string picture(const Signal& signal, const std::vector<Envelope::Piece>& pi
     first = false;
   }
   const std::string unit = signal.unit.empty() ? "" : " " + signal.unit;
-  if (first) return signal.name + "   nothing to draw\n";
+  if (first) return displayable(signal.name) + "   nothing to draw\n";
   y = without_dust(y);
-  std::string out = fmt::format("{}   {} .. {}{}\n", signal.name, text::significant(y.low),
+  std::string out = fmt::format("{}   {} .. {}{}\n", displayable(signal.name), text::significant(y.low),
                                 text::significant(y.high), unit);
   y = not_empty(y);
   const int rows = form.height > 0 ? form.height : kRows;

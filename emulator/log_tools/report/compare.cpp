@@ -13,6 +13,7 @@
 #include "emulator/text/line_chart.h"
 #include "emulator/text/text.h"
 #include "machine/base/hash.h"
+#include "machine/base/terminal_text.h"
 
 namespace kadr::log_tools {
 namespace {
@@ -151,7 +152,7 @@ std::string compared_note(const std::vector<ComparedRun>& runs) {
 std::string render_comparison(const std::vector<ComparedRun>& runs) {
   std::string out;
   for (std::size_t k = 0; k < runs.size(); ++k)
-    out += fmt::format("{}  {}   {} on {}, {}\n", letter(k), runs[k].path,
+    out += fmt::format("{}  {}   {} on {}, {}\n", letter(k), displayable(runs[k].path),
                        text::one_line(runs[k].data.header.program_name, 40),
                        text::one_line(runs[k].data.header.machine_name, 40), summary(runs[k]).outcome.text());
   out += compared_note(runs);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "emulator/text/text.h"
+#include "machine/base/terminal_text.h"
 
 namespace kadr::studies {
 namespace {
@@ -95,8 +96,8 @@ std::string render_step_table(const TeachCase& subject, const StepTable& table) 
   for (std::size_t i = 0; i < table.rows.size(); ++i) add(i, table.rows[i], false);
   add(table.rows.size(), table.last, true);
   const lattice::MethodEntry& method = lattice::entry_of(table.method);
-  std::string out =
-      fmt::format("{}, {}: {}; deviation in steps\n", subject.title, method.name(), method.meaning());
+  std::string out = fmt::format("{}, {}: {}; deviation in steps\n", displayable(subject.title), method.name(),
+                                method.meaning());
   out += text.render();
   out += fmt::format("{}, {}, {} with several axes, {} idle, {} forced by the end (!)\n",
                      text::counted(static_cast<std::int64_t>(table.rows.size()), "slot"),
@@ -203,8 +204,8 @@ std::string render_comparison(const TeachCase& subject, const std::vector<StepTa
     few = few && t.rows.size() <= kMostMoves;
     width = std::max(width, lattice::entry_of(t.method).name().size());
   }
-  std::string out = fmt::format("{}: path {} steps, end {}; deviations in steps\n", subject.title,
-                                text::fixed(tables.front().length_steps, 3),
+  std::string out = fmt::format("{}: path {} steps, end {}; deviations in steps\n",
+                                displayable(subject.title), text::fixed(tables.front().length_steps, 3),
                                 node_text(tables.front().end, tables.front().axes));
   out += text.render();
   if (!few) return out;

@@ -7,6 +7,7 @@
 
 #include "emulator/text/text.h"
 #include "machine/base/parse_number.h"
+#include "machine/base/terminal_text.h"
 
 namespace kadr::studies {
 namespace {
@@ -116,14 +117,15 @@ LimitText limit_text(const planner::LawViolation& violation, const TimeLawProble
 }
 
 std::string render_problem(const TimeLawProblem& p, std::string_view file) {
-  std::string out =
-      fmt::format("{}: {}, {} nodes over {} mm, {}, accelerations held at {}\n", file, p.name,
-                  text::grouped(static_cast<std::int64_t>(p.law.nodes())), text::fixed(p.law.length_u(), 3),
-                  text::counted(static_cast<std::int64_t>(p.law.axes), "axis", "axes"),
-                  p.law.accel_test == planner::AccelTest::end_node ? "end nodes" : "both nodes");
+  std::string out = fmt::format(
+      "{}: {}, {} nodes over {} mm, {}, accelerations held at {}\n", displayable(file), displayable(p.name),
+      text::grouped(static_cast<std::int64_t>(p.law.nodes())), text::fixed(p.law.length_u(), 3),
+      text::counted(static_cast<std::int64_t>(p.law.axes), "axis", "axes"),
+      p.law.accel_test == planner::AccelTest::end_node ? "end nodes" : "both nodes");
   if (!p.program) return out;
   const ProgramPath& program = *p.program;
-  out += fmt::format("program  {} on {}, {} pieces of lines {} to {}\n", program.program, program.machine,
+  out += fmt::format("program  {} on {}, {} pieces of lines {} to {}\n", displayable(program.program),
+                     displayable(program.machine),
                      text::grouped(static_cast<std::int64_t>(program.run.last - program.run.first + 1)),
                      program.first_line, program.last_line);
   if (!program.fit) return out;
