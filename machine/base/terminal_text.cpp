@@ -1,5 +1,9 @@
 #include "machine/base/terminal_text.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
 #include "machine/base/utf8.h"
 
 namespace kadr {
@@ -37,19 +41,38 @@ constexpr CodeRange kNotShown[] = {
 };
 
 /// ASCII that stays in a text of several lines.
-bool is_plain(unsigned char c) { return (c >= 0x20 && c < 0x7F) || c == '\n' || c == '\t'; }
+bool is_plain(char c) { return (c >= 0x20 && c < 0x7F) || c == '\n' || c == '\t'; }
 
-/// Number of bytes from `at` on that are ASCII and stay, many at a time: most texts are nothing else.
+/// True if a line, or a part of one, is ASCII without control characters: most are. Tabs make it false.
+bool is_printable(std::string_view line) {
+  constexpr std::uint64_t kOnes = 0x0101010101010101U, kHighBits = 0x80 * kOnes;
+  std::uint64_t seen = 0, eight = 0;
+  // a high bit appears above ASCII, in DEL + 1 and in what is below a blank; without these nothing carries over
+  const auto look = [&](std::size_t at) {
+    std::memcpy(&eight, line.data() + at, sizeof eight);
+    seen |= eight | (eight + kOnes) | (eight - 0x20 * kOnes);
+  };
+  if (line.size() < sizeof eight)
+    return std::all_of(line.begin(), line.end(), [](char c) { return c != '\t' && is_plain(c); });
+  for (std::size_t at = 0; at + sizeof eight <= line.size(); at += sizeof eight) look(at);
+  look(line.size() - sizeof eight);
+  return (seen & kHighBits) == 0;
+}
+
+/// Number of bytes from `at` on that are ASCII and stay.
 std::size_t plain_bytes(std::string_view text, std::size_t at) {
-  constexpr std::size_t kBlock_bytes = 32;
+  constexpr std::size_t kWindow_bytes =
+      128;  // so that a long line is not looked at from each of its letters on
   std::size_t end = at;
-  for (; end + kBlock_bytes <= text.size(); end += kBlock_bytes) {
-    unsigned others = 0;
-    for (std::size_t i = 0; i < kBlock_bytes; ++i)
-      others |= static_cast<unsigned>(!is_plain(static_cast<unsigned char>(text[end + i])));
-    if (others != 0) break;
+  while (end < text.size() && is_plain(text[end])) {
+    const std::string_view window = text.substr(end, kWindow_bytes);
+    const std::size_t line = window.find('\n');
+    if (is_printable(window.substr(0, line)))
+      end += line == std::string_view::npos ? window.size() : line + 1;
+    else
+      while (end < text.size() && is_plain(text[end]) && text[end] != '\n') ++end;
+    while (end < text.size() && text[end] == '\n') ++end;
   }
-  while (end < text.size() && is_plain(static_cast<unsigned char>(text[end]))) ++end;
   return end - at;
 }
 
