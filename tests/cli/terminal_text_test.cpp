@@ -81,7 +81,7 @@ std::string toml_escaped(const std::string& text) {
 
 /// A copy of mill3 with another name.
 std::string machine_named(const std::string& name, const std::string& folder) {
-  const std::string mill3 = call({"machine", "show", "-m", "mill3"}, folder).out;
+  const std::string mill3 = call({"machine", "show", "mill3"}, folder).out;
   return replaced(mill3, "name = \"mill3\"", "name = \"" + toml_escaped(name) + "\"");
 }
 
@@ -90,7 +90,8 @@ std::string machine_named(const std::string& name, const std::string& folder) {
 TEST_CASE("names of files are shown as text on one line, in every message") {
   const Scratch scratch;
   const std::string& folder = scratch.path();
-  const std::string program = kName + ".ngc", log = kName + ".lcmlog", machine = kName + ".toml";
+  const std::string program = kName + ".ngc", log = kName + ".lcmlog", other = kName + "2.lcmlog",
+                    machine = kName + ".toml";
   scratch.write(program, test::kSquare);
   scratch.write(kName + "bad.ngc", test::kSixMistakes);
   scratch.write(kName + "untidy.ngc", "g1   x1 f600\nm2\n");
@@ -135,9 +136,10 @@ TEST_CASE("names of files are shown as text on one line, in every message") {
                           {"info", log, "--json"},
                           {"info", program},
                           {"info", kName},
-                          {"diff", log, log},
+                          {"run", program, "-o", other, "--until", "0.5"},
+                          {"diff", log, other},
                           {"diff", log, kName},
-                          {"diff", log, log, "--align", "path"},
+                          {"diff", log, other, "--align", "path"},
                           {"compare", log, log},
                           {"compare", log, kName},
                           {"compare", log, log, "-o", kName + ".html"},
@@ -149,7 +151,7 @@ TEST_CASE("names of files are shown as text on one line, in every message") {
                           {"report", log, "--plain", "-o", kName + "/none.html"},
                           {"machine", "check", machine},
                           {"machine", "check", kName},
-                          {"machine", "show", "-m", kName},
+                          {"machine", "show", kName},
                           {"machine", "new", kName},
                           {"scenario", "run", kName},
                           {"scenario", "check", machine},
@@ -224,13 +226,13 @@ TEST_CASE("names of machines and scenarios are shown as text") {
                           {"machine", "check", "machine.toml"},
                           {"machine", "check", "unknown.toml"},
                           {"machine", "check", "machine.toml", "--json"},
-                          {"machine", "show", "-m", "machine.toml", "--json"},
+                          {"machine", "show", "machine.toml", "--json"},
                           {"check", "program.ngc", "-m", "machine.toml"},
                           {"run", "program.ngc", "-m", "machine.toml", "--no-log"}})
     check_clean(arguments, folder);
 
   // a machine that is shown can be read again, and has its name
-  const Finished shown = call({"machine", "show", "-m", "machine.toml"}, folder);
+  const Finished shown = call({"machine", "show", "machine.toml"}, folder);
   CHECK(raw(shown.out) == "");
   scratch.write("again.toml", shown.out);
   const auto again = nlohmann::json::parse(call({"machine", "check", "again.toml", "--json"}, folder).out);
