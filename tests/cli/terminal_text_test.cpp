@@ -139,7 +139,6 @@ TEST_CASE("names of files are shown as text on one line, in every message") {
                           {"run", program, "-o", other, "--until", "0.5"},
                           {"diff", log, other},
                           {"diff", log, kName},
-                          {"diff", log, other, "--align", "path"},
                           {"compare", log, log},
                           {"compare", log, kName},
                           {"compare", log, log, "-o", kName + ".html"},
