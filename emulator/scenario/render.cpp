@@ -64,7 +64,7 @@ std::string render_junit(const std::vector<ScenarioResult>& results) {
       results.size(), failures(results), total_s);
   for (const ScenarioResult& r : results) {
     out += fmt::format("  <testcase classname=\"kadr.scenarios\" name=\"{}\" file=\"{}\" time=\"{:.6f}\"",
-                       text::xml_text(r.name), text::xml_text(r.file), r.machine_s);
+                       text::xml_text(displayable(r.name)), text::xml_text(displayable(r.file)), r.machine_s);
     if (r.passed()) {
       out += "/>\n";
       continue;
