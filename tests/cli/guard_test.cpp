@@ -51,6 +51,9 @@ TEST_CASE("a broken plan ends a command with 70") {
 TEST_CASE("the reproduction line can be pasted into a shell") {
   const char* argv[] = {"/usr/bin/kadr", "run", "my part.ngc", "it's.ngc", "--set", "a=1", ""};
   CHECK(shell_line(7, argv) == "kadr run 'my part.ngc' 'it'\\''s.ngc' --set a=1 ''");
+  // what a terminal may not be shown, by its bytes
+  const char* strange[] = {"kadr", "a\x1b[31m"};
+  CHECK(shell_line(2, strange) == "kadr $'\\x61\\x1b\\x5b\\x33\\x31\\x6d'");
 }
 
 TEST_CASE("progress: 58.5 % of the path, 12.4 s of machine time in 0.3 s") {
