@@ -104,6 +104,19 @@ const Construct kConstructs[] = {
     {"calls", 20'000,
      [](int n) { return "O1 sub\nO1 endsub\n" + repeated(n, [](int) { return "O1 call\n"; }) + "M2\n"; },
      check_program},
+    {"nurbs", 1'000,
+     [](int n) {
+       return "F9000\nG5.2 P1 L16\n" +
+              repeated(n, [](int i) { return fmt::format("X{} Y{} P{}\n", i * 37 % 91, i * 53 % 89, 1 + i % 7); }) +
+              "G5.3\nM2\n";
+     },
+     check_program},
+    {"nurbs_of_one_point", 100,
+     [](int n) {
+       return "F9000\nG0 X1.1 Y1.3\nG5.2 P1 L4\n" +
+              repeated(n, [](int i) { return fmt::format("X1.1 Y1.3 P{}\n", 0.1 + i % 7); }) + "G5.3\nM2\n";
+     },
+     check_program},
     {"errors_of_one_line", 50'000, [](int n) { return repeated(n, [](int) { return "X1 "; }) + "\n"; },
      check_program},
     {"sarif_of_one_line", 50'000, [](int n) { return repeated(n, [](int) { return "X1 "; }) + "\n"; },
