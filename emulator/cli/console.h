@@ -27,6 +27,11 @@ class Console {
   const OutputOptions& options() const { return options_; }
   /// Data, to standard output. Throws WorldError when it can't be written.
   void data(std::string_view text);
+  /// What people read beside a result: data, or a message once a result file is standard output.
+  void summary(std::string_view text);
+  /// Called before anything is written: the result file `path`, empty if there is none, may be standard output.
+  /// @throws WorldError if something else goes there, too
+  void claim_output(const std::string& path);
   /// A document in `--json`, as text with a line end.
   void document(const text::Json& json) { data(text::json_text(json) + '\n'); }
   /// A message with "kadr: " before it, to standard error; -q leaves notes out, and so does a document there.
@@ -52,6 +57,7 @@ class Console {
   std::string buffer_;
   text::SarifLog sarif_;
   Where sarif_where_ = Where::errors;
+  bool output_claimed_ = false;  ///< standard output is a result file
 };
 
 /// The diagnostics in order of file, line and column; those without a place come first.

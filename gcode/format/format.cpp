@@ -366,10 +366,10 @@ void Formatter::flush() {
 }
 
 bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics,
-                    std::string& out) {
+                    std::string& out, const ReadingBounds& bounds) {
   Report report(diagnostics);
   Names names;
-  Program program(sources, file, {}, names, report);
+  Program program(sources, file, bounds, names, report);
   Formatter formatter(out);
   while (!formatter.ended()) {
     const Line* line = program.next();

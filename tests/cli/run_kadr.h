@@ -15,6 +15,7 @@ struct Finished {
   int signal = 0;   ///< number of that signal
   std::string out;  ///< standard output
   std::string err;  ///< standard error
+  double peak_MB = 0;  ///< most memory that it had at once (not less than this process has)
 };
 
 struct Launch {
