@@ -34,7 +34,8 @@ int compare_logs(const Arguments& arguments, Console& console) {
     const std::string page = log_tools::render_compare_page(
         std::move(runs), static_cast<std::size_t>(arguments.exported.max_size_mb * 1e6));
     write_file(name, page);
-    console.note(fmt::format("wrote {}: {}", output_text(name), text::bytes_text(static_cast<std::int64_t>(page.size()))));
+    console.note(fmt::format("wrote {}: {}", output_text(name),
+                             text::bytes_text(static_cast<std::int64_t>(page.size()))));
   }
   return kYes;
 }

@@ -58,8 +58,8 @@ void tell_expected_size(const cycle::Job& job, const Arguments& arguments, const
         "{}: the log would be about {}, more than log_bytes allows ({}); --limit log_bytes=N allows "
         "more, 0 any length; --no-log, --until, log.steps=false or log.viewer_rate_hz=0 write less",
         log, text::bytes_text(bytes), text::bytes_text(static_cast<std::int64_t>(arguments.log_bytes))));
-  console.note(fmt::format("log {}, about {} for {} of machine time", output_text(log), text::bytes_text(bytes),
-                           text::duration_text(run_s)));
+  console.note(fmt::format("log {}, about {} for {} of machine time", output_text(log),
+                           text::bytes_text(bytes), text::duration_text(run_s)));
   std::error_code error;
   const fs::path folder = fs::absolute(log, error).parent_path();
   const fs::space_info room = fs::space(folder, error);

@@ -51,7 +51,8 @@ int teach_table(const Arguments& arguments, Console& console) {
   if (timed) train = must(studies::pulse_train(table, teach.timing, teach.feed_steps_s, kClock_hz));
   if (!teach.vcd_path.empty()) {
     write_file(teach.vcd_path, studies::render_vcd(train, kHigh_ticks));
-    console.note(fmt::format("wrote {}: {} in {} us", output_text(teach.vcd_path), text::counted(table.pulses, "pulse"),
+    console.note(fmt::format("wrote {}: {} in {} us", output_text(teach.vcd_path),
+                             text::counted(table.pulses, "pulse"),
                              text::fixed(static_cast<double>(train.duration.value) / 10, 1)));
   }
   if (console.options().json) {

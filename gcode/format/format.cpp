@@ -365,8 +365,8 @@ void Formatter::flush() {
   run_.clear();
 }
 
-bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics,
-                    std::string& out, const ReadingBounds& bounds) {
+bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics, std::string& out,
+                    const ReadingBounds& bounds) {
   Report report(diagnostics);
   Names names;
   Program program(sources, file, bounds, names, report);

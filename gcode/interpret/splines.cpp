@@ -155,8 +155,8 @@ void Interpreter::set_nurbs_order() {
   near_integer(words_.value('L'), order);
   const std::uint32_t most = options_.bounds.nurbs_order;
   if (most != 0 && order > 0 && static_cast<std::uint32_t>(order) > most) {
-    Diagnostic d = problem(Code::word_out_of_range, words_.span(*line_, 'L'),
-                           fmt::format("L is {}", order), "curves of CAD systems are of order 4 or 6");
+    Diagnostic d = problem(Code::word_out_of_range, words_.span(*line_, 'L'), fmt::format("L is {}", order),
+                           "curves of CAD systems are of order 4 or 6");
     d.notes.push_back(fmt::format("allowed: {} (--limit nurbs_order=N)", most));
     error(std::move(d));
     nurbs_.faulty = true;

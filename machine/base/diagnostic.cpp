@@ -86,7 +86,8 @@ void Diagnostics::tell_rest(Span at) {
     return;
   }
   note.message = code_entry(Code::too_many_errors).title;
-  note.label = fmt::format("reading stopped here after {} errors{}{}", errors_read_, more.empty() ? "" : "; ", more);
+  note.label =
+      fmt::format("reading stopped here after {} errors{}{}", errors_read_, more.empty() ? "" : "; ", more);
   note.help = "fix the first ones; later ones often follow from them";
 }
 

@@ -144,7 +144,9 @@ const Construct kConstructs[] = {
     {"nurbs", 1'000,
      [](int n) {
        return "F9000\nG5.2 P1 L16\n" +
-              repeated(n, [](int i) { return fmt::format("X{} Y{} P{}\n", i * 37 % 91, i * 53 % 89, 1 + i % 7); }) +
+              repeated(
+                  n,
+                  [](int i) { return fmt::format("X{} Y{} P{}\n", i * 37 % 91, i * 53 % 89, 1 + i % 7); }) +
               "G5.3\nM2\n";
      },
      check_program},
@@ -157,7 +159,8 @@ const Construct kConstructs[] = {
     {"tools", 10'000,
      [](int n) { return repeated(n, [](int i) { return fmt::format("T{} M6\n", i); }) + "M2\n"; },
      check_with_tools},
-    {"operator_steps", 10'000, [](int n) { return std::string(static_cast<std::size_t>(n), 'x'); }, take_steps},
+    {"operator_steps", 10'000, [](int n) { return std::string(static_cast<std::size_t>(n), 'x'); },
+     take_steps},
     {"errors_of_one_line", 50'000, [](int n) { return repeated(n, [](int) { return "X1 "; }) + "\n"; },
      check_program},
     {"sarif_of_one_line", 50'000, [](int n) { return repeated(n, [](int) { return "X1 "; }) + "\n"; },

@@ -60,7 +60,8 @@ TEST_CASE("memory grows with blocks and text, by no more than is promised") {
   const Scratch scratch;
   const std::vector<Construct> programs = {
       {"moves", "F9000\nG1\n", lines("X{1}\n"), "M2\n", 1},
-      {"corners", "F9000G64P1\nG1\n", [](int i) { return fmt::format("X{}Y{}\n", i % 2, i / 2 % 2); }, "M2\n", 1},
+      {"corners", "F9000G64P1\nG1\n", [](int i) { return fmt::format("X{}Y{}\n", i % 2, i / 2 % 2); }, "M2\n",
+       1},
       {"arcs", "F9000\nG2I1\n", lines("I1\n"), "M2\n", 1},
       {"outputs", "", lines("M8\n"), "M2\n", 1},
       {"dwells", "", lines("G4P{1}\n"), "M2\n", 1},

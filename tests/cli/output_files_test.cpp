@@ -1,10 +1,12 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 
 #include <csignal>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/cli/programs.h"
@@ -165,22 +167,24 @@ TEST_CASE("a result that is standard output is there alone: - and /dev/stdout, i
   const std::string& folder = scratch.path();
   REQUIRE(shell("ln -s /proc/self/fd/1 stdout", folder).code == 0);
   // what people read stands on standard error
-  for (const auto& [arguments, summary] : std::vector<std::pair<std::string, std::string>>{
-           {"run p.ngc -o @", "complete"},
-           {"law --zeta 0.005 --csv @", "energy"},
-           {"law --zeta 0.005 --page @", "energy"},
-           {"tube t.toml --csv @", "law"},
-           {"tube t.toml --page @", "law"},
-           {"tube t.toml --sweep-levels 5..6 --csv @", "levels"},
-           {"compare l.lcmlog l.lcmlog -o @", "time"},
-           {"teach table line 5 2 --vcd @", "half_step"},
-           {"teach table line 5 2 --csv --vcd @", ""},
-           {"scenario run s.toml --junit @", "1 passed"},
-           {"export l.lcmlog --csv -o @", ""},
-           {"report l.lcmlog --plain -o @", ""},
-           {"wind hoop -o @", ""}}) {
+  for (const auto& one :
+       std::vector<std::pair<std::string, std::string>>{{"run p.ngc -o @", "complete"},
+                                                        {"law --zeta 0.005 --csv @", "energy"},
+                                                        {"law --zeta 0.005 --page @", "energy"},
+                                                        {"tube t.toml --csv @", "law"},
+                                                        {"tube t.toml --page @", "law"},
+                                                        {"tube t.toml --sweep-levels 5..6 --csv @", "levels"},
+                                                        {"compare l.lcmlog l.lcmlog -o @", "time"},
+                                                        {"teach table line 5 2 --vcd @", "half_step"},
+                                                        {"teach table line 5 2 --csv --vcd @", ""},
+                                                        {"scenario run s.toml --junit @", "1 passed"},
+                                                        {"export l.lcmlog --csv -o @", ""},
+                                                        {"report l.lcmlog --plain -o @", ""},
+                                                        {"wind hoop -o @", ""}}) {
+    const std::string& arguments = one.first;
+    const std::string& summary = one.second;
     CAPTURE(arguments);
-    const auto to = [&arguments = arguments](const std::string& name) {
+    const auto to = [&arguments](const std::string& name) {
       std::string text = arguments;
       return text.replace(text.find('@'), 1, name);
     };
@@ -359,13 +363,14 @@ TEST_CASE("a name of 250 bytes and more is an output like others, and a longer o
     CAPTURE(done.err);
     CHECK(done.code == 0);
     CHECK(scratch.read(name) == scratch.read("l.lcmlog"));
-    const Finished refused = call({"run", "p.ngc", "-q", "-o", name, "--limit", "log_bytes=100"}, scratch.path());
+    const Finished refused =
+        call({"run", "p.ngc", "-q", "-o", name, "--limit", "log_bytes=100"}, scratch.path());
     CHECK(refused.code == 2);
   }
   // two long names that differ at their end are two files
   const std::string begin(250, 'n');
-  const Finished both = call({"law", "--zeta", "0.005", "-q", "--csv", begin + "1.csv", "--page", begin + "2.htm"},
-                             scratch.path());
+  const Finished both = call(
+      {"law", "--zeta", "0.005", "-q", "--csv", begin + "1.csv", "--page", begin + "2.htm"}, scratch.path());
   CHECK(both.code == 0);
   const Finished long_name = call({"law", "--csv", std::string(256, 'n')}, scratch.path());
   CHECK(long_name.code == 2);
@@ -376,15 +381,17 @@ TEST_CASE("Ctrl-C ends a run that waits for the reader of its FIFO") {
   const Scratch scratch;
   write_inputs(scratch);
   REQUIRE(::mkfifo(scratch.file("fifo").c_str(), 0600) == 0);
-  for (const auto& [signal, code] : {std::pair("INT", 130), std::pair("TERM", 143)}) {
+  for (const auto& one : {std::pair("INT", 130), std::pair("TERM", 143)}) {
+    const char* signal = one.first;
+    const int code = one.second;
     CAPTURE(signal);
     // it says what log it writes before it opens that
-    const Finished done =
-        shell(fmt::format("(exec env --default-signal=INT kadr run p.ngc -o fifo) 2>told & kadr=$!; "
-                          "for i in $(seq 600); do grep -q 'log fifo' told && break; sleep 0.1; done; sleep 0.5; "
-                          "kill -{} $kadr; wait $kadr; echo $?",
-                          signal),
-              scratch.path());
+    const Finished done = shell(
+        fmt::format("(exec env --default-signal=INT kadr run p.ngc -o fifo) 2>told & kadr=$!; "
+                    "for i in $(seq 600); do grep -q 'log fifo' told && break; sleep 0.1; done; sleep 0.5; "
+                    "kill -{} $kadr; wait $kadr; echo $?",
+                    signal),
+        scratch.path());
     CHECK(done.out == fmt::format("{}\n", code));
   }
 }

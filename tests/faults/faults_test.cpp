@@ -108,7 +108,8 @@ class FaultRun {
   void check_killed() const {
     for (const auto& file : outputs()) {
       const auto before = inputs_.find(file.first);
-      CHECK((file.second == whole_.at(file.first) || (before != inputs_.end() && file.second == before->second)));
+      CHECK((file.second == whole_.at(file.first) ||
+             (before != inputs_.end() && file.second == before->second)));
     }
     for (const auto& file : inputs_)
       CHECK((scratch_.read(file.first) == file.second ||
@@ -141,7 +142,8 @@ class FaultRun {
     launch.environment = {"LANG=C.UTF-8"};
     if (!kind.empty())
       launch.environment = {"LD_PRELOAD=" KADR_FAILING_CALLS, "KADR_FAULT_CALL=" + kind,
-                            fmt::format("KADR_FAULT_AT={}", n), "KADR_FAULT_MARK=" + scratch_.file(kMark), more};
+                            fmt::format("KADR_FAULT_AT={}", n), "KADR_FAULT_MARK=" + scratch_.file(kMark),
+                            more};
     return test::run_kadr(launch);
   }
 
@@ -242,8 +244,8 @@ TEST_CASE("kill -9 in any call leaves no half a file under a name, and a log's .
                        .outputs = {"out.lcmlog"},
                        .keeps_part = true},
                       kills / 4);
-  killed += try_kills({.arguments = {"report", "l.lcmlog", "--plain", "-o", "out.html"}, .outputs = {"out.html"}},
-                      kills / 8);
+  killed += try_kills(
+      {.arguments = {"report", "l.lcmlog", "--plain", "-o", "out.html"}, .outputs = {"out.html"}}, kills / 8);
   killed += try_kills({.arguments = {"fmt", "--in-place", "p.ngc"},
                        .outputs = {"p.ngc"},
                        .inputs = {{"p.ngc", "g21 g90\n  g1   x5 f1200\nm2\n"}}},

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <kadr/axis_t.hpp>
 #include <kadr/block_end_t.hpp>

@@ -148,12 +148,12 @@ int close(int fd) {
   return fails("close") ? failed(EIO) : done;
 }
 
-#define KADR_FAILING_MAP(name)                                                             \
-  void* name(void* at, size_t size, int protection, int flags, int fd, off_t offset) noexcept { \
-    if (fails("mmap")) {                                                                   \
-      errno = ENOMEM;                                                                      \
-      return MAP_FAILED;                                                                   \
-    }                                                                                      \
+#define KADR_FAILING_MAP(name)                                                                               \
+  void* name(void* at, size_t size, int protection, int flags, int fd, off_t offset) noexcept {              \
+    if (fails("mmap")) {                                                                                     \
+      errno = ENOMEM;                                                                                        \
+      return MAP_FAILED;                                                                                     \
+    }                                                                                                        \
     return next<void*(void*, size_t, int, int, int, off_t)>(#name)(at, size, protection, flags, fd, offset); \
   }
 KADR_FAILING_MAP(mmap)
