@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "machine/base/hash.h"
 #include "machine/step_hash.h"
 
 namespace kadr::log {

@@ -16,6 +16,7 @@ namespace {
 // docs/promises.md
 constexpr double kFixed_MB = 64;
 constexpr double kBlock_B = 2500;
+constexpr double kSpline_B = 100'000;
 constexpr double kTextByte_B = 150;
 
 constexpr std::size_t kText_bytes = 300'000;
@@ -81,6 +82,10 @@ TEST_CASE("memory grows with blocks and text, by no more than is promised") {
     check_peak(call({"check", "p.ngc", "-q"}, scratch.path()), text, blocks);
     check_peak(call({"run", "p.ngc", "-q", "--no-log", "--until", "0.01"}, scratch.path()), text, blocks);
   }
+  std::string splines = "F9000\n";
+  for (int i = 0; i < 150; ++i) splines += "G5X1Y1I0J3P0Q-3\nG5X0Y0I1J1P1Q1\n";
+  scratch.write("p.ngc", splines + "M2\n");
+  check_peak(call({"check", "p.ngc", "-q"}, scratch.path()), splines, 300 * kSpline_B / kBlock_B);
   const std::vector<Construct> settings = {
       {"numbers", "a=[", lines("1,"), "]\n"},
       {"texts", "a=[", lines("'',"), "]\n"},
