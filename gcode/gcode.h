@@ -67,6 +67,7 @@ void append_canon(std::string& out, const Block& block, std::string_view called_
 /// Adds a program in its normal form (gcode/format/format.h) to `out`: line for line, with the same meaning.
 /// A line that can't be read stays as it is, and its mistake is reported.
 /// @return false if there was a mistake
-bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics, std::string& out);
+bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics, std::string& out,
+                    const ReadingBounds& bounds = {});
 
 }  // namespace kadr::gcode

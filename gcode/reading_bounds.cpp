@@ -58,6 +58,8 @@ constexpr NamedBound kBounds[] = {
                                     "messages shown, of a program with O words; 256 bytes count as one"),
     named<&ReadingBounds::call_depth>("call_depth", "nested subroutine calls"),
     named<&ReadingBounds::loop_passes>("loop_passes", "passes of all loops together"),
+    named<&ReadingBounds::nurbs_order>("nurbs_order",
+                                       "L of G5.2: points that one point of the curve depends on"),
     named<&ReadingBounds::file_bytes>("file_bytes", "the program, and each file that it calls"),
     named<&ReadingBounds::line_bytes>("line_bytes", "a line"),
 };

@@ -20,6 +20,7 @@ struct ReadingBounds {
   std::uint64_t messages = 100'000;
   std::uint32_t call_depth = 100;          ///< nested calls
   std::uint64_t loop_passes = 10'000'000;  ///< passes of all loops together
+  std::uint32_t nurbs_order = 16;          ///< L of G5.2: time per point grows with its square
   std::uint64_t file_bytes = 1ULL << 30;   ///< of the program and of each file that it calls: held in memory
   std::uint32_t line_bytes = 1U << 20;
 

@@ -30,16 +30,8 @@ tl::expected<MachineFile, Diagnostics> read_machine(SourceText text, SourceSet& 
   if (!found.has_errors()) return result;
 
   // in the order of the places, the file before the settings
-  std::vector<Diagnostic> list = found.list();
-  std::stable_sort(list.begin(), list.end(), [](const Diagnostic& a, const Diagnostic& b) {
-    const auto place = [](const Diagnostic& d) {
-      return std::pair(d.span.file, std::pair(d.span.line, d.span.column));
-    };
-    return place(a) < place(b);
-  });
-  Diagnostics sorted;
-  for (Diagnostic& d : list) sorted.add(std::move(d));
-  return tl::unexpected(std::move(sorted));
+  found.sort_by_place();
+  return tl::unexpected(std::move(found));
 }
 
 }  // namespace kadr::machine

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <new>
 
 #include "machine/base/require.h"
 #include "plant/deterministic_pow.h"
@@ -90,7 +91,15 @@ struct FixedOperations {
     return 0;
   }
 
+  /// SUNDIALS writes into a copy without a look at whether there is one.
+  static N_Vector clone(N_Vector v) {
+    const N_Vector copy = N_VClone_Serial(v);
+    if (!copy) throw std::bad_alloc();
+    return copy;
+  }
+
   static void install(N_Vector v) {
+    v->ops->nvclone = clone;
     v->ops->nvlinearsum = linear_sum;
     v->ops->nvscale = scale;
     v->ops->nvconst = fill;
@@ -177,23 +186,24 @@ struct Cvode::Impl {
     if (flag >= 0) return {};
     return tl::unexpected(Fault{flag_name(flag), message, -1});
   }
-  // name of the function or flag that failed, or empty
+  // name of the flag that failed, or empty; throws std::bad_alloc
   std::string make() {
-    if (SUNContext_Create(nullptr, &context) != 0) return "SUNContext_Create";
+    if (SUNContext_Create(nullptr, &context) != 0) throw std::bad_alloc();
     y = N_VNew_Serial(static_cast<sunindextype>(weight.size()), context);
-    if (!y) return "N_VNew_Serial";
+    if (!y) throw std::bad_alloc();
     install_operations(y, weight.size());
     std::fill_n(NV_DATA_S(y), weight.size(), 0.0);
     memory = CVodeCreate(CV_ADAMS, context);
-    if (!memory) return "CVodeCreate";
+    if (!memory) throw std::bad_alloc();
     solver = SUNNonlinSol_FixedPoint(y, 0, context);
-    if (!solver) return "SUNNonlinSol_FixedPoint";
+    if (!solver) throw std::bad_alloc();
     int flag = CVodeSetErrHandlerFn(memory, keep_message, this);
     if (flag >= 0) flag = CVodeInit(memory, right_hand_side, 0, y);
     if (flag >= 0) flag = CVodeSetUserData(memory, this);
     if (flag >= 0) flag = CVodeWFtolerances(memory, error_weights);
     if (flag >= 0) flag = CVodeSetNonlinearSolver(memory, solver);
     if (flag >= 0) flag = CVodeSetMaxNumSteps(memory, kMaxStepsPerCall);
+    if (flag == CV_MEM_FAIL) throw std::bad_alloc();
     return flag < 0 ? flag_name(flag) : "";
   }
   Outcome integrate(double t_end, double* state) {

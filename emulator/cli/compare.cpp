@@ -11,6 +11,7 @@
 namespace kadr::cli {
 
 int compare_logs(const Arguments& arguments, Console& console) {
+  console.claim_output(arguments.exported.output_path);
   std::vector<log_tools::ComparedRun> runs;
   for (const std::string& path : arguments.files) {
     auto data = log_tools::read_page_data(path, {});
@@ -27,13 +28,14 @@ int compare_logs(const Arguments& arguments, Console& console) {
   if (console.options().json)
     console.document(log_tools::json_of(runs));
   else if (!console.options().quiet)
-    console.data(log_tools::render_comparison(runs));
+    console.summary(log_tools::render_comparison(runs));
   const std::string& name = arguments.exported.output_path;
   if (!name.empty()) {
     const std::string page = log_tools::render_compare_page(
         std::move(runs), static_cast<std::size_t>(arguments.exported.max_size_mb * 1e6));
     write_file(name, page);
-    console.note(fmt::format("wrote {}: {}", name, text::bytes_text(static_cast<std::int64_t>(page.size()))));
+    console.note(fmt::format("wrote {}: {}", output_text(name),
+                             text::bytes_text(static_cast<std::int64_t>(page.size()))));
   }
   return kYes;
 }

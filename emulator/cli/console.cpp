@@ -1,6 +1,7 @@
 #include "emulator/cli/console.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "emulator/cli/standard_streams.h"
 #include "emulator/text/text.h"
+#include "machine/base/output_file.h"
 #include "machine/base/write_all.h"
 
 namespace kadr::cli {
@@ -28,6 +30,33 @@ bool set(const char* variable) {
 std::string current_folder() {
   std::error_code gone;
   return std::filesystem::current_path(gone).string();
+}
+
+/// True if standard output and standard error are one file or pipe; on a terminal both are read.
+bool same_streams() {
+  struct stat output {
+  }, errors{};
+  return ::fstat(STDOUT_FILENO, &output) == 0 && ::fstat(STDERR_FILENO, &errors) == 0 &&
+         !S_ISCHR(output.st_mode) && output.st_dev == errors.st_dev && output.st_ino == errors.st_ino;
+}
+
+/// What a list keeps, the note that tells the rest apart.
+struct Kept {
+  std::size_t errors = 0, others = 0, rest = 0;
+};
+
+Kept count_kept(const Diagnostics& list) {
+  Kept kept;
+  for (const Diagnostic& d : list.list())
+    ++(tells_rest(d) ? kept.rest : d.severity == Severity::error ? kept.errors : kept.others);
+  return kept;
+}
+
+/// "5980 more not shown (--max-errors 0 shows 1980 of them)". @param hidden  kept and not shown
+std::string hidden_text(const Diagnostics& list, std::size_t hidden, std::string_view what) {
+  const bool all = list.left_out() == 0 && !list.stopped();
+  return fmt::format("{}{} more {}not shown (--max-errors 0 shows {})", list.stopped() ? "at least " : "",
+                     hidden + list.left_out(), what, all ? "all" : fmt::format("{} of them", hidden));
 }
 
 }  // namespace
@@ -53,6 +82,31 @@ void Console::bytes(std::string_view bytes) {
   if (terminal_) return data(bytes);
   buffer_ += bytes;
   if (buffer_.size() >= kBuffer_bytes) flush();
+}
+
+void Console::summary(std::string_view text) {
+  if (output_claimed_)
+    message(text);
+  else
+    data(text);
+}
+
+void Console::claim_output(const std::string& path) {
+  if (path.empty()) return;
+  struct stat status {};
+  const bool named = ::stat(path.c_str(), &status) == 0;
+  // a terminal shows both, and the null device neither
+  const bool mixes = path == "-" || (named && !S_ISCHR(status.st_mode));
+  if (!mixes) return;
+  const std::string shown = path == "-" ? "standard output" : path;
+  if (is_standard_output(path)) {
+    if (options_.json) throw WorldError(fmt::format("{}: the JSON document goes there, too", shown));
+    if (output_claimed_) throw WorldError(fmt::format("{}: another result goes there, too", shown));
+    output_claimed_ = true;
+  }
+  const bool with_messages = path == "-" ? same_streams() : is_standard_error(path);
+  if (with_messages && !options_.quiet)
+    throw WorldError(fmt::format("{}: messages go there, too; -q leaves them out", shown));
 }
 
 void Console::flush() {
@@ -117,15 +171,17 @@ void Console::diagnostics(const Diagnostics& list, const SourceSet& sources, con
   sarif_where_ = where;
   if (list.list().empty()) return;
   // errors come first if there is not room for all
+  Kept kept = count_kept(list);
   std::size_t most = options_.max_errors.value_or(sarif() ? 0 : kMaxErrors);
-  if (most == 0) most = list.list().size();
-  std::size_t errors = std::min(most, list.errors());
-  std::size_t others = std::min(most - errors, list.list().size() - list.errors());
-  const std::size_t shown = errors + others;
+  if (most == 0) most = kept.errors + kept.others;
+  std::size_t errors = std::min(most, kept.errors);
+  std::size_t others = std::min(most - errors, kept.others);
+  const std::size_t hidden = kept.errors + kept.others - errors - others;
 
   std::string out;
   for (const Diagnostic* d : by_place(list)) {
-    std::size_t& room = d->severity == Severity::error ? errors : others;
+    // how many there are beyond those kept is said however few are shown
+    std::size_t& room = tells_rest(*d) ? kept.rest : d->severity == Severity::error ? errors : others;
     if (room == 0) continue;
     --room;
     switch (options_.format) {
@@ -144,17 +200,26 @@ void Console::diagnostics(const Diagnostics& list, const SourceSet& sources, con
     }
   }
   if (options_.format == DiagnosticFormat::human) {
-    if (shown < list.list().size())
-      out += fmt::format("{} more not shown (--max-errors 0 shows all)\n", list.list().size() - shown);
-    out += fmt::format("{} in {}\n", count_text(list.errors(), list.warnings()), displayable(subject));
+    if (hidden > 0) out += hidden_text(list, hidden, "") + '\n';
+    out += fmt::format("{}{} in {}\n", list.stopped() ? "at least " : "",
+                       count_text(list.errors(), list.warnings()), displayable(subject));
   }
   const Styles styles = colour(where) ? Styles::kept : Styles::replaced;
   if (where == Where::output)
     gather(out, styles);
   else
     message(out, styles);
-  if (options_.format != DiagnosticFormat::human && shown < list.list().size())
-    note(fmt::format("{} more diagnostics not shown (--max-errors 0 shows all)", list.list().size() - shown));
+  if (hidden == 0 || options_.format == DiagnosticFormat::human) return;
+  const std::string text = hidden_text(list, hidden, "diagnostics ");
+  if (!sarif()) return note(text);
+  sarif_.add({.code = Code::too_many_errors,
+              .severity = Severity::note,
+              .span = {},
+              .message = text,
+              .label = {},
+              .notes = {},
+              .help = {}},
+             sources);
 }
 
 }  // namespace kadr::cli

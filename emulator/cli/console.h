@@ -31,6 +31,11 @@ class Console {
   void data(std::string_view text);
   /// What else is written to files, such as a program, CSV or a page: byte for byte, but on a terminal as data().
   void bytes(std::string_view bytes);
+  /// What people read beside a result: data, or a message once a result file is standard output.
+  void summary(std::string_view text);
+  /// Called before anything is written: the result file `path`, empty if there is none, may be standard output.
+  /// @throws WorldError if something else goes there, too
+  void claim_output(const std::string& path);
   /// A document in `--json`, as text with a line end.
   void document(const text::Json& json) { data(text::json_text(json) + '\n'); }
   /// A message with "kadr: " before it, to standard error; -q leaves notes out, and so does a document there.
@@ -59,6 +64,7 @@ class Console {
   bool terminal_;       ///< standard output is one
   text::SarifLog sarif_;
   Where sarif_where_ = Where::errors;
+  bool output_claimed_ = false;  ///< standard output is a result file
 };
 
 /// The diagnostics in order of file, line and column; those without a place come first.

@@ -42,7 +42,7 @@ bool load_machine(const std::string& name, const std::vector<std::string>& setti
                                                     : SourceText(wanted + ".toml", std::string(shipped)),
                                     sources, settings);
   if (!file) {
-    for (const Diagnostic& d : file.error().list()) diagnostics.add(d);
+    diagnostics.add(file.error());
     return false;
   }
   machine = std::move(*file);
@@ -69,6 +69,8 @@ bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading
 }
 
 std::uint32_t load_program(const std::string& path, const gcode::ReadingBounds& bounds, SourceSet& sources) {
+  if (path.ends_with(".toml"))
+    throw WorldError(fmt::format("{}: a TOML file is no program; kadr run -s FILE runs a scenario", path));
   try {
     return sources.add(SourceText::open(path, bounds.file_bytes));
   } catch (const UnreadableText& e) {

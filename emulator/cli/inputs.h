@@ -22,7 +22,7 @@ std::string machine_text(const std::string& name, const machine::MachineModel& m
 bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading& reading,
                   Diagnostics& diagnostics);
 
-/// Opens a program as a file of the sources: `-` is standard input.
+/// Opens a program as a file of the sources: `-` is standard input. TOML is refused by its name.
 /// @throws WorldError with path and reason
 std::uint32_t load_program(const std::string& path, const gcode::ReadingBounds& bounds, SourceSet& sources);
 /// The same for a machine, scenario or problem file.

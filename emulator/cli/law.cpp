@@ -44,6 +44,7 @@ int compare_laws(const Arguments& arguments, Console& console) {
   const studies::PointQuestion& question = arguments.point;
   const auto study = studies::study_point_laws(question);
   if (!study) return refuse(study.error(), console);
+  for (const std::string* path : {&arguments.csv_path, &arguments.page_path}) console.claim_output(*path);
   if (!arguments.csv_path.empty()) write_file(arguments.csv_path, studies::point_csv(*study));
   if (!arguments.page_path.empty())
     write_file(arguments.page_path, studies::render_point_page(question, *study));
@@ -52,8 +53,8 @@ int compare_laws(const Arguments& arguments, Console& console) {
     j.update(studies::json_of(question, *study));
     console.document(j);
   } else if (!console.options().quiet) {
-    console.data(studies::render_point_question(question, *study) + '\n' +
-                 studies::render_point_table(*study) + '\n' + studies::render_point_answer(*study));
+    console.summary(studies::render_point_question(question, *study) + '\n' +
+                    studies::render_point_table(*study) + '\n' + studies::render_point_answer(*study));
   }
   return kYes;
 }

@@ -69,23 +69,13 @@ void Options::machine(CLI::App* sub) {
 }
 
 void Options::reading(CLI::App* sub, Writes writes) {
-  const bool log = writes == Writes::log;
   sub->add_flag("--block-delete", arguments.block_delete, "Skip lines that begin with / (block delete)");
   sub->add_option("--subs", arguments.sub_folders,
                   "Folder to search for called files, after the program's own; repeatable")
       ->type_name("DIR")
       ->allow_extra_args(false)
       ->take_all();
-  sub->add_option_function<std::vector<std::string>>(
-         "--limit",
-         [this, log](const std::vector<std::string>& texts) {
-           for (const std::string& text : texts) limit(text, log);
-         },
-         fmt::format("Set a bound on programs{}; 0: no bound; repeatable; one of\n{}",
-                     log ? " or the log" : "", fmt::join(limit_names(log), ", ")))
-      ->type_name("NAME=N")
-      ->allow_extra_args(false)
-      ->take_all();
+  limits(sub, writes);
   sub->add_option("--tools", arguments.tools,
                   "Tool table: LinuxCNC's .tbl text, lengths in mm (default: every tool has length 0)")
       ->type_name("TABLE");
@@ -101,8 +91,22 @@ void Options::reading(CLI::App* sub, Writes writes) {
              "Where controllers read codes differently, read them as this one does: {} (default linuxcnc)",
              gcode::kDialects.list("|")))
       ->type_name("WORD");
-  words(sub->get_option("--limit"), names_with_equals(limit_names(log)));
   words(sub->get_option("--dialect"), gcode::kDialects.strings());
+}
+
+void Options::limits(CLI::App* sub, Writes writes) {
+  const bool log = writes == Writes::log;
+  sub->add_option_function<std::vector<std::string>>(
+         "--limit",
+         [this, log](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) limit(text, log);
+         },
+         fmt::format("Set a bound on programs{}; 0: no bound; repeatable; one of\n{}",
+                     log ? " or the log" : "", fmt::join(limit_names(log), ", ")))
+      ->type_name("NAME=N")
+      ->allow_extra_args(false)
+      ->take_all();
+  words(sub->get_option("--limit"), names_with_equals(limit_names(log)));
 }
 
 void Options::limit(const std::string& text, bool log) {

@@ -41,6 +41,8 @@ class Options {
   void machine(CLI::App* sub);
   enum class Writes : std::uint8_t { nothing, log };
   void reading(CLI::App* sub, Writes writes = Writes::nothing);
+  /// --limit, for every command that reads programs: messages about a bound name it.
+  void limits(CLI::App* sub, Writes writes = Writes::nothing);
   void strict(CLI::App* sub);
   CLI::Option* programs(CLI::App* sub, const std::string& name, bool several);
 

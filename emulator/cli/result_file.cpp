@@ -35,6 +35,8 @@ void ResultFile::close() {
   if (auto done = file_.finish(); !done) throw_fault(done.error(), {});
 }
 
+std::string output_text(const std::string& path) { return path == "-" ? "standard output" : path; }
+
 void write_file(const std::string& path, std::string_view text, OutputRules rules) {
   OutputFile file = open_output(path, rules);
   if (auto done = file.write(text); !done) throw_fault(done.error(), rules);

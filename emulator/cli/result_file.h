@@ -18,6 +18,9 @@ class ResultFile {
   OutputFile file_;
 };
 
+/// An output's name for people: "standard output" for `-`.
+std::string output_text(const std::string& path);
+
 /// Writes a whole text to a file.
 /// @throws WorldError with path and reason; that of a file that may not be overwritten names --force
 void write_file(const std::string& path, std::string_view text, OutputRules rules = {});

@@ -11,6 +11,7 @@
 #include "emulator/cli/exit_codes.h"
 #include "emulator/cli/inputs.h"
 #include "emulator/cli/progress.h"
+#include "emulator/cli/result_file.h"
 #include "emulator/cli/run_header.h"
 #include "emulator/cli/signals.h"
 #include "emulator/log/alarm_list.h"
@@ -30,18 +31,11 @@ std::string default_log_path(const std::string& program) {
   return (stem.empty() ? "program" : stem) + ".lcmlog";
 }
 
-/// Refuses a log path before anything is said of it: one that can't be written, or where summary or messages go too.
-void refuse_bad_log_path(const std::string& log, const OutputOptions& output) {
-  if (log == "-")
-    throw WorldError(
-        "a log and the summary can't both go to standard output: -q -o /dev/stdout writes the log there");
+/// Refuses a log path before anything is said of it: one that can't be written, or where something else goes too.
+void refuse_bad_log_path(const std::string& log, Console& console) {
   if (const auto refused = output_refusal(log))
     throw WorldError(fmt::format("{}: {}", refused->path, refused->reason));
-  const bool has_bytes = fs::status(log).type() != fs::file_type::character;
-  if (has_bytes && is_standard_output(log) && (output.json || !output.quiet))
-    throw WorldError(fmt::format("{}: the summary goes there, too; -q leaves it out", log));
-  if (has_bytes && is_standard_error(log) && !output.quiet)
-    throw WorldError(fmt::format("{}: messages go there, too; -q leaves them out", log));
+  console.claim_output(log);
 }
 
 /// Prints the expected size of the log before the run, and the free space if that is too little.
@@ -64,8 +58,8 @@ void tell_expected_size(const cycle::Job& job, const Arguments& arguments, const
         "{}: the log would be about {}, more than log_bytes allows ({}); --limit log_bytes=N allows "
         "more, 0 any length; --no-log, --until, log.steps=false or log.viewer_rate_hz=0 write less",
         log, text::bytes_text(bytes), text::bytes_text(static_cast<std::int64_t>(arguments.log_bytes))));
-  console.note(fmt::format("log {}, about {} for {} of machine time", log, text::bytes_text(bytes),
-                           text::duration_text(run_s)));
+  console.note(fmt::format("log {}, about {} for {} of machine time", output_text(log),
+                           text::bytes_text(bytes), text::duration_text(run_s)));
   std::error_code error;
   const fs::path folder = fs::absolute(log, error).parent_path();
   const fs::space_info room = fs::space(folder, error);
@@ -93,7 +87,7 @@ struct RunInputs {
 void take_scenario(RunInputs& in) {
   auto scenario = scenario::read_scenario(in.arguments.scenario, in.sources);
   if (!scenario) {
-    for (const Diagnostic& d : scenario.error().list()) in.diagnostics.add(d);
+    in.diagnostics.add(scenario.error());
     return;
   }
   in.scenario_toml = scenario->text;
@@ -225,7 +219,7 @@ void tell_summary(const RunInputs& in, const log::RunSummary& summary, const ans
     j["run"] = answers::json_of(summary, context);
     console.document(j);
   } else if (!console.options().quiet) {
-    console.data(answers::render_summary(summary, context));
+    console.summary(answers::render_summary(summary, context));
   }
   if (summary.outcome == log::Outcome::interrupted)
     console.error(fmt::format(
@@ -239,10 +233,12 @@ int move(const RunInputs& in, const cycle::Job& job, Console& console) {
   cycle::RunOptions options = run_options(in, signals);
   const log::RunHeader header = run_header(job, options, in.scenario_toml);
   if (!log_path.empty()) {
-    refuse_bad_log_path(log_path, arguments.output);
+    refuse_bad_log_path(log_path, console);
     tell_expected_size(job, arguments, log_path, header, console);
   }
+  // a FIFO waits for its reader here
   const auto log = open_log(in, header, log_path);
+  signals.hold();
   log::AlarmList alarms(log.get());
 
   Progress progress(arguments.output, count_lines(in.sources[in.given.program].text()));
@@ -261,6 +257,7 @@ int move(const RunInputs& in, const cycle::Job& job, Console& console) {
     std::error_code error;
     const auto size = fs::file_size(context.log_path, error);
     if (!error) context.log_bytes = static_cast<std::int64_t>(size);
+    context.log_path = output_text(context.log_path);
   }
   tell_summary(in, *result, context, console);
   return result->exit_code;

@@ -56,10 +56,11 @@ void update(const std::string& path, const scenario::ScenarioResult& result, Con
 }  // namespace
 
 int scenario_run(const Arguments& arguments, Console& console) {
+  console.claim_output(arguments.junit_path);
   std::vector<scenario::ScenarioResult> results;
   bool all_passed = true, all_ran = true;
   for (const std::string& path : scenarios_of(arguments)) {
-    results.push_back(scenario::run_scenario(path));
+    results.push_back(scenario::run_scenario(path, {}, arguments.bounds));
     const scenario::ScenarioResult& result = results.back();
     all_passed = all_passed && result.passed();
     all_ran = all_ran && result.failure.empty();
@@ -67,7 +68,7 @@ int scenario_run(const Arguments& arguments, Console& console) {
     if (console.options().json || (console.options().quiet && result.passed())) continue;
     std::string text = scenario::render_result(result);
     if (text.empty() || text.back() != '\n') text += '\n';
-    console.data(text);
+    console.summary(text);
   }
   if (console.options().json) {
     std::string text = scenario::render_json(results);
@@ -76,14 +77,9 @@ int scenario_run(const Arguments& arguments, Console& console) {
   } else if (!console.options().quiet) {
     std::string text = scenario::render_totals(results);
     if (text.empty() || text.back() != '\n') text += '\n';
-    console.data(text);
+    console.summary(text);
   }
-  if (!arguments.junit_path.empty()) {
-    if (arguments.junit_path == "-")
-      console.data(scenario::render_junit(results));
-    else
-      write_file(arguments.junit_path, scenario::render_junit(results));
-  }
+  if (!arguments.junit_path.empty()) write_file(arguments.junit_path, scenario::render_junit(results));
   // expectations that were not met are now those that were measured; one that did not run has measured nothing
   return all_passed || (arguments.update && all_ran) ? kYes : kNo;
 }
@@ -96,6 +92,7 @@ int scenario_check(const Arguments& arguments, Console& console) {
   for (const std::string& path : scenarios_of(arguments)) {
     SourceSet sources;
     cycle::JobInputs given;
+    given.reading.bounds = arguments.bounds;
     Diagnostics diagnostics;
     std::optional<scenario::Scenario> scenario;
     int code = kNo;
@@ -104,7 +101,7 @@ int scenario_check(const Arguments& arguments, Console& console) {
         scenario = std::move(*read);
         if (scenario::open_job(*scenario, given, sources, diagnostics)) code = kYes;
       } else {
-        for (const Diagnostic& d : read.error().list()) diagnostics.add(d);
+        diagnostics.add(read.error());
       }
     } catch (const std::system_error& e) {
       // the other scenarios are still checked

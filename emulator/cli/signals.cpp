@@ -9,12 +9,13 @@
 namespace kadr::cli {
 namespace {
 
+std::atomic<bool> held{false};
 std::atomic<bool> interrupted{false};
 std::atomic<int> signal_number{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 extern "C" void on_signal(int number) {
-  if (interrupted.exchange(true)) ::_exit(kSignal + number);
+  if (!held || interrupted.exchange(true)) ::_exit(kSignal + number);
   signal_number = number;
 }
 
@@ -29,6 +30,7 @@ void install(int number, void (*handler)(int)) {
 }  // namespace
 
 SignalGuard::SignalGuard() {
+  held = false;
   interrupted = false;
   signal_number = 0;
   install(SIGINT, on_signal);
@@ -40,6 +42,7 @@ SignalGuard::~SignalGuard() {
   install(SIGTERM, SIG_DFL);
 }
 
+void SignalGuard::hold() { held = true; }
 const std::atomic<bool>* SignalGuard::flag() const { return &interrupted; }
 int SignalGuard::signal() const { return signal_number; }
 

@@ -3,11 +3,12 @@
 
 namespace kadr::cli {
 
-/// While it lives, SIGINT and SIGTERM only set a flag, so that a log can be closed; a second one ends the
-/// program at once. One at a time.
+/// While it lives, SIGINT and SIGTERM end the program at once, and from hold() on only set a flag, so that a log can be
+/// closed; a second one ends the program at once. One at a time.
 class SignalGuard {
  public:
   SignalGuard();
+  void hold();
   SignalGuard(const SignalGuard&) = delete;
   SignalGuard& operator=(const SignalGuard&) = delete;
   ~SignalGuard();

@@ -37,6 +37,7 @@ Json head(const char* command) { return {{"kadr", KADR_VERSION}, {"command", com
 
 int teach_table(const Arguments& arguments, Console& console) {
   const TeachArguments& teach = arguments.teach;
+  console.claim_output(teach.vcd_path);
   const TeachCase subject = must(studies::read_teach_case(arguments.files, teach.axes));
   const auto method =
       arguments.methods.empty() ? lattice::Method::half_step : *lattice::method_of(arguments.methods.front());
@@ -50,7 +51,8 @@ int teach_table(const Arguments& arguments, Console& console) {
   if (timed) train = must(studies::pulse_train(table, teach.timing, teach.feed_steps_s, kClock_hz));
   if (!teach.vcd_path.empty()) {
     write_file(teach.vcd_path, studies::render_vcd(train, kHigh_ticks));
-    console.note(fmt::format("wrote {}: {} in {} us", teach.vcd_path, text::counted(table.pulses, "pulse"),
+    console.note(fmt::format("wrote {}: {} in {} us", output_text(teach.vcd_path),
+                             text::counted(table.pulses, "pulse"),
                              text::fixed(static_cast<double>(train.duration.value) / 10, 1)));
   }
   if (console.options().json) {
@@ -59,10 +61,10 @@ int teach_table(const Arguments& arguments, Console& console) {
     if (timed) j["timing"] = studies::json_of(train);
     console.document(j);
   } else if (arguments.csv) {
-    console.data(studies::render_step_csv(table));
+    console.summary(studies::render_step_csv(table));
   } else if (!console.options().quiet) {
-    console.data(studies::render_step_table(subject, table));
-    if (teach.spacing) console.data(studies::render_spacing(train));
+    console.summary(studies::render_step_table(subject, table));
+    if (teach.spacing) console.summary(studies::render_spacing(train));
   }
   return kYes;
 }

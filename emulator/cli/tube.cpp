@@ -93,7 +93,7 @@ int sweep_tube(const Arguments& arguments, const TimeLawProblem& problem, const 
     j.update(studies::json_of(sweep));
     console.document(j);
   } else if (!console.options().quiet) {
-    console.data(studies::render_problem(problem, name) + '\n' + studies::render_sweep_table(sweep));
+    console.summary(studies::render_problem(problem, name) + '\n' + studies::render_sweep_table(sweep));
   }
   return code;
 }
@@ -116,7 +116,7 @@ int study_tube(const Arguments& arguments, const TimeLawProblem& problem,
     console.document(j);
     return code;
   }
-  if (!console.options().quiet) console.data(tables(arguments, study, problem, name));
+  if (!console.options().quiet) console.summary(tables(arguments, study, problem, name));
   note_times(arguments, study, console);
   return code;
 }
@@ -130,6 +130,7 @@ int solve_tube(const Arguments& arguments, Console& console) {
         "PROBLEM is required, e.g. kadr tube docs/tube/laying.toml; kadr tube --keys lists the keys of one");
     return kNotStarted;
   }
+  for (const std::string* file : {&arguments.csv_path, &arguments.page_path}) console.claim_output(*file);
   const std::string& path = arguments.files.front();
   const std::string name = program_text(path);
   SourceSet sources;
@@ -145,7 +146,7 @@ int solve_tube(const Arguments& arguments, Console& console) {
       console.diagnostics(diagnostics, sources, name, Console::Where::errors);
     return kNotStarted;
   };
-  const auto problem = studies::read_time_law_problem(sources, file);
+  const auto problem = studies::read_time_law_problem(sources, file, arguments.bounds);
   if (!problem) return refuse(problem.error());
   if (!problem->warnings.list().empty())
     console.diagnostics(problem->warnings, sources, name, Console::Where::errors);

@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -81,6 +82,7 @@ class ThreadedLog final : public log::RunLog {
 
   tl::expected<void, log::LogError> status() {
     if (!failed_.load(std::memory_order_acquire)) return {};
+    if (thrown_) std::rethrow_exception(thrown_);
     return tl::unexpected(*error_);
   }
 
@@ -129,7 +131,17 @@ class ThreadedLog final : public log::RunLog {
     }
   }
 
+  /// What `inner` throws comes back at one of the next calls, as its errors do.
   void write(RecordBlock& block) {
+    try {
+      hand_on(block);
+    } catch (...) {
+      thrown_ = std::current_exception();
+      failed_.store(true, std::memory_order_release);
+    }
+  }
+
+  void hand_on(RecordBlock& block) {
     std::size_t small = 0;
     for (std::size_t i = 0; i <= block.count; ++i) {
       for (; small < block.small_before[i]; ++small)
@@ -164,6 +176,7 @@ class ThreadedLog final : public log::RunLog {
   bool stopping_ = false;
   std::atomic<bool> failed_{false};
   std::optional<log::LogError> error_;
+  std::exception_ptr thrown_;
   std::thread worker_;
 };
 

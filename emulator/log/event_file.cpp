@@ -5,10 +5,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
 #include "emulator/log/wire.h"
+#include "machine/base/hash.h"
 #include "machine/base/input_files.h"
 
 namespace kadr::log {
@@ -83,6 +85,20 @@ EventFile::Next EventFile::next(LogEventView& view) {
   position_ += bytes;
   ++number_;
   return Next::event;
+}
+
+std::uint64_t EventFile::hash() const {
+  Hash64 hash;
+  std::vector<std::uint8_t> buffer(std::size_t{1} << 18);
+  for (std::int64_t at = 0; at < size_;) {
+    const std::size_t want = std::min(buffer.size(), static_cast<std::size_t>(size_ - at));
+    const ssize_t got = ::pread(::fileno(file_.get()), buffer.data(), want, at);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) break;
+    hash.bytes(buffer.data(), static_cast<std::size_t>(got));
+    at += got;
+  }
+  return hash.digest();
 }
 
 }  // namespace kadr::log

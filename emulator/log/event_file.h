@@ -20,8 +20,10 @@ class EventFile {
   static tl::expected<EventFile, std::string> open(const std::string& path);
   /// Reads the next event into `view`, which stays valid until the next call.
   Next next(LogEventView& view);
-  std::int64_t size() const { return size_; }            ///< bytes in the file when it was opened
-  std::int64_t position() const { return position_; }    ///< end of the last whole event
+  std::int64_t size() const { return size_; }          ///< bytes in the file when it was opened
+  std::int64_t position() const { return position_; }  ///< end of the last whole event
+  /// Hash of the whole file as it was opened: what has its path by now does not count. Reading goes on where it was.
+  std::uint64_t hash() const;
   const std::string& detail() const { return detail_; }  ///< after cut or damaged: a sentence
 
  private:

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <memory>
 
 #include "machine/base/hash.h"
 #include "machine/base/terminal_text.h"
@@ -12,23 +10,6 @@
 
 namespace kadr::log {
 namespace {
-
-std::uint64_t hash_of_file(const std::string& path, std::int64_t bytes) {
-  struct Close {
-    void operator()(std::FILE* f) const { std::fclose(f); }
-  };
-  Hash64 hash;
-  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
-  std::vector<unsigned char> buffer(std::size_t{1} << 18);
-  while (file && bytes > 0) {
-    const std::size_t want = std::min(buffer.size(), static_cast<std::size_t>(bytes));
-    const std::size_t got = std::fread(buffer.data(), 1, want, file.get());
-    if (got == 0) break;
-    hash.bytes(buffer.data(), got);
-    bytes -= static_cast<std::int64_t>(got);
-  }
-  return hash.digest();
-}
 
 void count_channel(std::vector<ChannelInfo>& channels, const LogEventView& event) {
   auto it = std::find_if(channels.begin(), channels.end(),
@@ -113,7 +94,7 @@ tl::expected<LogInfo, LogReadError> log_info(const std::string& path) {
   info.span_s = info.header.seconds(info.end.valid_until);
   info.content_hash = reader->content_hash();
   if (info.header.logs_steps) info.steps_hash = collect.steps_hash();
-  info.file_hash = hash_of_file(path, info.end.file_bytes);
+  info.file_hash = reader->file_hash();
   return info;
 }
 

@@ -173,6 +173,7 @@ const LogHeader& LogReader::header() const { return impl_->header; }
 bool LogReader::next(LogMessage& message) { return impl_->next(message); }
 const LogEventView& LogReader::event() const { return impl_->view; }
 std::uint64_t LogReader::content_hash() const { return impl_->content.digest(); }
+std::uint64_t LogReader::file_hash() const { return impl_->events.hash(); }
 const LogEnd& LogReader::end() const {
   require(impl_->finished, "a log's end is known after its last message");
   return impl_->end;

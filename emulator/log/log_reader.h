@@ -78,6 +78,8 @@ class LogReader {
   const LogEnd& end() const;
   /// Hash of the messages before KADR_SUMMARY as read; equals LogSummary::content_hash if no bit was changed.
   std::uint64_t content_hash() const;
+  /// Hash of the whole file that was opened, every byte of it.
+  std::uint64_t file_hash() const;
 
  private:
   struct Impl;

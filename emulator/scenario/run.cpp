@@ -117,9 +117,11 @@ void render_into(ScenarioResult& result, const Diagnostics& diagnostics, const S
   }
 }
 
-void run_into(ScenarioResult& result, const Scenario& scenario, const cycle::RunOptions& options) {
+void run_into(ScenarioResult& result, const Scenario& scenario, const cycle::RunOptions& options,
+              const gcode::ReadingBounds& bounds) {
   SourceSet sources;
   cycle::JobInputs given;
+  given.reading.bounds = bounds;
   Diagnostics diagnostics;
   const bool opened = open_job(scenario, given, sources, diagnostics);
   if (!opened) {
@@ -191,7 +193,7 @@ bool open_job(const Scenario& scenario, cycle::JobInputs& given, SourceSet& sour
     given.reading.tools = gcode::read_tool_table(sources, tools, diagnostics);
   }
   if (!file) {
-    for (const Diagnostic& d : file.error().list()) diagnostics.add(d);
+    diagnostics.add(file.error());
     return false;
   }
   given.machine = std::move(*file);
@@ -200,25 +202,27 @@ bool open_job(const Scenario& scenario, cycle::JobInputs& given, SourceSet& sour
   return diagnostics.errors() == errors;
 }
 
-ScenarioResult run_scenario(const Scenario& scenario, const cycle::RunOptions& options) {
+ScenarioResult run_scenario(const Scenario& scenario, const cycle::RunOptions& options,
+                            const gcode::ReadingBounds& bounds) {
   ScenarioResult result;
   result.name = scenario.name;
   result.file = scenario.file;
   try {
-    run_into(result, scenario, options);
+    run_into(result, scenario, options, bounds);
   } catch (const std::system_error& e) {
     result.failure = e.what();
   }
   return result;
 }
 
-ScenarioResult run_scenario(const std::string& path, const cycle::RunOptions& options) {
+ScenarioResult run_scenario(const std::string& path, const cycle::RunOptions& options,
+                            const gcode::ReadingBounds& bounds) {
   ScenarioResult result;
   result.name = result.file = path;
   try {
     SourceSet sources;
     const auto scenario = read_scenario(path, sources);
-    if (scenario) return run_scenario(*scenario, options);
+    if (scenario) return run_scenario(*scenario, options, bounds);
     result.failure = "the scenario file has errors";
     render_into(result, scenario.error(), sources);
   } catch (const std::system_error& e) {

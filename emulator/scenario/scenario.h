@@ -150,9 +150,12 @@ struct ScenarioResult {
 };
 
 /// Runs one scenario and compares. Never throws for a fault of the scenario: that becomes `failure`.
-ScenarioResult run_scenario(const Scenario& scenario, const cycle::RunOptions& options = {});
+/// @param bounds  of the program
+ScenarioResult run_scenario(const Scenario& scenario, const cycle::RunOptions& options = {},
+                            const gcode::ReadingBounds& bounds = {});
 /// The same from a path; a file that can't be read is a failed result.
-ScenarioResult run_scenario(const std::string& path, const cycle::RunOptions& options = {});
+ScenarioResult run_scenario(const std::string& path, const cycle::RunOptions& options = {},
+                            const gcode::ReadingBounds& bounds = {});
 
 /// The scenario files under the given paths: a scenario.toml, its folder, or a folder of such folders.
 /// Sorted by path; with no paths those under "scenarios".

@@ -365,11 +365,11 @@ void Formatter::flush() {
   run_.clear();
 }
 
-bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics,
-                    std::string& out) {
+bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics, std::string& out,
+                    const ReadingBounds& bounds) {
   Report report(diagnostics);
   Names names;
-  Program program(sources, file, {}, names, report);
+  Program program(sources, file, bounds, names, report);
   Formatter formatter(out);
   while (!formatter.ended()) {
     const Line* line = program.next();

@@ -153,6 +153,15 @@ void Interpreter::add_nurbs_control(const AxisValues& program, double weight) {
 void Interpreter::set_nurbs_order() {
   int order = 0;
   near_integer(words_.value('L'), order);
+  const std::uint32_t most = options_.bounds.nurbs_order;
+  if (most != 0 && order > 0 && static_cast<std::uint32_t>(order) > most) {
+    Diagnostic d = problem(Code::word_out_of_range, words_.span(*line_, 'L'), fmt::format("L is {}", order),
+                           "curves of CAD systems are of order 4 or 6");
+    d.notes.push_back(fmt::format("allowed: {} (--limit nurbs_order=N)", most));
+    error(std::move(d));
+    nurbs_.faulty = true;
+    return;
+  }
   if (order > kQuadratic) {
     nurbs_.order = order;
   } else if (order < kQuadratic) {

@@ -46,19 +46,8 @@ void Report::add(Diagnostic d) {
 }
 
 void Report::close(Span end) {
-  if (full()) {
-    Diagnostic d =
-        problem(Code::too_many_errors, end, fmt::format("reading stopped here after {} errors", kMaxErrors),
-                "fix the first ones; later ones often follow from them");
-    d.severity = Severity::note;
-    diagnostics_.add(std::move(d));
-  }
-  if (warnings_ > kMaxWarnings) {
-    Diagnostic d = problem(Code::too_many_errors, end,
-                           fmt::format("{} further warnings are not shown", warnings_ - kMaxWarnings));
-    d.severity = Severity::note;
-    diagnostics_.add(std::move(d));
-  }
+  if (warnings_ > kMaxWarnings) diagnostics_.leave_out(Severity::warning, warnings_ - kMaxWarnings, end);
+  if (full()) diagnostics_.stop(end);
 }
 
 Diagnostic problem(Code code, Span span, std::string label, std::string help) {

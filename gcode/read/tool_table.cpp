@@ -169,10 +169,15 @@ class TableReader {
 
 }  // namespace
 
+std::optional<std::size_t> ToolIndex::find(const std::vector<Tool>& tools, int number) {
+  for (; indexed_ < tools.size(); ++indexed_) rows_.try_emplace(tools[indexed_].number, indexed_);
+  const auto row = rows_.find(number);
+  return row == rows_.end() ? std::nullopt : std::optional(row->second);
+}
+
 const Tool* ToolTable::find(int number) const {
-  const auto it =
-      std::find_if(tools.begin(), tools.end(), [&](const Tool& tool) { return tool.number == number; });
-  return it == tools.end() ? nullptr : &*it;
+  const auto row = index.find(tools, number);
+  return row ? &tools[*row] : nullptr;
 }
 
 Tool* ToolTable::find(int number) { return const_cast<Tool*>(std::as_const(*this).find(number)); }

@@ -1,6 +1,8 @@
 #pragma once
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "machine/base/axes.h"
@@ -19,12 +21,25 @@ struct Tool {
   int orientation = 0;  ///< 0 to 9
 };
 
+/// Rows of a table by tool number, brought up to date by each search. A number that is in several rows is in the first.
+class ToolIndex {
+ public:
+  /// @pre rows are only added, and keep their numbers
+  std::optional<std::size_t> find(const std::vector<Tool>& tools, int number);
+
+ private:
+  std::unordered_map<int, std::size_t> rows_;
+  std::size_t indexed_ = 0;  ///< rows taken so far
+};
+
 /// The tools of a machine, in the order of the table.
 struct ToolTable {
-  std::vector<Tool> tools;
-  /// The tool of a number, null if there is none.
+  std::vector<Tool> tools;  ///< rows are only added, and keep their numbers
+  /// The tool of a number, null if there is none. Not for two threads at once.
   const Tool* find(int number) const;
   Tool* find(int number);
+
+  mutable ToolIndex index = {};
 };
 
 /// Reads a tool table: one tool per line, words in any order, separated by blanks or tabs; `;` begins a remark.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "machine/base/terminal_text.h"
@@ -24,25 +25,81 @@ void shorten(std::string& text) {
 
 }  // namespace
 
+bool tells_rest(const Diagnostic& d) {
+  return d.code == Code::too_many_errors && d.severity == Severity::note;
+}
+
 void Diagnostics::add(Diagnostic d) {
+  if (d.severity == Severity::error && errors_ - left_out_errors_ >= kMost)
+    return leave_out(Severity::error, 1, d.span);
+  if (d.severity == Severity::warning && warnings_ - left_out_warnings_ >= kMost)
+    return leave_out(Severity::warning, 1, d.span);
   if (d.severity == Severity::error) ++errors_;
   if (d.severity == Severity::warning) ++warnings_;
-  const std::size_t of_kind = d.severity == Severity::error     ? errors_
-                              : d.severity == Severity::warning ? warnings_
-                                                                : 0;
-  if (of_kind > kMost) {
-    if (std::exchange(told_full_, true)) return;
-    d = {.code = Code::too_many_errors,
-         .severity = Severity::note,
-         .span = d.span,
-         .message = std::string(code_entry(Code::too_many_errors).title),
-         .label = fmt::format("after {} errors or warnings further ones are not shown", kMost),
-         .notes = {},
-         .help = {}};
-  }
   for (std::string* text : {&d.message, &d.label, &d.help}) shorten(*text);
   for (std::string& note : d.notes) shorten(note);
   list_.push_back(std::move(d));
+}
+
+void Diagnostics::add(const Diagnostics& others) {
+  for (const Diagnostic& d : others.list_)
+    if (!tells_rest(d)) add(d);
+  if (others.rest_ == 0) return;
+  const Span at = others.list_[others.rest_ - 1].span;
+  leave_out(Severity::error, others.left_out_errors_, at);
+  leave_out(Severity::warning, others.left_out_warnings_, at);
+  if (others.stopped()) stop(at);
+}
+
+void Diagnostics::leave_out(Severity severity, std::size_t count, Span at) {
+  if (count == 0 || severity == Severity::note) return;
+  (severity == Severity::error ? errors_ : warnings_) += count;
+  (severity == Severity::error ? left_out_errors_ : left_out_warnings_) += count;
+  tell_rest(at);
+}
+
+void Diagnostics::stop(Span at) {
+  errors_read_ = errors_;
+  tell_rest(at);
+}
+
+/// Writes the note, or brings it up to date.
+void Diagnostics::tell_rest(Span at) {
+  if (rest_ == 0) {
+    list_.push_back({.code = Code::too_many_errors,
+                     .severity = Severity::note,
+                     .span = at,
+                     .message = {},
+                     .label = {},
+                     .notes = {},
+                     .help = {}});
+    rest_ = list_.size();
+  }
+  std::string more;
+  if (left_out_errors_ > 0) more += fmt::format("{} more errors", left_out_errors_);
+  if (left_out_warnings_ > 0)
+    more += fmt::format("{}{} more warnings", more.empty() ? "" : " and ", left_out_warnings_);
+  Diagnostic& note = list_[rest_ - 1];
+  if (!more.empty()) more += " are not shown";
+  if (!stopped()) {
+    note.message = "more mistakes than are shown";
+    note.label = more;
+    return;
+  }
+  note.message = code_entry(Code::too_many_errors).title;
+  note.label =
+      fmt::format("reading stopped here after {} errors{}{}", errors_read_, more.empty() ? "" : "; ", more);
+  note.help = "fix the first ones; later ones often follow from them";
+}
+
+void Diagnostics::sort_by_place() {
+  std::stable_sort(list_.begin(), list_.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    const auto place = [](const Span& s) { return std::tuple(s.file, s.line, s.column); };
+    return place(a.span) < place(b.span);
+  });
+  if (rest_ == 0) return;
+  const auto note = std::find_if(list_.begin(), list_.end(), tells_rest);
+  rest_ = static_cast<std::size_t>(note - list_.begin()) + 1;
 }
 
 namespace {

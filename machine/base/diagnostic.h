@@ -95,26 +95,46 @@ struct Diagnostic {
 };
 
 /// Diagnostics in the order found. Reading continues after an error; nothing moves while has_errors(). Memory is
-/// bounded: at most kMost errors and kMost warnings are kept, and texts that quote a file are cut.
+/// bounded: at most kMost errors and kMost warnings are kept, and texts that quote a file are cut. If some are not kept,
+/// or reading stopped, one note of Code::too_many_errors in the list says so.
 class Diagnostics {
  public:
   static constexpr std::size_t kMost = 2000;
   static constexpr std::size_t kMostText_bytes = 4000;
 
   void add(Diagnostic d);
+  /// Those of another list, and what that one left out.
+  void add(const Diagnostics& others);
+  /// Counts errors or warnings that the caller found and does not keep; `at` is the note's place.
+  void leave_out(Severity severity, std::size_t count, Span at);
+  /// The caller stops reading here because of the errors so far: there may be more.
+  void stop(Span at);
+  /// By file, line and column.
+  void sort_by_place();
+
   /// No further error is kept: reading on is pointless.
   bool full() const { return errors_ >= kMost; }
   bool has_errors() const { return errors_ > 0; }
-  std::size_t errors() const { return errors_; }
-  std::size_t warnings() const { return warnings_; }
+  std::size_t errors() const { return errors_; }      ///< found, kept or not
+  std::size_t warnings() const { return warnings_; }  ///< found, kept or not
+  std::size_t left_out() const { return left_out_errors_ + left_out_warnings_; }  ///< found and not kept
+  bool stopped() const { return errors_read_ > 0; }
   const std::vector<Diagnostic>& list() const { return list_; }
 
  private:
+  void tell_rest(Span at);
+
   std::vector<Diagnostic> list_;
   std::size_t errors_ = 0;
   std::size_t warnings_ = 0;
-  bool told_full_ = false;
+  std::size_t left_out_errors_ = 0;
+  std::size_t left_out_warnings_ = 0;
+  std::size_t errors_read_ = 0;  ///< when reading stopped
+  std::size_t rest_ = 0;         ///< index of the note and one; 0: none yet
 };
+
+/// True for the note by which a list says that it is not complete.
+bool tells_rest(const Diagnostic& d);
 
 /// A place for people and tools: code points, not bytes.
 struct Place {

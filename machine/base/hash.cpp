@@ -1,6 +1,9 @@
 #include "machine/base/hash.h"
 
 #include <fmt/format.h>
+
+#include <new>
+
 #define XXH_STATIC_LINKING_ONLY
 #include <xxhash.h>
 
@@ -8,6 +11,11 @@ namespace kadr {
 
 struct Hash64::State {
   XXH3_state_t* xxh = XXH3_createState();
+  State() {
+    if (!xxh) throw std::bad_alloc();
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
   ~State() { XXH3_freeState(xxh); }
 };
 

@@ -7,12 +7,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <new>
 #include <utility>
 
+#include "machine/base/hash.h"
 #include "machine/base/input_files.h"
 #include "machine/base/terminal_text.h"
 #include "machine/base/write_all.h"
@@ -29,6 +31,18 @@ constexpr int kMostLinks = 40;
 constexpr int kAttempts = 100;
 
 bool same(const struct stat& a, const struct stat& b) { return a.st_dev == b.st_dev && a.st_ino == b.st_ino; }
+
+/// "FILE.part", the end of a long name replaced by a hash of it: a name has at most NAME_MAX bytes.
+std::string part_of(const std::string& file) {
+  constexpr std::string_view kPart = ".part";
+  constexpr std::size_t kHash = 17;  // "-" and 16 digits
+  const std::string name = fs::path(file).filename().string();
+  if (name.size() + kPart.size() <= NAME_MAX) return file + std::string(kPart);
+  Hash64 hash;
+  hash.bytes(name.data(), name.size());
+  const std::size_t kept = file.size() - name.size() + NAME_MAX - kHash - kPart.size();
+  return file.substr(0, kept) + "-" + hash_text(hash.digest()) + std::string(kPart);
+}
 
 /// What `path` is, links followed; nullopt if there is no such file.
 std::optional<struct stat> status_of(const std::string& path) {
@@ -73,6 +87,9 @@ tl::expected<std::string, int> follow(const std::string& path) {
   }
   return tl::unexpected(ELOOP);
 }
+
+/// `-` names standard output; a file of that name is ./-
+constexpr std::string_view kStandardOutput = "-";
 
 bool is_stream(const struct stat& status) {
   return S_ISFIFO(status.st_mode) || S_ISCHR(status.st_mode) || standard_stream(status) >= 0;
@@ -157,6 +174,7 @@ bool rename_to_new(const std::string& from, const std::string& to) {
 }  // namespace
 
 std::optional<OutputFault> output_refusal(const std::string& path, OutputRules rules) {
+  if (path == kStandardOutput) return std::nullopt;
   struct stat link {};
   if (!rules.overwrite && ::lstat(path.c_str(), &link) == 0) return OutputFault{path, std::strerror(EEXIST)};
   const auto status = status_of(path);
@@ -168,17 +186,24 @@ std::optional<OutputFault> output_refusal(const std::string& path, OutputRules r
 }
 
 std::string written_as(const std::string& path) {
+  if (path == kStandardOutput) return path;
   const auto status = status_of(path);
   if (status && is_stream(*status)) return path;
-  return follow(path).value_or(path) + ".part";
+  return part_of(follow(path).value_or(path));
 }
 
-bool is_standard_output(const std::string& path) { return leads_to(path, STDOUT_FILENO); }
+bool is_standard_output(const std::string& path) {
+  return path == kStandardOutput || leads_to(path, STDOUT_FILENO);
+}
 bool is_standard_error(const std::string& path) { return leads_to(path, STDERR_FILENO); }
 
 tl::expected<OutputFile, OutputFault> OutputFile::open(const std::string& path, OutputRules rules) {
   OutputFile output(path, rules);
   if (auto refused = output_refusal(path, rules)) return tl::unexpected(std::move(*refused));
+  if (path == kStandardOutput) {
+    if (auto fault = output.open_stream(STDOUT_FILENO)) return tl::unexpected(std::move(*fault));
+    return output;
+  }
   const auto status = status_of(path);
   if (status && is_stream(*status)) {
     if (auto fault = output.open_stream(standard_stream(*status))) return tl::unexpected(std::move(*fault));
@@ -207,7 +232,7 @@ std::optional<OutputFault> OutputFile::open_stream(int descriptor) {
 
 std::optional<OutputFault> OutputFile::open_part(std::string file, unsigned mode) {
   file_ = std::move(file);
-  part_ = file_ + ".part";
+  part_ = part_of(file_);
   const std::string shown = rules_.keeps_part ? part_ : path_;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);

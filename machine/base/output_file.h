@@ -28,7 +28,8 @@ struct OutputRules {
 /// names is replaced. Permissions and, where allowed, owner of a replaced file are kept.
 ///
 /// A pipe, a FIFO and a character device are written into as they are, and so is whatever this process has as
-/// standard output or standard error. A terminal gets what a terminal may be shown (machine/base/terminal_text.h). Folders, sockets, block devices and files that the process has read
+/// standard output or standard error; `-` is standard output. A terminal gets what a terminal may be shown
+/// (machine/base/terminal_text.h). Folders, sockets, block devices and files that the process has read
 /// or made (InputMemory) are refused.
 class OutputFile {
  public:

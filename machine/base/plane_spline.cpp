@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "machine/base/require.h"
@@ -25,6 +26,9 @@ constexpr std::array<double, 5> kWeights = {0.2369268850561890875, 0.47862867049
                                             0.2369268850561890875};
 constexpr double kLengthTolerance = 1e-10;
 constexpr int kMostHalvings = 24;  // a cusp costs at most as many levels
+constexpr int kMostParts = 4096;   // of a span: a curve of 16 points has fewer cusps than that allows for
+// what rounding does to a speed, in units of order x coordinate x ratio of the weights
+constexpr double kSpeedRounding = 4 * std::numeric_limits<double>::epsilon();
 
 double speed(const SplineValue& v) { return std::sqrt(v.first_d1 * v.first_d1 + v.second_d1 * v.second_d1); }
 
@@ -36,14 +40,15 @@ double gauss(const PlaneSpline& spline, std::size_t span, double from, double to
   return sum * half;
 }
 
+/// @param parts  halvings that are left for this span
 double refine(const PlaneSpline& spline, std::size_t span, double from, double to, double whole,
-              double allowed, int level) {
+              double allowed, int level, int& parts) {
   const double middle = 0.5 * (from + to);
   const double left = gauss(spline, span, from, middle);
   const double right = gauss(spline, span, middle, to);
-  if (level == 0 || std::fabs(left + right - whole) <= allowed) return left + right;
-  return refine(spline, span, from, middle, left, 0.5 * allowed, level - 1) +
-         refine(spline, span, middle, to, right, 0.5 * allowed, level - 1);
+  if (level == 0 || --parts <= 0 || std::fabs(left + right - whole) <= allowed) return left + right;
+  return refine(spline, span, from, middle, left, 0.5 * allowed, level - 1, parts) +
+         refine(spline, span, middle, to, right, 0.5 * allowed, level - 1, parts);
 }
 
 }  // namespace
@@ -105,7 +110,23 @@ SplineValue PlaneSpline::eval(std::size_t span, double u) const {
 
 double PlaneSpline::length(std::size_t span, double from, double to) const {
   const double whole = gauss(*this, span, from, to);
-  return refine(*this, span, from, to, whole, kLengthTolerance * whole, kMostHalvings);
+  // points that lie on each other far from zero: below this there is nothing but rounding
+  const double rounding = speed_rounding(span) * (to - from);
+  int parts = kMostParts;
+  return refine(*this, span, from, to, whole, std::max(kLengthTolerance * whole, rounding), kMostHalvings,
+                parts);
+}
+
+/// Bound of the error that rounding makes in the speed by u within a span.
+double PlaneSpline::speed_rounding(std::size_t span) const {
+  double largest = 0, least_weight = points_[span].weight, most_weight = least_weight;
+  for (std::size_t i = span; i < span + static_cast<std::size_t>(order_); ++i) {
+    const SplineControl& p = points_[i];
+    largest = std::max({largest, std::fabs(p.first), std::fabs(p.second)});
+    least_weight = std::min(least_weight, p.weight);
+    most_weight = std::max(most_weight, p.weight);
+  }
+  return kSpeedRounding * order_ * largest * (most_weight / least_weight);
 }
 
 double PlaneSpline::length() const {

@@ -31,7 +31,8 @@ class PlaneSpline {
   std::size_t spans() const { return points_.size() - static_cast<std::size_t>(order_) + 1; }
   /// Point, velocity and acceleration by u, at 0 <= u <= 1 within a span.
   SplineValue eval(std::size_t span, double u) const;
-  /// Arc length of the whole curve, within 1e-10 of it: Gauss-Legendre on halves, until two agree.
+  /// Arc length of the whole curve, within 1e-10 of it or what rounding of coordinates leaves: Gauss-Legendre on halves,
+  /// until two agree.
   double length() const;
   /// Arc length of [from, to] within a span.
   double length(std::size_t span, double from, double to) const;
@@ -44,6 +45,7 @@ class PlaneSpline {
  private:
   Homogeneous de_boor(std::vector<Homogeneous> d, std::size_t span, std::size_t m, double at) const;
   double knot(std::size_t i) const;
+  double speed_rounding(std::size_t span) const;
 
   std::vector<SplineControl> points_;
   int order_;

@@ -198,7 +198,8 @@ void read_axes(TableReader& root, MachineModel& model) {
   if (tables.empty() && context.complete && !root.has("axis"))
     context.diagnostics.add(
         file_diagnostic(Code::machine_no_axis, root.header(), "the file has no [[axis]]"));
-  for (std::size_t i = 0; i < tables.size() && !context.diagnostics.full(); ++i) {
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    if (context.diagnostics.full()) return context.diagnostics.stop(tables[i].span);
     double home2_u = 0;
     AxisModel axis = read_axis(tables[i], i, model.clock, home2_u, context);
     if (axis.letter == 0) continue;

@@ -86,8 +86,10 @@ class DepthScan {
       const bool separates = at_ == text_.size() || kSeparators.find(text_[at_]) != std::string_view::npos;
       if (separates && parts_ > kMostKeyParts) return key();
       if (at_ == text_.size()) break;
-      if (c == '[' || c == '{') ++depth_;
-      if ((c == ']' || c == '}') && depth_ > 0) --depth_;
+      // a header ends with its line, closed or not: the parser finds what it lacks
+      if (c == '[' && depth_ == 0 && begins_line()) in_header_ = true;
+      if (!in_header_ && (c == '[' || c == '{')) ++depth_;
+      if (!in_header_ && (c == ']' || c == '}') && depth_ > 0) --depth_;
       if (depth_ > kMostNestedValues)
         return TooDeep{TooDeep::Kind::value, line_, at_ - line_begin_, 1, depth_};
       if (c == '.') ++parts_;
@@ -110,6 +112,12 @@ class DepthScan {
   void begin_line() {
     ++line_;
     line_begin_ = at_ + 1;
+    in_header_ = false;
+  }
+  /// Nothing but blanks is before at_ on its line.
+  bool begins_line() const {
+    return text_.substr(line_begin_, at_ - line_begin_).find_first_not_of(" \t\xEF\xBB\xBF") ==
+           std::string_view::npos;
   }
   void pass_string() {
     const std::size_t end = behind_string(text_, at_);
@@ -132,6 +140,7 @@ class DepthScan {
   std::uint32_t line_ = 1;
   std::size_t line_begin_ = 0;
   std::size_t key_begin_ = 0, parts_ = 1, depth_ = 0;
+  bool in_header_ = false;
 };
 
 }  // namespace

@@ -136,6 +136,7 @@ Diagnostic too_deep(const TooDeep& place, std::uint32_t file) {
   Diagnostic d = file_diagnostic(Code::file_too_deep, span,
                                  key ? fmt::format("{} parts", place.levels)
                                      : fmt::format("{} lists or tables within each other", place.levels));
+  if (!key) d.message = "lists or tables nested too deep";
   d.notes.push_back(fmt::format("allowed: {}", key ? kMostKeyParts : kMostNestedValues));
   return d;
 }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <string>
 
+#include "emulator/cycle/operator/operator_panel.h"
 #include "emulator/text/json.h"
 #include "emulator/text/sarif.h"
 #include "gcode/gcode.h"
@@ -75,6 +76,42 @@ void read_machine(const std::string& text) {
   benchmark::DoNotOptimize(told);
 }
 
+/// A program with a table of as many tools as it has lines.
+void check_with_tools(const std::string& text) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  gcode::InterpretOptions options;
+  options.tools.emplace();
+  const auto lines = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+  for (int i = 1; i <= lines; ++i) {
+    gcode::Tool tool;
+    tool.number = tool.pocket = i;
+    options.tools->tools.push_back(tool);
+  }
+  std::uint64_t blocks = 0;
+  gcode::interpret(
+      sources, sources.add(SourceText("p.ngc", text)), options, [&](const gcode::Block&) { ++blocks; },
+      diagnostics);
+  benchmark::DoNotOptimize(blocks);
+}
+
+/// A timeline with a step of the override for each byte, at its place on the path, taken control tick by control tick.
+void take_steps(const std::string& text) {
+  const machine::MachineModel machine;
+  const planner::Path path;
+  std::vector<cycle::OperatorStep> steps(text.size());
+  std::vector<double> places_u;
+  for (cycle::OperatorStep& step : steps) {
+    step.place.emplace();
+    places_u.push_back(static_cast<double>(places_u.size()));
+  }
+  cycle::EventList events(path);
+  cycle::OperatorPanel panel(steps, places_u, machine, events);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    panel.advance(ControlTicks{static_cast<std::int64_t>(i)}, places_u[i]);
+  benchmark::DoNotOptimize(panel.spindle_override());
+}
+
 std::string nested_ifs(int n) {
   return repeated(n, [](int i) { return fmt::format("O{} if [1]\n", i); }) +
          repeated(n, [n](int i) { return fmt::format("O{} endif\n", n + 1 - i); }) + "M2\n";
@@ -104,6 +141,26 @@ const Construct kConstructs[] = {
     {"calls", 20'000,
      [](int n) { return "O1 sub\nO1 endsub\n" + repeated(n, [](int) { return "O1 call\n"; }) + "M2\n"; },
      check_program},
+    {"nurbs", 1'000,
+     [](int n) {
+       return "F9000\nG5.2 P1 L16\n" +
+              repeated(
+                  n,
+                  [](int i) { return fmt::format("X{} Y{} P{}\n", i * 37 % 91, i * 53 % 89, 1 + i % 7); }) +
+              "G5.3\nM2\n";
+     },
+     check_program},
+    {"nurbs_of_one_point", 100,
+     [](int n) {
+       return "F9000\nG0 X1.1 Y1.3\nG5.2 P1 L4\n" +
+              repeated(n, [](int i) { return fmt::format("X1.1 Y1.3 P{}\n", 0.1 + i % 7); }) + "G5.3\nM2\n";
+     },
+     check_program},
+    {"tools", 10'000,
+     [](int n) { return repeated(n, [](int i) { return fmt::format("T{} M6\n", i); }) + "M2\n"; },
+     check_with_tools},
+    {"operator_steps", 10'000, [](int n) { return std::string(static_cast<std::size_t>(n), 'x'); },
+     take_steps},
     {"errors_of_one_line", 50'000, [](int n) { return repeated(n, [](int) { return "X1 "; }) + "\n"; },
      check_program},
     {"sarif_of_one_line", 50'000, [](int n) { return repeated(n, [](int) { return "X1 "; }) + "\n"; },

@@ -144,6 +144,47 @@ TEST_CASE("the gcc form has one line a diagnostic, --max-errors shows fewer") {
   CHECK(Json::parse(lines.out.substr(0, lines.out.find('\n')))["line"] == 3);
 }
 
+TEST_CASE("how many diagnostics are not shown is said in every form, and no more than that") {
+  const Scratch scratch;
+  const std::string& folder = scratch.path();
+  std::string axes, mistakes, warnings = "F1\n";
+  for (int i = 0; i < 3000; ++i) axes += "[[axis]]\nname = \"Q\"\n";
+  for (int i = 0; i < 3000; ++i) mistakes += "G1 X\n";
+  for (int i = 0; i < 3000; ++i) warnings += "G0 X0\nG2 X10.02 I5\n";
+  scratch.write("m.toml", axes);
+  scratch.write("e.ngc", mistakes);
+  scratch.write("w.ngc", warnings + "M2\n");
+  const auto last_lines = [](const std::string& text, std::size_t count) {
+    std::size_t at = text.size() - 1;
+    for (; count > 0 && at != std::string::npos; --count) at = text.rfind('\n', at - 1);
+    return text.substr(at + 1);
+  };
+  // readers that stop
+  CHECK(last_lines(call({"check", "e.ngc"}, folder).out, 2) ==
+        "at least 980 more not shown (--max-errors 0 shows 980 of them)\nat least 1000 errors in e.ngc\n");
+  for (const char* most : {"0", "5"}) {
+    CAPTURE(most);
+    CHECK(contains(call({"check", "e.ngc", "--max-errors", most}, folder).out,
+                   "reading stopped here after 1000 errors"));
+    CHECK(contains(call({"check", "e.ngc", "--max-errors", most, "--format", "json"}, folder).out,
+                   "reading stopped here after 1000 errors"));
+    CHECK(contains(call({"check", "e.ngc", "--max-errors", most, "--format", "sarif"}, folder).out,
+                   "reading stopped here after 1000 errors"));
+    CHECK(contains(call({"machine", "check", "m.toml", "--max-errors", most}, folder).out,
+                   "reading stopped here after 20"));
+  }
+  CHECK(contains(call({"check", "e.ngc", "--json"}, folder).out, "reading stopped here after 1000 errors"));
+  CHECK(contains(call({"check", "e.ngc", "--max-errors", "5", "--format", "sarif"}, folder).out,
+                 "at least 995 more diagnostics not shown"));
+  // one that reads on: all are counted
+  const Finished many = call({"check", "w.ngc"}, folder);
+  CHECK(contains(many.out, "2980 more not shown (--max-errors 0 shows 980 of them)\n"));
+  CHECK(contains(many.out, "3000 warnings in w.ngc\n"));
+  for (const char* form : {"human", "json", "sarif", "gcc"})
+    CHECK(contains(call({"check", "w.ngc", "--max-errors", "0", "--format", form}, folder).out,
+                   "2000 more warnings are not shown"));
+}
+
 TEST_CASE("programs that can't be read: exit 2, path and reason, no log") {
   const Scratch scratch;
   for (const std::string command : {"run", "check", "plan", "canon"}) {

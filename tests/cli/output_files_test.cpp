@@ -1,10 +1,12 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 
 #include <csignal>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/cli/programs.h"
@@ -145,10 +147,10 @@ TEST_CASE("a link to /dev/stdout is standard output: a pipe, a file at its place
               folder)
             .code == 0);
   CHECK(std::filesystem::is_symlink(scratch.file("stdout")));
-  // summary and log would be mixed
-  const Finished mixed = shell("kadr run p.ngc -o stdout | cat", folder);
-  CHECK(mixed.out.empty());
-  CHECK(contains(mixed.err, "stdout: the summary goes there, too; -q leaves it out"));
+  // summary and log are not mixed
+  const Finished apart = shell("kadr run p.ngc -o stdout | cmp - l.lcmlog", folder);
+  CHECK(apart.code == 0);
+  CHECK(contains(apart.err, "complete"));
   CHECK(shell("kadr run p.ngc -o m.lcmlog 2>m.lcmlog", folder).code == 2);
   CHECK(contains(scratch.read("m.lcmlog"), "m.lcmlog: messages go there, too; -q leaves them out"));
   if (::mknod(scratch.file("null").c_str(), S_IFCHR | 0600, makedev(1, 3)) != 0) {
@@ -157,6 +159,60 @@ TEST_CASE("a link to /dev/stdout is standard output: a pipe, a file at its place
   }
   CHECK(shell("kadr run p.ngc -o null >x && test -c null && grep -q '^log  *null$' x", folder).code == 0);
   CHECK(shell("kadr run p.ngc -o null >null && test -c null", folder).code == 0);
+}
+
+TEST_CASE("a result that is standard output is there alone: - and /dev/stdout, in every command") {
+  const Scratch scratch;
+  write_inputs(scratch);
+  const std::string& folder = scratch.path();
+  REQUIRE(shell("ln -s /proc/self/fd/1 stdout", folder).code == 0);
+  // what people read stands on standard error
+  for (const auto& one :
+       std::vector<std::pair<std::string, std::string>>{{"run p.ngc -o @", "complete"},
+                                                        {"law --zeta 0.005 --csv @", "energy"},
+                                                        {"law --zeta 0.005 --page @", "energy"},
+                                                        {"tube t.toml --csv @", "law"},
+                                                        {"tube t.toml --page @", "law"},
+                                                        {"tube t.toml --sweep-levels 5..6 --csv @", "levels"},
+                                                        {"compare l.lcmlog l.lcmlog -o @", "time"},
+                                                        {"teach table line 5 2 --vcd @", "half_step"},
+                                                        {"teach table line 5 2 --csv --vcd @", ""},
+                                                        {"scenario run s.toml --junit @", "1 passed"},
+                                                        {"export l.lcmlog --csv -o @", ""},
+                                                        {"report l.lcmlog --plain -o @", ""},
+                                                        {"wind hoop -o @", ""}}) {
+    const std::string& arguments = one.first;
+    const std::string& summary = one.second;
+    CAPTURE(arguments);
+    const auto to = [&arguments](const std::string& name) {
+      std::string text = arguments;
+      return text.replace(text.find('@'), 1, name);
+    };
+    REQUIRE(shell("rm -f file; kadr " + to("file") + " >said 2>told", folder).code == 0);
+    for (const char* name : {"-", "stdout"}) {
+      CAPTURE(name);
+      const Finished done = shell("kadr " + to(name) + " | cmp - file", folder);
+      CAPTURE(done.err);
+      CHECK(done.code == 0);
+      CHECK(done.out.empty());
+      CHECK(contains(done.err, summary));
+      CHECK_FALSE(scratch.has("-"));
+    }
+    if (!summary.empty()) {
+      const Finished quiet = shell("kadr " + to("-") + " -q | cmp - file", folder);
+      CHECK(quiet.code == 0);
+      CHECK(quiet.err.empty());
+      CHECK(contains(shell("kadr " + to("-") + " 2>&1 | cat", folder).out, "messages go there, too"));
+      if (!contains(arguments, "--csv --vcd")) {
+        const Finished both = shell("kadr " + to("-") + " --json | cat", folder);
+        CHECK(both.out.empty());
+        CHECK(contains(both.err, "standard output: the JSON document goes there, too"));
+      }
+    }
+  }
+  const Finished two = shell("kadr law --zeta 0.005 --csv - --page stdout | cat", folder);
+  CHECK(two.out.empty());
+  CHECK(contains(two.err, "stdout: another result goes there, too"));
 }
 
 TEST_CASE("-o through a link writes what the link names, and a folder or a socket is refused") {
@@ -295,6 +351,49 @@ TEST_CASE("a FIFO, a folder or a device in place of a log is refused at once") {
       CHECK(done.code == 2);
       CHECK(contains(done.err, name + ": not a regular file"));
     }
+}
+
+TEST_CASE("a name of 250 bytes and more is an output like others, and a longer one is refused") {
+  const Scratch scratch;
+  write_inputs(scratch);
+  for (const std::size_t bytes : {250U, 251U, 255U}) {
+    CAPTURE(bytes);
+    const std::string name = std::string(bytes - 7, 'n') + ".lcmlog";
+    const Finished done = call({"run", "p.ngc", "-q", "-o", name}, scratch.path());
+    CAPTURE(done.err);
+    CHECK(done.code == 0);
+    CHECK(scratch.read(name) == scratch.read("l.lcmlog"));
+    const Finished refused =
+        call({"run", "p.ngc", "-q", "-o", name, "--limit", "log_bytes=100"}, scratch.path());
+    CHECK(refused.code == 2);
+  }
+  // two long names that differ at their end are two files
+  const std::string begin(250, 'n');
+  const Finished both = call(
+      {"law", "--zeta", "0.005", "-q", "--csv", begin + "1.csv", "--page", begin + "2.htm"}, scratch.path());
+  CHECK(both.code == 0);
+  const Finished long_name = call({"law", "--csv", std::string(256, 'n')}, scratch.path());
+  CHECK(long_name.code == 2);
+  CHECK(contains(long_name.err, "File name too long"));
+}
+
+TEST_CASE("Ctrl-C ends a run that waits for the reader of its FIFO") {
+  const Scratch scratch;
+  write_inputs(scratch);
+  REQUIRE(::mkfifo(scratch.file("fifo").c_str(), 0600) == 0);
+  for (const auto& one : {std::pair("INT", 130), std::pair("TERM", 143)}) {
+    const char* signal = one.first;
+    const int code = one.second;
+    CAPTURE(signal);
+    // it says what log it writes before it opens that
+    const Finished done = shell(
+        fmt::format("(exec env --default-signal=INT kadr run p.ngc -o fifo) 2>told & kadr=$!; "
+                    "for i in $(seq 600); do grep -q 'log fifo' told && break; sleep 0.1; done; sleep 0.5; "
+                    "kill -{} $kadr; wait $kadr; echo $?",
+                    signal),
+        scratch.path());
+    CHECK(done.out == fmt::format("{}\n", code));
+  }
 }
 
 TEST_CASE("a log is bounded: one that would be too long does not begin, one that becomes too long ends") {

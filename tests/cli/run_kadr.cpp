@@ -136,7 +136,9 @@ Finished run_kadr(const Launch& launch) {
   for (const int fd : {out.read, err.read, terminal})
     if (fd >= 0) ::close(fd);
   int status = 0;
-  ::waitpid(child, &status, 0);
+  rusage used{};
+  ::wait4(child, &status, 0, &used);
+  done.peak_MB = static_cast<double>(used.ru_maxrss) * 1024 / 1e6;
   if (WIFEXITED(status)) done.code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) done.signal = WTERMSIG(status);
   return done;

@@ -11,10 +11,11 @@ namespace kadr::test {
 
 /// Output and exit code of a finished program.
 struct Finished {
-  int code = -1;    ///< exit code; -1 if a signal ended it
-  int signal = 0;   ///< number of that signal
-  std::string out;  ///< standard output
-  std::string err;  ///< standard error
+  int code = -1;       ///< exit code; -1 if a signal ended it
+  int signal = 0;      ///< number of that signal
+  std::string out;     ///< standard output
+  std::string err;     ///< standard error
+  double peak_MB = 0;  ///< most memory that it had at once (not less than this process has)
 };
 
 struct Launch {

@@ -31,6 +31,16 @@ std::vector<std::vector<std::string>> commands(const std::string& in) {
 
 }  // namespace
 
+TEST_CASE("a scenario in place of a program is told what takes it") {
+  const Scratch scratch;
+  scratch.write("s.toml", "format = 1\n");
+  for (const char* command : {"run", "check", "plan", "canon", "fmt"}) {
+    const Finished done = call({command, "s.toml"}, scratch.path());
+    CHECK(done.code == 2);
+    CHECK(contains(done.err, "s.toml: a TOML file is no program; kadr run -s FILE runs a scenario\n"));
+  }
+}
+
 TEST_CASE("a pipe or device as any input is refused at once, with its name") {
   const Scratch scratch;
   scratch.write("p.ngc", "G0 X1\nM2\n");

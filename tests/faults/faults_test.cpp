@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -22,8 +24,12 @@ namespace fs = std::filesystem;
 using Files = std::map<std::string, std::string>;
 
 // KADR_FAULTS names others, with commas
-const std::string kKinds = "write,short_write,open,rename,fsync,ftruncate,flock,unlink,fchmod,";
+const std::string kKinds =
+    "write,short_write,open,rename,fsync,ftruncate,flock,unlink,fchmod,fchown,close,mmap,malloc,";
 constexpr int kMostCalls = 200;
+// of allocations, of which there are thousands, so many fail, evenly spread; half of them among those that a command
+// makes beyond what reading the command line takes
+constexpr int kAllocations = 40;
 const std::string kMark = "fault.mark";
 
 const std::string kProgram = "G21 G90 G94\nG1 X5 F1200\nY2\nM2\n";
@@ -62,6 +68,40 @@ class FaultRun {
     REQUIRE(whole_.size() == writer.outputs.size());
   }
 
+  /// Calls that the command makes.
+  long count_calls(const std::string& kind) {
+    run(kind, 0, "KADR_FAULT_COUNT=" + scratch_.file("count"));
+    return std::atol(scratch_.read("count").c_str());
+  }
+
+  int kill_at(int places) {
+    const long calls = count_calls("any");
+    REQUIRE(calls > 0);
+    int killed = 0;
+    for (int i = 0; i < places; ++i) {
+      // from the first to the last, each a place of its own as long as there are enough
+      const long n = 1 + (calls - 1) * i / std::max(places - 1, 1);
+      const Finished done = run("any", n, "KADR_FAULT_KILL=1");
+      CAPTURE(n);
+      CHECK(done.signal == SIGKILL);
+      killed += done.signal == SIGKILL ? 1 : 0;
+      check_killed();
+    }
+    return killed;
+  }
+
+  /// Lets allocations fail, evenly spread. @return how many there are in a run
+  int try_allocations(long command_line) {
+    const long calls = count_calls("malloc");
+    const long begin = std::min(command_line, calls);
+    for (int i = 0; i < kAllocations; ++i) {
+      const long half = kAllocations / 2;
+      const long n = i < half ? 1 + begin * i / half : begin + (calls - begin) * (i - half + 1) / half;
+      check(run("malloc", n), "malloc", static_cast<int>(n));
+    }
+    return static_cast<int>(calls);
+  }
+
   /// Lets the calls of a kind fail one after the other. @return how many there were
   int try_all(const std::string& kind) {
     for (int n = 1; n <= kMostCalls; ++n) {
@@ -74,7 +114,33 @@ class FaultRun {
   }
 
  private:
-  Finished run(const std::string& kind, int n) {
+  void check_killed() const {
+    for (const auto& file : outputs()) {
+      const auto before = inputs_.find(file.first);
+      CHECK((file.second == whole_.at(file.first) ||
+             (before != inputs_.end() && file.second == before->second)));
+    }
+    for (const auto& file : inputs_)
+      CHECK((scratch_.read(file.first) == file.second ||
+             (whole_.contains(file.first) && scratch_.read(file.first) == whole_.at(file.first))));
+    for (const std::string& name : writer_.outputs) {
+      if (!writer_.keeps_part || !scratch_.has(name + ".part")) continue;
+      const Finished read = test::call({"info", name + ".part"}, scratch_.path());
+      CAPTURE(read.out);
+      CAPTURE(read.err);
+      // whole, but for its name; cut off; or cut off in its header
+      const bool whole = scratch_.read(name + ".part") == whole_.at(name);
+      CHECK(read.signal == 0);
+      if (whole)
+        CHECK(read.code == 0);
+      else if (read.code == 1)
+        CHECK(test::contains(read.out, "cut off"));
+      else
+        CHECK(read.code == 2);
+    }
+  }
+
+  Finished run(const std::string& kind, long n, const std::string& more = "KADR_FAULT=") {
     for (const std::string& name : writer_.outputs)
       for (const std::string& file : {name, name + ".part"}) scratch_.remove(file);
     scratch_.remove(kMark);
@@ -85,7 +151,8 @@ class FaultRun {
     launch.environment = {"LANG=C.UTF-8"};
     if (!kind.empty())
       launch.environment = {"LD_PRELOAD=" KADR_FAILING_CALLS, "KADR_FAULT_CALL=" + kind,
-                            fmt::format("KADR_FAULT_AT={}", n), "KADR_FAULT_MARK=" + scratch_.file(kMark)};
+                            fmt::format("KADR_FAULT_AT={}", n), "KADR_FAULT_MARK=" + scratch_.file(kMark),
+                            more};
     return test::run_kadr(launch);
   }
 
@@ -103,6 +170,7 @@ class FaultRun {
     CAPTURE(done.err);
     CHECK(done.signal == 0);
     CHECK((done.code == 0 || done.code == 1 || done.code == 2));
+    if (kind == "malloc") CHECK((done.code == 0 || (done.code == 2 && !done.err.empty())));
     const Files found = outputs();
     if (done.code == 0) {
       CHECK(found == whole_);
@@ -138,6 +206,19 @@ class FaultRun {
   Files whole_;
 };
 
+/// Kills a command with SIGKILL in each of many calls of the C library, allocations included, evenly spread over all that
+/// it makes: what has its name is whole or as before, inputs are as before, a log's .part reads as cut off.
+/// @param spread  so many places
+/// @return how often it was killed
+int try_kills(const Writer& writer, int spread);
+
+/// Allocations that every command makes before it begins.
+long command_line_allocations() {
+  static const Writer version{.arguments = {"version", "-q"}, .outputs = {}, .inputs = {}};
+  static const long allocations = FaultRun(version).count_calls("malloc");
+  return allocations;
+}
+
 /// All kinds of calls. Every command that writes a file opens, writes, syncs and renames it.
 void try_faults(const Writer& writer) {
   FaultRun faults(writer);
@@ -148,7 +229,8 @@ void try_faults(const Writer& writer) {
     const auto comma = kinds.find(',');
     const std::string kind = kinds.substr(0, comma);
     kinds.erase(0, comma + 1);
-    calls[kind] = faults.try_all(kind);
+    calls[kind] =
+        kind == "malloc" ? faults.try_allocations(command_line_allocations()) : faults.try_all(kind);
   }
   if (chosen) return;
   CHECK(calls["write"] > 0);
@@ -160,7 +242,30 @@ void try_faults(const Writer& writer) {
   CHECK(calls["flock"] > 0);
 }
 
+int try_kills(const Writer& writer, int spread) { return FaultRun(writer).kill_at(spread); }
+
 }  // namespace
+
+TEST_CASE("kill -9 in any call leaves no half a file under a name, and a log's .part that reads as cut off") {
+  // KADR_KILLS: so many in all
+  const char* chosen = std::getenv("KADR_KILLS");
+  const int kills = chosen ? std::atoi(chosen) : 40;
+  int killed = try_kills({.arguments = {"run", "p.ngc", "-o", "out.lcmlog", "-q", "--no-plant"},
+                          .outputs = {"out.lcmlog"},
+                          .keeps_part = true},
+                         kills / 2);
+  killed += try_kills({.arguments = {"run", "p.ngc", "-o", "out.lcmlog", "-q", "--threads", "2"},
+                       .outputs = {"out.lcmlog"},
+                       .keeps_part = true},
+                      kills / 4);
+  killed += try_kills(
+      {.arguments = {"report", "l.lcmlog", "--plain", "-o", "out.html"}, .outputs = {"out.html"}}, kills / 8);
+  killed += try_kills({.arguments = {"fmt", "--in-place", "p.ngc"},
+                       .outputs = {"p.ngc"},
+                       .inputs = {{"p.ngc", "g21 g90\n  g1   x5 f1200\nm2\n"}}},
+                      kills / 8);
+  MESSAGE(killed, " kills");
+}
 
 TEST_CASE("one failing call: kadr run") {
   try_faults({.arguments = {"run", "p.ngc", "-o", "out.lcmlog", "-q"},

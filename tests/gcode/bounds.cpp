@@ -84,6 +84,21 @@ TEST_CASE("whatever a program repeats ends at one bound by its name") {
   CHECK(run(once(25'600), messages).codes().empty());
 }
 
+TEST_CASE("the order of a NURBS has a bound, and points on one spot need no more time than others") {
+  std::string points;
+  for (int i = 0; i < 499; ++i) points += fmt::format("X{} Y{} P1\n", i * 37 % 91, i * 53 % 89);
+  const auto of_order = [&](int order) { return fmt::format("F9 G5.2 P1 L{}\n{}G5.3\nM2\n", order, points); };
+  check_ends(of_order(500), {}, Code::word_out_of_range, "16 (--limit nurbs_order=N)");
+  check_ends(of_order(17), {}, Code::word_out_of_range, "16 (--limit nurbs_order=N)");
+  CHECK(run(of_order(16)).codes().empty());
+  CHECK(run(of_order(17), bounded({{"nurbs_order", 17}})).codes().empty());
+  CHECK(run(of_order(18), bounded({})).codes().empty());
+  // its length is rounding and nothing else: halving finds no end by itself
+  CHECK(run("F9 G0 X1.1 Y1.3\nG5.2 P1 L4\nX1.1 Y1.3 P2\nX1.1 Y1.3 P.7\nX1.1 Y1.3 P.3\nG5.3\nM2\n")
+            .codes()
+            .empty());
+}
+
 TEST_CASE("under the defaults every program ends, and one of many lines that run once is let through") {
   const ReadingBounds defaults;
   for (const std::uint64_t bound :

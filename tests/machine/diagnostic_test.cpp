@@ -323,6 +323,22 @@ TEST_CASE("of any number of diagnostics 2000 errors and 2000 warnings are kept, 
   CHECK(list.list().size() == 2 * Diagnostics::kMost + 1);
   CHECK(std::count_if(list.list().begin(), list.list().end(),
                       [](const Diagnostic& d) { return d.code == Code::too_many_errors; }) == 1);
+  const auto rest = [](const Diagnostics& of) {
+    return std::find_if(of.list().begin(), of.list().end(), tells_rest)->label;
+  };
+  CHECK(rest(list) == "6000 more errors and 4000 more warnings are not shown");
+  CHECK(list.left_out() == 10'000);
+  // what is left out is not forgotten when lists are put together or in order
+  Diagnostics all;
+  all.add(warning);
+  all.add(list);
+  all.sort_by_place();
+  CHECK(all.errors() == 8000);
+  CHECK(all.warnings() == 6001);
+  CHECK(rest(all) == "6000 more errors and 4001 more warnings are not shown");
+  all.stop({});
+  CHECK(rest(all) ==
+        "reading stopped here after 8000 errors; 6000 more errors and 4001 more warnings are not shown");
 
   Diagnostics long_texts;
   std::string label = "x";

@@ -109,6 +109,26 @@ TEST_CASE("keys and lists of any depth are refused with a place") {
   }
 }
 
+TEST_CASE("headers that are not closed are a mistake of the first one, however many there are") {
+  for (const char* header : {"[axis\n", "  [[axis\n", "[[[[axis\n", "[axis] [[\n"}) {
+    CAPTURE(header);
+    std::string text = "\xEF\xBB\xBF";
+    for (int i = 0; i < 33; ++i) text += header;
+    CHECK_FALSE(deep(text));
+    const Diagnostics found = parse(text);
+    REQUIRE(found.errors() == 1);
+    CHECK(found.list().front().code == Code::file_syntax);
+    CHECK(found.list().front().span.line == 1);
+  }
+  // what is a list goes on over lines, whatever they begin with
+  std::string list = "x = [\n";
+  for (int i = 0; i < 32; ++i) list += "[\n";
+  CHECK(deep(list));
+  const Diagnostics found = parse(list);
+  REQUIRE_FALSE(found.list().empty());
+  CHECK(found.list().front().message == "lists or tables nested too deep");
+}
+
 TEST_CASE("what nests as deep as is allowed, in all ways at once, is read") {
   std::string value = "1";
   for (std::size_t i = 0; i < kMostNestedValues; ++i)

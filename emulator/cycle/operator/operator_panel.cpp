@@ -31,6 +31,8 @@ OperatorPanel::OperatorPanel(const std::vector<OperatorStep>& steps, std::vector
     else
       timed_ = i + 1;
   }
+  std::stable_sort(placed_.begin(), placed_.end(),
+                   [&](std::size_t a, std::size_t b) { return places_u_[a] < places_u_[b]; });
 }
 
 const planner::OperatorInput& OperatorPanel::advance(ControlTicks tick, double s_u) {
@@ -38,11 +40,13 @@ const planner::OperatorInput& OperatorPanel::advance(ControlTicks tick, double s
   for (; next_ < timed_ && steps_[next_].tick <= tick; ++next_) take(steps_[next_], begin);
   for (const OperatorStep& step : live_) take(step, begin);
   live_.clear();
-  std::erase_if(placed_, [&](std::size_t i) {
-    if (places_u_[i] > s_u) return false;
-    take(steps_[i], begin);
-    return true;
-  });
+  // those of one control tick in the order of the timeline
+  const std::size_t reached = next_placed_;
+  while (next_placed_ < placed_.size() && places_u_[placed_[next_placed_]] <= s_u) ++next_placed_;
+  const auto first = placed_.begin() + static_cast<std::ptrdiff_t>(reached);
+  const auto last = placed_.begin() + static_cast<std::ptrdiff_t>(next_placed_);
+  std::sort(first, last);
+  std::for_each(first, last, [&](std::size_t i) { take(steps_[i], begin); });
   const double before = spindle_override_;
   spindle_override_ = reactor_.advance(load_);
   if (spindle_override_ != before)

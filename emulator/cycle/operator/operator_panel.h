@@ -39,8 +39,9 @@ class OperatorPanel {
   SpindleReactor reactor_;
   planner::OperatorInput input_{};
   std::size_t next_ = 0, timed_ = 0;  // next of the steps with a tick, and how many they are
-  std::vector<std::size_t> placed_;   // steps at path positions not reached yet
-  std::vector<OperatorStep> live_;    // for the next control tick
+  std::vector<std::size_t> placed_;   // steps at path positions, in the order in which the path reaches them
+  std::size_t next_placed_ = 0;
+  std::vector<OperatorStep> live_;  // for the next control tick
   double operator_override_ = 1, spindle_override_ = 1, load_ = 0;
 };
 

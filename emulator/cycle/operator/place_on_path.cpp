@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "machine/file/tree.h"
@@ -11,19 +13,34 @@
 namespace kadr::cycle {
 namespace {
 
-/// First segment of the motion that a step names, or nothing.
-std::optional<std::size_t> first_segment(const PathPlace& place, const planner::Path& path,
-                                         std::uint32_t program) {
-  int passes = 0;
-  for (std::size_t i = 0; i < path.size(); i = path.block_end(i)) {
-    const planner::PathSegment& s = path.segments[i];
-    const bool here = place.kind == PathPlace::Kind::block
-                          ? s.block == static_cast<std::uint32_t>(place.number)
-                          : s.span.file == program && s.span.line == static_cast<std::uint32_t>(place.number);
-    if (here && ++passes == place.pass) return i;
+/// Where motions begin, by block and by line of the program.
+class MotionStarts {
+ public:
+  MotionStarts(const planner::Path& path, std::uint32_t program) {
+    for (std::size_t i = 0; i < path.size(); i = path.block_end(i)) {
+      const planner::PathSegment& s = path.segments[i];
+      of_block_.try_emplace(s.block, i);
+      if (s.span.file == program) of_line_[s.span.line].push_back(i);
+    }
   }
-  return {};
-}
+
+  /// First segment of the motion that a step names, or nothing.
+  std::optional<std::size_t> find(const PathPlace& place) const {
+    const auto number = static_cast<std::uint32_t>(place.number);
+    if (place.kind == PathPlace::Kind::block) {
+      const auto block = of_block_.find(number);
+      return block == of_block_.end() || place.pass != 1 ? std::nullopt : std::optional(block->second);
+    }
+    const auto line = of_line_.find(number);
+    const auto pass = static_cast<std::size_t>(place.pass);
+    if (line == of_line_.end() || pass < 1 || pass > line->second.size()) return {};
+    return line->second[pass - 1];
+  }
+
+ private:
+  std::unordered_map<std::uint32_t, std::size_t> of_block_;
+  std::unordered_map<std::uint32_t, std::vector<std::size_t>> of_line_;
+};
 
 /// Path length s at a distance after the beginning of a segment, the distance as feeds measure it.
 std::optional<double> ahead_of(const planner::Path& path, std::size_t segment, double distance_u) {
@@ -54,6 +71,9 @@ std::string place_text(const PathPlace& place) {
 std::vector<double> place_on_path(const std::vector<OperatorStep>& steps, const planner::Path& path,
                                   std::uint32_t blocks, std::uint32_t program, Diagnostics& diagnostics) {
   std::vector<double> places_u(steps.size(), 0.0);
+  if (std::none_of(steps.begin(), steps.end(), [](const OperatorStep& s) { return s.place.has_value(); }))
+    return places_u;
+  const MotionStarts starts(path, program);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (!steps[i].place) continue;
     const PathPlace& place = *steps[i].place;
@@ -62,7 +82,7 @@ std::vector<double> place_on_path(const std::vector<OperatorStep>& steps, const 
     if (place.kind == PathPlace::Kind::length)
       distance_u += place.number;
     else
-      segment = first_segment(place, path, program);
+      segment = starts.find(place);
     const auto path_u = segment ? ahead_of(path, *segment, distance_u) : std::nullopt;
     if (path_u) {
       places_u[i] = *path_u;

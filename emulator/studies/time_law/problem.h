@@ -6,6 +6,7 @@
 
 #include <tl/expected.hpp>
 
+#include "gcode/reading_bounds.h"
 #include "machine/base/diagnostic.h"
 #include "planner/time_law/time_law.h"
 
@@ -62,7 +63,9 @@ struct TimeLawProblem {
 /// Reads sources[file] as a problem; a table, or a program and its machine, are next to it and are added to
 /// the sources.
 /// @return the problem, which passes check_problem(), or all mistakes found
+/// @param bounds  of the program
 /// @throws std::system_error for a table that is there and can't be read
-tl::expected<TimeLawProblem, Diagnostics> read_time_law_problem(SourceSet& sources, std::uint32_t file);
+tl::expected<TimeLawProblem, Diagnostics> read_time_law_problem(SourceSet& sources, std::uint32_t file,
+                                                                const gcode::ReadingBounds& bounds = {});
 
 }  // namespace kadr::studies

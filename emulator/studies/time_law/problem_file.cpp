@@ -25,8 +25,9 @@ constexpr double kMostDerivatives = 2e7;  ///< nodes times axes
 
 class ProblemReader {
  public:
-  ProblemReader(SourceSet& sources, std::uint32_t file, machine::ReadContext& context)
-      : sources_(sources), file_(file), context_(context), program_(sources, file, context) {}
+  ProblemReader(SourceSet& sources, std::uint32_t file, machine::ReadContext& context,
+                const gcode::ReadingBounds& bounds)
+      : sources_(sources), file_(file), context_(context), program_(sources, file, context, bounds) {}
 
   void read(const Node& root) {
     TableReader table(&root, "", Span{file_, 1, 1, 1}, context_);
@@ -331,11 +332,12 @@ double TimeLawProblem::scale_mm_s() const {
   return highest;
 }
 
-tl::expected<TimeLawProblem, Diagnostics> read_time_law_problem(SourceSet& sources, std::uint32_t file) {
+tl::expected<TimeLawProblem, Diagnostics> read_time_law_problem(SourceSet& sources, std::uint32_t file,
+                                                                const gcode::ReadingBounds& bounds) {
   Diagnostics diagnostics;
   const machine::ParsedTree tree = machine::parse_toml(sources, file, diagnostics);
   machine::ReadContext context{diagnostics, sources, tree.complete, {}};
-  ProblemReader reader(sources, file, context);
+  ProblemReader reader(sources, file, context, bounds);
   reader.read(tree.root);
   if (diagnostics.has_errors()) return tl::unexpected(std::move(diagnostics));
   return reader.take();

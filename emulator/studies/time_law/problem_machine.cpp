@@ -29,7 +29,7 @@ std::optional<machine::MachineFile> open_problem_machine(SourceSet& sources, std
                                                     : SourceText(name.value + ".toml", std::string(shipped)),
                                     sources);
   if (read) return std::move(*read);
-  for (const Diagnostic& d : read.error().list()) context.diagnostics.add(d);
+  context.diagnostics.add(read.error());
   return {};
 }
 

@@ -94,11 +94,12 @@ bool ProgramProblem::lay_out(machine::MachineFile machine, TimeLawProblem& out) 
     tell(Code::problem_program, file.span, fmt::format("there is no file {}", path.string()));
     return {};
   };
-  auto program = open(program_, gcode::ReadingBounds().file_bytes);
+  auto program = open(program_, bounds_.file_bytes);
   auto tools = tools_ ? open(*tools_, kMostTable_bytes) : std::nullopt;
   if (!program || (tools_ && !tools)) return false;
   cycle::JobInputs given;
   given.machine = std::move(machine);
+  given.reading.bounds = bounds_;
   Diagnostics found;
   if (tools) given.reading.tools = gcode::read_tool_table(sources_, sources_.add(std::move(*tools)), found);
   given.program = program_file_ = sources_.add(std::move(*program));
@@ -106,7 +107,7 @@ bool ProgramProblem::lay_out(machine::MachineFile machine, TimeLawProblem& out) 
   if (read)
     for (const Diagnostic& fault : read->path.faults) found.add(fault);
   if (!read || found.has_errors()) {
-    for (const Diagnostic& d : found.list()) context_.diagnostics.add(d);
+    context_.diagnostics.add(found);
     return false;
   }
   out.warnings = std::move(found);

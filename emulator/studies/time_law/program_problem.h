@@ -11,8 +11,9 @@ namespace kadr::studies {
 /// A problem whose path is a stretch of a program: its keys and how they are used.
 class ProgramProblem {
  public:
-  ProgramProblem(SourceSet& sources, std::uint32_t file, machine::ReadContext& context)
-      : sources_(sources), file_(file), context_(context) {}
+  ProgramProblem(SourceSet& sources, std::uint32_t file, machine::ReadContext& context,
+                 const gcode::ReadingBounds& bounds)
+      : sources_(sources), file_(file), context_(context), bounds_(bounds) {}
 
   /// The keys of [path] for such a problem; max_mm_s and others are read elsewhere.
   void read_path(machine::TableReader& keys);
@@ -51,6 +52,7 @@ class ProgramProblem {
   SourceSet& sources_;
   std::uint32_t file_;
   machine::ReadContext& context_;
+  gcode::ReadingBounds bounds_;
   machine::Reading<std::string> program_, machine_name_;
   std::optional<machine::Reading<std::string>> tools_;
   std::optional<machine::Reading<double>> from_line_, to_line_;

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <kadr/axis_t.hpp>
 #include <kadr/block_end_t.hpp>
@@ -104,6 +105,18 @@ TEST_CASE("every control tick comes back from a log bit by bit: 1000 ticks, 3 ax
     }
   }
   CHECK(tick == 1000);
+}
+
+TEST_CASE("the hash of a log is that of the file that was opened, whatever has its name by then") {
+  const TestFolder folder;
+  const auto machine = test::log_machine(1);
+  test::write_log(folder / "a.lcmlog", machine, 100);
+  test::write_log(folder / "b.lcmlog", machine, 200);
+  const std::uint64_t hash = LogReader::open(folder / "a.lcmlog")->file_hash();
+  const auto reader = LogReader::open(folder / "a.lcmlog");
+  REQUIRE(std::rename((folder / "b.lcmlog").c_str(), (folder / "a.lcmlog").c_str()) == 0);
+  CHECK(reader->file_hash() == hash);
+  CHECK(LogReader::open(folder / "a.lcmlog")->file_hash() != hash);
 }
 
 TEST_CASE("every pulse comes back from a log: offsets, directions, hash and count") {
