@@ -76,6 +76,7 @@ void Options::reading(CLI::App* sub, Writes writes) {
       ->type_name("DIR")
       ->allow_extra_args(false)
       ->take_all();
+  allow(sub);
   sub->add_option_function<std::vector<std::string>>(
          "--limit",
          [this, log](const std::vector<std::string>& texts) {
@@ -103,6 +104,14 @@ void Options::reading(CLI::App* sub, Writes writes) {
       ->type_name("WORD");
   words(sub->get_option("--limit"), names_with_equals(limit_names(log)));
   words(sub->get_option("--dialect"), gcode::kDialects.strings());
+}
+
+void Options::allow(CLI::App* sub) {
+  sub->add_option("--allow", arguments.allowed_folders,
+                  "Folder below which files may lie that a file names, besides its own folder; repeatable")
+      ->type_name("DIR")
+      ->allow_extra_args(false)
+      ->take_all();
 }
 
 void Options::limit(const std::string& text, bool log) {

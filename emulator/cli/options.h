@@ -41,6 +41,7 @@ class Options {
   void machine(CLI::App* sub);
   enum class Writes : std::uint8_t { nothing, log };
   void reading(CLI::App* sub, Writes writes = Writes::nothing);
+  void allow(CLI::App* sub);
   void strict(CLI::App* sub);
   CLI::Option* programs(CLI::App* sub, const std::string& name, bool several);
 

@@ -145,7 +145,7 @@ int solve_tube(const Arguments& arguments, Console& console) {
       console.diagnostics(diagnostics, sources, name, Console::Where::errors);
     return kNotStarted;
   };
-  const auto problem = studies::read_time_law_problem(sources, file);
+  const auto problem = studies::read_time_law_problem(sources, file, arguments.allowed_folders);
   if (!problem) return refuse(problem.error());
   if (!problem->warnings.list().empty())
     console.diagnostics(problem->warnings, sources, name, Console::Where::errors);
