@@ -107,7 +107,8 @@ void take_scenario(RunInputs& in) {
   in.arguments.settings = std::move(settings);
   if (in.machine.path.empty())
     in.machine = scenario->machine_is_file ? scenario->input(scenario->machine) : scenario->machine;
-  if (in.tools.path.empty() && !scenario->tools_file.empty()) in.tools = scenario->input(scenario->tools_file);
+  if (in.tools.path.empty() && !scenario->tools_file.empty())
+    in.tools = scenario->input(scenario->tools_file);
   if (!in.arguments.dialect) in.arguments.dialect = scenario->dialect;
   if (!in.program_file.path.empty()) return;
   if (!scenario->generated_program.empty()) {
@@ -142,8 +143,8 @@ void read_inputs(RunInputs& in) {
     in.program = program_text(in.program_file.path);
   }
   const auto tools = static_cast<std::uint32_t>(in.sources.size());
-  in.started = load_reading(in.arguments, in.tools, in.sources, in.given.reading, in.diagnostics) &&
-               in.machine_good;
+  in.started =
+      load_reading(in.arguments, in.tools, in.sources, in.given.reading, in.diagnostics) && in.machine_good;
   if (!in.started) return;
   list_files(in, tools);
   if (!in.scenario) return;

@@ -61,8 +61,8 @@ log::RunHeader run_header(const cycle::Job& job, const cycle::RunOptions& option
   for (const std::uint32_t file : job.read.called_files) {
     const SourceText& called = job.sources[file];
     files.push_back(read_file("called", called.name(), called.text()));
-    header.settings_toml += fmt::format("[[called]]\nfile = \"{}\"\nhash = \"{:016x}\"\n",
-                                        files.back().name, files.back().hash);
+    header.settings_toml +=
+        fmt::format("[[called]]\nfile = \"{}\"\nhash = \"{:016x}\"\n", files.back().name, files.back().hash);
   }
   header.files = std::move(files);
   header.machine = &job.given.machine.model;

@@ -33,7 +33,7 @@ struct RunHeader {
   std::string scenario_toml;  ///< as read, empty if none
   std::string settings_toml;  ///< every value in force
   std::uint64_t inputs_hash = 0;
-  std::vector<ReadFile> files;  ///< in the order in which they were read
+  std::vector<ReadFile> files;                     ///< in the order in which they were read
   const machine::MachineModel* machine = nullptr;  ///< clock, axes, log settings
 };
 

@@ -87,9 +87,9 @@ struct ScenarioTechnology {
 
 /// A scenario file as read; nothing of it has run.
 struct Scenario {
-  std::string file;    ///< path of scenario.toml as given
+  std::string file;      ///< path of scenario.toml as given
   InputFolders folders;  ///< below which program, machine and tools lie
-  std::string text;    ///< scenario.toml as read
+  std::string text;      ///< scenario.toml as read
   std::string name;
   std::string summary;
   std::string program_name;       ///< file name without folders; "wind_hoop.ngc" of a generated one

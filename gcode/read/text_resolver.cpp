@@ -13,8 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-FoundText refuse(std::string reason, std::string help = "put the file below the program's folder, or name its "
-                                                        "folder with --subs") {
+FoundText refuse(std::string reason, std::string help =
+                                         "put the file below the program's folder, or name its "
+                                         "folder with --subs") {
   return {{}, std::move(reason), std::move(help), {}, false};
 }
 
@@ -49,8 +50,9 @@ FoundText FolderTexts::find(std::string_view name) const {
       case InputPlace::inside:
         return open_text(wanted, most_bytes_);
       case InputPlace::outside:
-        return refuse(wanted.path + " is a link that leads out of its folder",
-                      "put the file below the program's folder, or allow the folder that it is in with --allow DIR");
+        return refuse(
+            wanted.path + " is a link that leads out of its folder",
+            "put the file below the program's folder, or allow the folder that it is in with --allow DIR");
       case InputPlace::missing:
         return refuse(wanted.path + " is not a plain file");
     }

@@ -84,9 +84,9 @@ int open_input(const InputFile& file) {
     return -1;
   }
   if (!lies_within(real, *file.folders))
-    throw UnreadableText(file.path, std::errc::operation_not_permitted,
-                         fmt::format("lies outside {}; --allow DIR allows files below another folder",
-                                     file.folders->text()));
+    throw UnreadableText(
+        file.path, std::errc::operation_not_permitted,
+        fmt::format("lies outside {}; --allow DIR allows files below another folder", file.folders->text()));
   return open_without_links(real.string());
 }
 

@@ -41,14 +41,19 @@ struct Ward {
     fs::create_symlink("../open/given", scratch.file("in/given"));
   }
   std::vector<std::string> ways_out() const {
-    return {"../out/secret",  scratch.file("out/secret"), "link",     "far",
-            "linked/secret",  "link_of_link",             "sub/link", "sub/../../out/secret",
-            "../in/sub/link", scratch.file("in/link"),    "../open/given"};
+    return {"../out/secret",  scratch.file("out/secret"),
+            "link",           "far",
+            "linked/secret",  "link_of_link",
+            "sub/link",       "sub/../../out/secret",
+            "../in/sub/link", scratch.file("in/link"),
+            "../open/given"};
   }
   std::vector<std::string> ways_inside() const {
     return {"inner", "sub/inner", "sub/../inner", "./inner", "../in/inner", scratch.file("in/inner")};
   }
-  Finished run(std::vector<std::string> arguments) const { return call(std::move(arguments), scratch.path()); }
+  Finished run(std::vector<std::string> arguments) const {
+    return call(std::move(arguments), scratch.path());
+  }
 };
 
 /// A key that names a file: the text of in/f.toml with another file's name for @.
@@ -67,11 +72,13 @@ const std::vector<Key> kKeys = {
     {"problem machine", "format = 1\n[path]\nprogram = \"p.ngc\"\nmachine = \"@\"\n", false},
     {"problem tools", "format = 1\n[path]\nprogram = \"p.ngc\"\nmachine = \"mill3\"\ntools = \"@\"\n", false},
     {"problem table",
-     "format = 1\n[path]\ntable = \"@\"\nmax_mm_s = 600\n[[axis]]\nname = \"X\"\nunit = \"mm\"\nmax_mm_s = 400\n"
+     "format = 1\n[path]\ntable = \"@\"\nmax_mm_s = 600\n[[axis]]\nname = \"X\"\nunit = \"mm\"\nmax_mm_s = "
+     "400\n"
      "max_acceleration_mm_s2 = 1200\n",
      false},
     {"machine of a formula",
-     "format = 1\n[path]\nmachine = \"@\"\nlength_mm = 10\nnodes = 11\nmax_mm_s = 10\n[[axis]]\nname = \"X\"\n",
+     "format = 1\n[path]\nmachine = \"@\"\nlength_mm = 10\nnodes = 11\nmax_mm_s = 10\n[[axis]]\nname = "
+     "\"X\"\n",
      false},
 };
 
@@ -216,7 +223,8 @@ TEST_CASE("scenarios found in a folder lie below it; the others still run") {
     const Finished run = ward.run({"scenario", what, "all"});
     INFO(run.out, run.err);
     CHECK(run.code > 0);
-    CHECK(contains(run.out + run.err, "all/b/scenario.toml: lies outside all; --allow DIR allows files below another"));
+    CHECK(contains(run.out + run.err,
+                   "all/b/scenario.toml: lies outside all; --allow DIR allows files below another"));
     CHECK(contains(run.out + run.err, "all/c/scenario.toml: lies outside all"));
     CHECK_FALSE(quotes(run));
     CHECK(quotes(ward.run({"scenario", what, "all", "--allow", "out"})));
@@ -229,30 +237,32 @@ TEST_CASE("scenarios found in a folder lie below it; the others still run") {
 TEST_CASE("what the user names may lie anywhere") {
   const Ward ward;
   name_file(ward, kKeys.front(), "p.ngc");
-  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
-           {"run", "in/link", "--no-log"},
-           {"run", "-s", "in/f.toml", "in/../out/secret", "--no-log"},
-           {"run", "-s", "in/f.toml", "-m", "in/link", "--no-log"},
-           {"run", "-s", "in/f.toml", "--tools", "out/secret", "--no-log"},
-           {"check", "in/linked/secret"},
-           {"tube", "in/link"}})
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"run", "in/link", "--no-log"},
+                                             {"run", "-s", "in/f.toml", "in/../out/secret", "--no-log"},
+                                             {"run", "-s", "in/f.toml", "-m", "in/link", "--no-log"},
+                                             {"run", "-s", "in/f.toml", "--tools", "out/secret", "--no-log"},
+                                             {"check", "in/linked/secret"},
+                                             {"tube", "in/link"}})
     CHECK(quotes(ward.run(command)));
 }
 
 TEST_CASE("a log lists the files that were read: role, name as written, bytes and hash, wherever they are") {
   const Scratch scratch;
-  for (const char* folder : {"one", "one/sub", "two", "two/sub", "lib"}) fs::create_directory(scratch.file(folder));
+  for (const char* folder : {"one", "one/sub", "two", "two/sub", "lib"})
+    fs::create_directory(scratch.file(folder));
   const std::string machine = call({"machine", "show", "mill3"}).out;
   scratch.write("lib/hole.ngc", "O<hole> sub\nG1 X#1\nO<hole> endsub\n");
   scratch.write("lib/shop.toml", machine);
   for (const std::string folder : {"one", "two"}) {
-    scratch.write(folder + "/s.toml", kScenario + "program = \"sub/p.ngc\"\nmachine = \"../lib/shop.toml\"\n"
-                                                  "tools = \"t.tbl\"\n");
+    scratch.write(folder + "/s.toml", kScenario +
+                                          "program = \"sub/p.ngc\"\nmachine = \"../lib/shop.toml\"\n"
+                                          "tools = \"t.tbl\"\n");
     scratch.write(folder + "/sub/p.ngc", "G21 F600\nO<hole> call [3]\nM2\n");
     scratch.write(folder + "/t.tbl", "T1 P1 Z10\n");
-    const Finished run = call({"run", "-s", folder + "/s.toml", "--subs", "lib", "--allow", "lib", "-o",
-                               folder + ".lcmlog"},
-                              scratch.path());
+    const Finished run =
+        call({"run", "-s", folder + "/s.toml", "--subs", "lib", "--allow", "lib", "-o", folder + ".lcmlog"},
+             scratch.path());
     INFO(run.err);
     REQUIRE(run.code == 0);
   }
@@ -269,7 +279,8 @@ TEST_CASE("a log lists the files that were read: role, name as written, bytes an
                       "\nprogram sub/p.ngc 31\ntools t.tbl 10\ncalled hole.ngc 34\n");
   const Finished info = call({"info", "one.lcmlog"}, scratch.path());
   CHECK(contains(info.out, "  read        scenario  " + files[0]["hash"].get<std::string>()));
-  CHECK(contains(info.out, "            called    " + files[4]["hash"].get<std::string>() + "            34 bytes  hole.ngc\n"));
+  CHECK(contains(info.out, "            called    " + files[4]["hash"].get<std::string>() +
+                               "            34 bytes  hole.ngc\n"));
   // another text under the same name is seen
   scratch.write("two/t.tbl", "T1 P1 Z11\n");
   call({"run", "-s", "two/s.toml", "--subs", "lib", "--allow", "lib", "-o", "two.lcmlog"}, scratch.path());
@@ -278,7 +289,9 @@ TEST_CASE("a log lists the files that were read: role, name as written, bytes an
   CHECK(others[2] == files[2]);
 }
 
-TEST_CASE("of a run without a scenario a log lists what the user named, without folders; a shipped machine is no file") {
+TEST_CASE(
+    "of a run without a scenario a log lists what the user named, without folders; a shipped machine is no "
+    "file") {
   const Scratch scratch;
   fs::create_directory(scratch.file("in"));
   scratch.write("in/p.ngc", "G0 X1\nM2\n");

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 
 /// A folder `in`, and `out` beside it; removed at the end.
 struct TwoFolders {
-  fs::path path = fs::canonical(fs::temp_directory_path()) / ("kadr_confinement_" + std::to_string(::getpid()));
+  fs::path path =
+      fs::canonical(fs::temp_directory_path()) / ("kadr_confinement_" + std::to_string(::getpid()));
   TwoFolders() {
     fs::remove_all(path);
     fs::create_directories(path / "in/sub");
@@ -75,8 +76,8 @@ TEST_CASE("a file outside its folders is not opened, and the reason says how to 
       FAIL("was opened");
     } catch (const UnreadableText& e) {
       CHECK(e.code() == std::errc::operation_not_permitted);
-      CHECK(e.reason() ==
-            "lies outside " + (folders.path / "in").string() + "; --allow DIR allows files below another folder");
+      CHECK(e.reason() == "lies outside " + (folders.path / "in").string() +
+                              "; --allow DIR allows files below another folder");
     }
   }
   CHECK_THROWS_AS(SourceText::open(folders.file("none"), 0), UnreadableText);

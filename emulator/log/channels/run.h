@@ -85,9 +85,7 @@ struct Channel<R> {
           .by("n_axes"),
       field::flag<&R::axis, &LogAxis::has_plant>("has_plant", "two masses are modelled").by("n_axes"),
       field::count<R, field::length<&R::files>>("n_files", CountRule::any, "files that were read"),
-      field::text<&R::files>("files",
-                             "role, bytes, XXH3 and name, e.g. \"program 32 0123456789abcdef part.ngc\"; name: "
-                             "as the file that names it has it, without folders if the user names it")
+      field::text<&R::files>("files", "\"program 32 0123456789abcdef part.ngc\": role, bytes, XXH3, name")
           .by("n_files"),
   };
 };
