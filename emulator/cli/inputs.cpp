@@ -32,14 +32,14 @@ std::string shipped_names() {
 
 bool load_machine(const InputFile& name, const std::vector<std::string>& settings, SourceSet& sources,
                   machine::MachineFile& machine, Diagnostics& diagnostics) {
-  const InputFile file = name.path.empty() ? InputFile(std::string(kDefaultMachine)) : name;
-  const std::string& wanted = file.path;
-  const std::string_view shipped = file.folders ? std::string_view() : machine::shipped_machine(wanted);
+  const InputFile given = name.path.empty() ? InputFile(std::string(kDefaultMachine)) : name;
+  const std::string& wanted = given.path;
+  const std::string_view shipped = given.folders ? std::string_view() : machine::shipped_machine(wanted);
   struct stat status {};
   if (shipped.empty() && wanted != "-" && ::stat(wanted.c_str(), &status) != 0)
     throw WorldError(fmt::format("machine {}: {}; machines that ship with kadr: {}", wanted,
                                  std::strerror(errno), shipped_names()));
-  auto file = machine::read_machine(shipped.empty() ? open_text(file, kMostSettings_bytes)
+  auto file = machine::read_machine(shipped.empty() ? open_text(given, kMostSettings_bytes)
                                                     : SourceText(wanted + ".toml", std::string(shipped)),
                                     sources, settings);
   if (!file) {

@@ -106,7 +106,7 @@ struct Scenario {
   Expectations expect;
 
   /// A file that it names.
-  InputFile input(const std::string& name) const { return {name, folders}; }
+  InputFile input(const std::string& named) const { return {named, folders}; }
 };
 
 /// Reads a scenario file. All its mistakes are reported at once; unknown keys are errors.
