@@ -276,7 +276,7 @@ TEST_CASE("a log lists the files that were read: role, name as written, bytes an
   }
   CHECK(listed == "scenario s.toml " + std::to_string(scratch.read("one/s.toml").size()) +
                       "\nmachine ../lib/shop.toml " + std::to_string(machine.size()) +
-                      "\nprogram sub/p.ngc 31\ntools t.tbl 10\ncalled hole.ngc 34\n");
+                      "\nprogram sub/p.ngc 29\ntools t.tbl 10\ncalled hole.ngc 34\n");
   const Finished info = call({"info", "one.lcmlog"}, scratch.path());
   CHECK(contains(info.out, "  read        scenario  " + files[0]["hash"].get<std::string>()));
   CHECK(contains(info.out, "            called    " + files[4]["hash"].get<std::string>() +
