@@ -36,6 +36,7 @@ struct Reading {
   bool block_delete = false;  ///< skip lines that begin with '/'
   ReadingBounds bounds;
   std::vector<std::string> sub_folders;  ///< where called files are looked for after the program's own folder
+  std::vector<std::string> allowed_folders;  ///< where links beside a program may lead (--allow)
   /// Where called files come from instead, while the program is read; null: from the folders.
   const TextResolver* called_files = nullptr;
   std::optional<ToolTable> tools;  ///< none: tools have no length and no radius

@@ -103,6 +103,7 @@ struct Arguments {
   gcode::ReadingBounds bounds;               ///< --limit
   std::uint64_t log_bytes = 10'000'000'000;  ///< --limit log_bytes: longest log; 0: no bound
   std::vector<std::string> sub_folders;      ///< --subs
+  std::vector<std::string> allowed_folders;  ///< --allow
   std::string scenario;
   std::string log_path;
   std::string wind_kind;

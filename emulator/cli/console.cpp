@@ -86,7 +86,7 @@ void Console::bytes(std::string_view bytes) {
 
 void Console::summary(std::string_view text) {
   if (output_claimed_)
-    message(text);
+    message(text, Styles::replaced);
   else
     data(text);
 }

@@ -55,6 +55,14 @@ Json info_json(const LogInfo& info) {
     channels.push_back({{"channel", c.name}, {"messages", c.messages}, {"bytes", c.bytes}});
   j["channels"] = std::move(channels);
   j["outcome"] = info.summary ? Json(info.summary->run.outcome.text()) : Json(nullptr);
+  Json files = Json::array();
+  for (const std::string& text : info.header.files)
+    if (const auto file = log::parse_file_text(text))
+      files.push_back({{"role", file->role},
+                       {"name", file->name},
+                       {"bytes", file->bytes},
+                       {"hash", hash_text(file->hash)}});
+  j["files"] = std::move(files);
   j["inputs_hash"] = hash_text(info.header.inputs_hash);
   j["program_hash"] = hash_text(info.header.program_hash);
   j["steps_hash"] = hash_json(info.steps_hash);

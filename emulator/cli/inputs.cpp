@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::string_view kDefaultMachine = "mill3";
 
-SourceText open_text(const std::string& path, std::uint64_t most_bytes) {
+SourceText open_text(const InputFile& file, std::uint64_t most_bytes) {
   try {
-    return SourceText::open(path, most_bytes);
+    return SourceText::open(file, most_bytes);
   } catch (const UnreadableText& e) {
     throw WorldError(e.what());
   }
@@ -30,15 +30,16 @@ std::string shipped_names() {
 
 }  // namespace
 
-bool load_machine(const std::string& name, const std::vector<std::string>& settings, SourceSet& sources,
+bool load_machine(const InputFile& name, const std::vector<std::string>& settings, SourceSet& sources,
                   machine::MachineFile& machine, Diagnostics& diagnostics) {
-  const std::string wanted = name.empty() ? std::string(kDefaultMachine) : name;
-  const std::string_view shipped = machine::shipped_machine(wanted);
+  const InputFile given = name.path.empty() ? InputFile(std::string(kDefaultMachine)) : name;
+  const std::string& wanted = given.path;
+  const std::string_view shipped = given.folders ? std::string_view() : machine::shipped_machine(wanted);
   struct stat status {};
   if (shipped.empty() && wanted != "-" && ::stat(wanted.c_str(), &status) != 0)
     throw WorldError(fmt::format("machine {}: {}; machines that ship with kadr: {}", wanted,
                                  std::strerror(errno), shipped_names()));
-  auto file = machine::read_machine(shipped.empty() ? open_text(wanted, kMostSettings_bytes)
+  auto file = machine::read_machine(shipped.empty() ? open_text(given, kMostSettings_bytes)
                                                     : SourceText(wanted + ".toml", std::string(shipped)),
                                     sources, settings);
   if (!file) {
@@ -57,22 +58,29 @@ std::string machine_text(const std::string& name, const machine::MachineModel& m
 
 bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading& reading,
                   Diagnostics& diagnostics) {
+  return load_reading(arguments, arguments.tools, sources, reading, diagnostics);
+}
+
+bool load_reading(const Arguments& arguments, const InputFile& tools, SourceSet& sources,
+                  gcode::Reading& reading, Diagnostics& diagnostics) {
   if (arguments.dialect) reading.dialect = *arguments.dialect;
   reading.block_delete = arguments.block_delete;
   reading.bounds = arguments.bounds;
   reading.sub_folders = arguments.sub_folders;
-  if (arguments.tools.empty()) return true;
+  reading.allowed_folders = arguments.allowed_folders;
+  if (tools.path.empty()) return true;
   const std::size_t errors = diagnostics.errors();
   reading.tools =
-      gcode::read_tool_table(sources, sources.add(open_text(arguments.tools, kMostTable_bytes)), diagnostics);
+      gcode::read_tool_table(sources, sources.add(open_text(tools, kMostTable_bytes)), diagnostics);
   return diagnostics.errors() == errors;
 }
 
-std::uint32_t load_program(const std::string& path, const gcode::ReadingBounds& bounds, SourceSet& sources) {
-  if (path.ends_with(".toml"))
-    throw WorldError(fmt::format("{}: a TOML file is no program; kadr run -s FILE runs a scenario", path));
+std::uint32_t load_program(const InputFile& file, const gcode::ReadingBounds& bounds, SourceSet& sources) {
+  if (file.path.ends_with(".toml"))
+    throw WorldError(
+        fmt::format("{}: a TOML file is no program; kadr run -s FILE runs a scenario", file.path));
   try {
-    return sources.add(SourceText::open(path, bounds.file_bytes));
+    return sources.add(SourceText::open(file, bounds.file_bytes));
   } catch (const UnreadableText& e) {
     const bool too_large = e.code() == std::errc::file_too_large;
     throw WorldError(fmt::format("{}{}", e.what(), too_large ? " (--limit file_bytes=N)" : ""));

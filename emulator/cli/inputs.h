@@ -4,14 +4,16 @@
 #include "emulator/cli/arguments.h"
 #include "emulator/cli/console.h"
 #include "emulator/emulator.h"
+#include "machine/base/confinement.h"
 
 namespace kadr::cli {
 
 /// Reads a machine. An empty name is mill3; a shipped machine's name takes precedence over a file of that
 /// name.
+/// @param name  with folders only if a file names it; then it is no shipped machine
 /// @return false if it has errors (in `diagnostics`)
-/// @throws WorldError for a name that is neither; std::system_error for a file that can't be read
-bool load_machine(const std::string& name, const std::vector<std::string>& settings, SourceSet& sources,
+/// @throws WorldError for a name that is neither, or a file that can't be read
+bool load_machine(const InputFile& name, const std::vector<std::string>& settings, SourceSet& sources,
                   machine::MachineFile& machine, Diagnostics& diagnostics);
 /// "mill3 (shipped, the default; -m names another)", "shop (shop.toml)"
 std::string machine_text(const std::string& name, const machine::MachineModel& model);
@@ -21,10 +23,13 @@ std::string machine_text(const std::string& name, const machine::MachineModel& m
 /// @throws WorldError for a table that can't be read
 bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading& reading,
                   Diagnostics& diagnostics);
+/// The same with a tool table from elsewhere (empty: none); it is the next file of the sources.
+bool load_reading(const Arguments& arguments, const InputFile& tools, SourceSet& sources,
+                  gcode::Reading& reading, Diagnostics& diagnostics);
 
 /// Opens a program as a file of the sources: `-` is standard input. TOML is refused by its name.
 /// @throws WorldError with path and reason
-std::uint32_t load_program(const std::string& path, const gcode::ReadingBounds& bounds, SourceSet& sources);
+std::uint32_t load_program(const InputFile& file, const gcode::ReadingBounds& bounds, SourceSet& sources);
 /// The same for a machine, scenario or problem file.
 std::uint32_t load_settings(const std::string& path, SourceSet& sources);
 /// The program's name for people: "standard input" for `-`.

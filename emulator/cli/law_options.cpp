@@ -70,6 +70,7 @@ void add_tube(Options& o) {
       ->excludes("--method");
   sub->add_flag("--timing", o.arguments.timing, "Add a column of wall times, which differ from run to run");
   o.limits(sub);
+  o.allow(sub);
   o.diagnostics(sub);
   o.output(sub);
   o.words(sub->get_option("--method"), machine::kLawMethods.strings());

@@ -95,16 +95,19 @@ void add_scenario(Options& o) {
   run->add_flag("--update", o.arguments.update,
                 "Write the measured values into the expectations of the scenario files");
   o.limits(run);
+  o.allow(run);
   o.output(run);
   CLI::App* check = o.command(*group, "check", scenario_check,
                               "Check scenario files and the machine files they name; nothing runs");
   check->add_option("DIR", o.arguments.files, "Scenario files or folders (default: scenarios)")
       ->type_name("");
   o.limits(check);
+  o.allow(check);
   o.diagnostics(check);
   o.output(check);
   CLI::App* list = o.command(*group, "list", scenario_list, "List scenarios");
   list->add_option("DIR", o.arguments.files, "Scenario files or folders (default: scenarios)")->type_name("");
+  o.allow(list);
   o.output(list);
 }
 

@@ -75,6 +75,7 @@ void Options::reading(CLI::App* sub, Writes writes) {
       ->type_name("DIR")
       ->allow_extra_args(false)
       ->take_all();
+  allow(sub);
   limits(sub, writes);
   sub->add_option("--tools", arguments.tools,
                   "Tool table: LinuxCNC's .tbl text, lengths in mm (default: every tool has length 0)")
@@ -107,6 +108,14 @@ void Options::limits(CLI::App* sub, Writes writes) {
       ->allow_extra_args(false)
       ->take_all();
   words(sub->get_option("--limit"), names_with_equals(limit_names(log)));
+}
+
+void Options::allow(CLI::App* sub) {
+  sub->add_option("--allow", arguments.allowed_folders,
+                  "Folder below which files may lie that a file names, besides its own folder; repeatable")
+      ->type_name("DIR")
+      ->allow_extra_args(false)
+      ->take_all();
 }
 
 void Options::limit(const std::string& text, bool log) {

@@ -43,6 +43,7 @@ class Options {
   void reading(CLI::App* sub, Writes writes = Writes::nothing);
   /// --limit, for every command that reads programs: messages about a bound name it.
   void limits(CLI::App* sub, Writes writes = Writes::nothing);
+  void allow(CLI::App* sub);
   void strict(CLI::App* sub);
   CLI::Option* programs(CLI::App* sub, const std::string& name, bool several);
 

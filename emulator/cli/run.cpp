@@ -80,12 +80,15 @@ struct RunInputs {
   std::string scenario_toml;
   std::string scenario_name;
   std::optional<scenario::Scenario> scenario;
+  /// Of the command line, or else of the scenario; an empty path: none is named.
+  InputFile program_file{""}, machine{""}, tools{""};
+  std::vector<log::ReadFile> files;  ///< that were read
   bool machine_good = false;
   bool started = false;  ///< machine, tool table and scenario could be read
 };
 
 void take_scenario(RunInputs& in) {
-  auto scenario = scenario::read_scenario(in.arguments.scenario, in.sources);
+  auto scenario = scenario::read_scenario(in.arguments.scenario, in.sources, in.arguments.allowed_folders);
   if (!scenario) {
     in.diagnostics.add(scenario.error());
     return;
@@ -96,29 +99,49 @@ void take_scenario(RunInputs& in) {
   std::vector<std::string> settings = scenario->settings;
   settings.insert(settings.end(), in.arguments.settings.begin(), in.arguments.settings.end());
   in.arguments.settings = std::move(settings);
-  if (in.arguments.machine.empty()) in.arguments.machine = scenario->machine;
-  if (in.arguments.tools.empty()) in.arguments.tools = scenario->tools_path;
+  if (in.machine.path.empty())
+    in.machine = scenario->machine_is_file ? scenario->input(scenario->machine) : scenario->machine;
+  if (in.tools.path.empty() && !scenario->tools_file.empty())
+    in.tools = scenario->input(scenario->tools_file);
   if (!in.arguments.dialect) in.arguments.dialect = scenario->dialect;
-  if (!in.arguments.files.empty()) return;
+  if (!in.program_file.path.empty()) return;
   if (!scenario->generated_program.empty()) {
     in.given.program = in.sources.add(SourceText(scenario->program_name, scenario->generated_program));
     in.program = scenario->program_name;
   } else {
-    in.arguments.files.push_back(scenario->program_path);
+    in.program_file = scenario->input(scenario->program_file);
   }
 }
 
+/// @param tools  file of the tool table, if there is one
+void list_files(RunInputs& in, std::uint32_t tools) {
+  if (in.scenario) in.files.push_back(read_file("scenario", in.scenario->file, in.scenario_toml));
+  const bool shipped = !in.machine.folders && !machine::shipped_machine(in.machine.path).empty();
+  if (!in.machine.path.empty() && !shipped)
+    in.files.push_back(read_file("machine", in.machine, in.given.machine.text));
+  if (!in.program_file.path.empty())
+    in.files.push_back(read_file("program", in.program_file, in.sources[in.given.program].text()));
+  if (!in.tools.path.empty()) in.files.push_back(read_file("tools", in.tools, in.sources[tools].text()));
+}
+
 void read_inputs(RunInputs& in) {
+  in.machine = in.arguments.machine;
+  in.tools = in.arguments.tools;
+  if (!in.arguments.files.empty()) in.program_file = in.arguments.files.front();
   if (!in.arguments.scenario.empty()) take_scenario(in);
   if (in.diagnostics.has_errors()) return;
   in.machine_good =
-      load_machine(in.arguments.machine, in.arguments.settings, in.sources, in.given.machine, in.diagnostics);
-  if (!in.arguments.files.empty()) {
-    in.given.program = load_program(in.arguments.files.front(), in.arguments.bounds, in.sources);
-    in.program = program_text(in.arguments.files.front());
+      load_machine(in.machine, in.arguments.settings, in.sources, in.given.machine, in.diagnostics);
+  if (!in.program_file.path.empty()) {
+    in.given.program = load_program(in.program_file, in.arguments.bounds, in.sources);
+    in.program = program_text(in.program_file.path);
   }
-  in.started = load_reading(in.arguments, in.sources, in.given.reading, in.diagnostics) && in.machine_good;
-  if (!in.started || !in.scenario) return;
+  const auto tools = static_cast<std::uint32_t>(in.sources.size());
+  in.started =
+      load_reading(in.arguments, in.tools, in.sources, in.given.reading, in.diagnostics) && in.machine_good;
+  if (!in.started) return;
+  list_files(in, tools);
+  if (!in.scenario) return;
   const auto& steps = in.scenario->steps;
   const auto& points = in.scenario->technology;
   if (steps.empty() && points.empty()) return;
@@ -147,7 +170,7 @@ int refuse(const RunInputs& in, int exit_code, Console& console) {
     console.document(j);
   } else {
     const std::string subject = in.started        ? in.program
-                                : in.machine_good ? in.arguments.tools
+                                : in.machine_good ? in.tools.path
                                                   : "the machine or scenario file";
     console.diagnostics(in.diagnostics, in.sources, subject, Console::Where::errors);
   }
@@ -200,7 +223,7 @@ answers::SummaryContext summary_context(const RunInputs& in, const cycle::Job& j
   const machine::MachineModel& model = job.given.machine.model;
   answers::SummaryContext context;
   context.program = in.program;
-  context.machine = machine_text(in.arguments.machine, model);
+  context.machine = machine_text(in.machine.path, model);
   context.scenario = in.scenario_name;
   context.model = &model;
   context.path_unit = answers::path_unit(job.read.path, model);
@@ -231,7 +254,7 @@ int move(const RunInputs& in, const cycle::Job& job, Console& console) {
   const std::string log_path = log_path_of(in);
   SignalGuard signals;
   cycle::RunOptions options = run_options(in, signals);
-  const log::RunHeader header = run_header(job, options, in.scenario_toml);
+  const log::RunHeader header = run_header(job, options, in.scenario_toml, in.files);
   if (!log_path.empty()) {
     refuse_bad_log_path(log_path, console);
     tell_expected_size(job, arguments, log_path, header, console);

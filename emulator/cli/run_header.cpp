@@ -3,17 +3,12 @@
 #include <fmt/format.h>
 
 #include <string_view>
+#include <utility>
 
 #include "machine/base/hash.h"
 
 namespace kadr::cli {
 namespace {
-
-std::string file_name(const std::string& path) {
-  if (path == "-") return "stdin";
-  const auto slash = path.rfind('/');
-  return slash == std::string::npos ? path : path.substr(slash + 1);
-}
 
 /// The lines without their comments: these name files as the user gave them, and equal inputs give equal logs
 /// wherever they are.
@@ -38,11 +33,17 @@ std::string without_comments(std::string_view toml) {
 
 }  // namespace
 
+log::ReadFile read_file(std::string role, const InputFile& file, std::string_view text) {
+  Hash64 content;
+  content.bytes(text.data(), text.size());
+  return {std::move(role), file.name(), text.size(), content.digest()};
+}
+
 log::RunHeader run_header(const cycle::Job& job, const cycle::RunOptions& options,
-                          const std::string& scenario_toml) {
+                          const std::string& scenario_toml, std::vector<log::ReadFile> files) {
   log::RunHeader header;
   const SourceText& program = job.sources[job.given.program];
-  header.program_name = file_name(program.name());
+  header.program_name = InputFile(program.name()).name();
   header.program_text = program.text();
   header.machine_toml = job.given.machine.text;
   header.scenario_toml = scenario_toml;
@@ -59,11 +60,11 @@ log::RunHeader run_header(const cycle::Job& job, const cycle::RunOptions& option
         fmt::format("tools = \"\"\"\n{}\"\"\"\n", gcode::render_tool_table(*job.given.reading.tools));
   for (const std::uint32_t file : job.read.called_files) {
     const SourceText& called = job.sources[file];
-    Hash64 content;
-    content.bytes(called.text().data(), called.text().size());
-    header.settings_toml += fmt::format("[[called]]\nfile = \"{}\"\nhash = \"{:016x}\"\n",
-                                        file_name(called.name()), content.digest());
+    files.push_back(read_file("called", called.name(), called.text()));
+    header.settings_toml +=
+        fmt::format("[[called]]\nfile = \"{}\"\nhash = \"{:016x}\"\n", files.back().name, files.back().hash);
   }
+  header.files = std::move(files);
   header.machine = &job.given.machine.model;
 
   Hash64 hash;

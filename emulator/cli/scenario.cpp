@@ -28,9 +28,9 @@ std::string installed_scenarios() {
 }
 
 /// @throws WorldError if there is none, with the paths tried
-std::vector<std::string> scenarios_of(const Arguments& arguments) {
+std::vector<InputFile> scenarios_of(const Arguments& arguments) {
   try {
-    return scenario::find_scenarios(arguments.files);
+    return scenario::find_scenarios(arguments.files, arguments.allowed_folders);
   } catch (const fs::filesystem_error& e) {
     const std::string path = e.path1().string();
     if (e.code() != std::errc::no_such_file_or_directory)
@@ -43,9 +43,10 @@ std::vector<std::string> scenarios_of(const Arguments& arguments) {
 }
 
 /// Rewrites the expectations of a scenario with the measured values.
-void update(const std::string& path, const scenario::ScenarioResult& result, Console& console) {
+void update(const InputFile& file, const std::vector<std::string>& allowed,
+            const scenario::ScenarioResult& result, Console& console) {
   SourceSet sources;
-  const auto scenario = scenario::read_scenario(path, sources);
+  const auto scenario = scenario::read_scenario(file, sources, allowed);
   if (!scenario || !result.failure.empty()) return;
   const std::string text = scenario::updated_text(*scenario, result);
   if (text == scenario->text) return;
@@ -59,12 +60,12 @@ int scenario_run(const Arguments& arguments, Console& console) {
   console.claim_output(arguments.junit_path);
   std::vector<scenario::ScenarioResult> results;
   bool all_passed = true, all_ran = true;
-  for (const std::string& path : scenarios_of(arguments)) {
-    results.push_back(scenario::run_scenario(path, {}, arguments.bounds));
+  for (const InputFile& file : scenarios_of(arguments)) {
+    results.push_back(scenario::run_scenario(file, {}, arguments.allowed_folders, arguments.bounds));
     const scenario::ScenarioResult& result = results.back();
     all_passed = all_passed && result.passed();
     all_ran = all_ran && result.failure.empty();
-    if (arguments.update) update(path, result, console);
+    if (arguments.update) update(file, arguments.allowed_folders, result, console);
     if (console.options().json || (console.options().quiet && result.passed())) continue;
     std::string text = scenario::render_result(result);
     if (text.empty() || text.back() != '\n') text += '\n';
@@ -89,7 +90,8 @@ int scenario_check(const Arguments& arguments, Console& console) {
                      console.options().format == DiagnosticFormat::human;
   Json documents = Json::array();
   int worst = kYes;
-  for (const std::string& path : scenarios_of(arguments)) {
+  for (const InputFile& file : scenarios_of(arguments)) {
+    const std::string& path = file.path;
     SourceSet sources;
     cycle::JobInputs given;
     given.reading.bounds = arguments.bounds;
@@ -97,7 +99,7 @@ int scenario_check(const Arguments& arguments, Console& console) {
     std::optional<scenario::Scenario> scenario;
     int code = kNo;
     try {
-      if (auto read = scenario::read_scenario(path, sources)) {
+      if (auto read = scenario::read_scenario(file, sources, arguments.allowed_folders)) {
         scenario = std::move(*read);
         if (scenario::open_job(*scenario, given, sources, diagnostics)) code = kYes;
       } else {
@@ -132,11 +134,12 @@ int scenario_list(const Arguments& arguments, Console& console) {
                          {"what it shows", Align::left}});
   Json list = Json::array();
   int code = kYes;
-  for (const std::string& path : scenarios_of(arguments)) {
+  for (const InputFile& file : scenarios_of(arguments)) {
+    const std::string& path = file.path;
     SourceSet sources;
     std::optional<scenario::Scenario> scenario;
     try {
-      if (auto read = scenario::read_scenario(path, sources))
+      if (auto read = scenario::read_scenario(file, sources, arguments.allowed_folders))
         scenario = std::move(*read);
       else
         console.diagnostics(read.error(), sources, path, Console::Where::errors);

@@ -146,7 +146,8 @@ int solve_tube(const Arguments& arguments, Console& console) {
       console.diagnostics(diagnostics, sources, name, Console::Where::errors);
     return kNotStarted;
   };
-  const auto problem = studies::read_time_law_problem(sources, file, arguments.bounds);
+  const auto problem =
+      studies::read_time_law_problem(sources, file, arguments.allowed_folders, arguments.bounds);
   if (!problem) return refuse(problem.error());
   if (!problem->warnings.list().empty())
     console.diagnostics(problem->warnings, sources, name, Console::Where::errors);

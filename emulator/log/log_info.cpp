@@ -136,6 +136,13 @@ std::string render_log_info(const LogInfo& info) {
   for (std::size_t a = 0; a < h.axis.size() && h.logs_steps; ++a)
     line(a == 0 ? "pulses" : "", fmt::format("{} {:>14}  of {:.9g} {}", h.axis[a].name,
                                              grouped(info.pulses[a]), h.axis[a].step_u, h.axis[a].unit));
+  std::vector<ReadFile> files;
+  for (const std::string& text : h.files)
+    if (auto file = parse_file_text(text)) files.push_back(std::move(*file));
+  for (std::size_t i = 0; i < files.size(); ++i)
+    line(i == 0 ? "read" : "",
+         fmt::format("{:<8}  {}  {:>12} bytes  {}", files[i].role, hash_text(files[i].hash),
+                     grouped(static_cast<std::int64_t>(files[i].bytes)), files[i].name));
   line("inputs hash", hash_text(h.inputs_hash));
   if (info.steps_hash) line("steps hash", hash_text(*info.steps_hash) + agreement(info.steps_hash_agrees()));
   line("content", hash_text(info.content_hash) + agreement(info.content_hash_agrees()));

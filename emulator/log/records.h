@@ -17,6 +17,14 @@ struct MachineModel;
 /// clock, address, locale or thread.
 namespace kadr::log {
 
+/// A file that a run has read.
+struct ReadFile {
+  std::string role;  ///< "program", "machine", "scenario", "tools", "called"
+  std::string name;  ///< as the file that names it has it; without folders if the user names it
+  std::uint64_t bytes = 0;
+  std::uint64_t hash = 0;  ///< XXH3
+};
+
 /// First message: everything needed to run again and to compare.
 struct RunHeader {
   std::string program_name;  ///< file name without folders
@@ -25,6 +33,7 @@ struct RunHeader {
   std::string scenario_toml;  ///< as read, empty if none
   std::string settings_toml;  ///< every value in force
   std::uint64_t inputs_hash = 0;
+  std::vector<ReadFile> files;                     ///< in the order in which they were read
   const machine::MachineModel* machine = nullptr;  ///< clock, axes, log settings
 };
 

@@ -18,23 +18,24 @@ constexpr const char* kFileName = "scenario.toml";
 
 }  // namespace
 
-std::vector<std::string> find_scenarios(const std::vector<std::string>& paths) {
-  std::vector<std::string> found;
+std::vector<InputFile> find_scenarios(const std::vector<std::string>& paths,
+                                      const std::vector<std::string>& allowed) {
+  std::vector<InputFile> found;
   for (const fs::path path : paths.empty() ? std::vector<std::string>{"scenarios"} : paths) {
     if (fs::is_regular_file(path)) {
-      found.push_back(path.string());
+      found.emplace_back(path.string());
     } else if (fs::is_regular_file(path / kFileName)) {
-      found.push_back((path / kFileName).string());
+      found.emplace_back(kFileName, InputFolders{path.string(), allowed});
     } else {
       std::vector<std::string> inside;
       if (fs::is_directory(path))
         for (const auto& entry : fs::directory_iterator(path))
           if (fs::is_regular_file(entry.path() / kFileName))
-            inside.push_back((entry.path() / kFileName).string());
+            inside.push_back((entry.path().filename() / kFileName).string());
       if (inside.empty()) throw_missing(path);
       // the order of directory entries is unspecified
       std::sort(inside.begin(), inside.end());
-      found.insert(found.end(), inside.begin(), inside.end());
+      for (const std::string& file : inside) found.emplace_back(file, InputFolders{path.string(), allowed});
     }
   }
   return found;

@@ -179,17 +179,20 @@ bool open_job(const Scenario& scenario, cycle::JobInputs& given, SourceSet& sour
               Diagnostics& diagnostics) {
   SourceText machine_text =
       scenario.machine_is_file
-          ? SourceText::open(scenario.machine, kMostSettings_bytes)
+          ? SourceText::open(scenario.input(scenario.machine), kMostSettings_bytes)
           : SourceText(scenario.machine + ".toml", std::string(machine::shipped_machine(scenario.machine)));
-  SourceText program = scenario.program_path.empty()
-                           ? SourceText(scenario.program_name, scenario.generated_program)
-                           : SourceText::open(scenario.program_path, given.reading.bounds.file_bytes);
+  SourceText program =
+      scenario.program_file.empty()
+          ? SourceText(scenario.program_name, scenario.generated_program)
+          : SourceText::open(scenario.input(scenario.program_file), given.reading.bounds.file_bytes);
   auto file = machine::read_machine(std::move(machine_text), sources, scenario.settings);
   given.program = sources.add(std::move(program));
   given.reading.dialect = scenario.dialect;
+  given.reading.allowed_folders = scenario.folders.allowed;
   const std::size_t errors = diagnostics.errors();
-  if (!scenario.tools_path.empty()) {
-    const std::uint32_t tools = sources.add(SourceText::open(scenario.tools_path, kMostTable_bytes));
+  if (!scenario.tools_file.empty()) {
+    const std::uint32_t tools =
+        sources.add(SourceText::open(scenario.input(scenario.tools_file), kMostTable_bytes));
     given.reading.tools = gcode::read_tool_table(sources, tools, diagnostics);
   }
   if (!file) {
@@ -215,13 +218,13 @@ ScenarioResult run_scenario(const Scenario& scenario, const cycle::RunOptions& o
   return result;
 }
 
-ScenarioResult run_scenario(const std::string& path, const cycle::RunOptions& options,
-                            const gcode::ReadingBounds& bounds) {
+ScenarioResult run_scenario(const InputFile& file, const cycle::RunOptions& options,
+                            const std::vector<std::string>& allowed, const gcode::ReadingBounds& bounds) {
   ScenarioResult result;
-  result.name = result.file = path;
+  result.name = result.file = file.path;
   try {
     SourceSet sources;
-    const auto scenario = read_scenario(path, sources);
+    const auto scenario = read_scenario(file, sources, allowed);
     if (scenario) return run_scenario(*scenario, options, bounds);
     result.failure = "the scenario file has errors";
     render_into(result, scenario.error(), sources);

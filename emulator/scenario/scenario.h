@@ -9,6 +9,7 @@
 #include <tl/expected.hpp>
 
 #include "emulator/emulator.h"
+#include "machine/base/confinement.h"
 
 /// Scenarios: a program, a machine and the expected results. The same cases serve tests, benchmarks, demos and
 /// documents.
@@ -86,33 +87,39 @@ struct ScenarioTechnology {
 
 /// A scenario file as read; nothing of it has run.
 struct Scenario {
-  std::string file;    ///< path of scenario.toml as given
-  std::string folder;  ///< its folder; program and machine are looked for there
-  std::string text;    ///< scenario.toml as read
+  std::string file;      ///< path of scenario.toml as given
+  InputFolders folders;  ///< below which program, machine and tools lie
+  std::string text;      ///< scenario.toml as read
   std::string name;
   std::string summary;
   std::string program_name;       ///< file name without folders; "wind_hoop.ngc" of a generated one
-  std::string program_path;       ///< path to open; empty if the program is generated
+  std::string program_file;       ///< as written; empty if the program is generated
   std::string generated_program;  ///< text of a generated program
-  std::string machine;            ///< name of a shipped machine, or a path to open
+  std::string machine;            ///< name of a shipped machine, or a file as written
   bool machine_is_file = false;
-  std::string tools_path;  ///< of the tool table, empty: none
+  std::string tools_file;  ///< tool table as written, empty: none
   gcode::Dialect dialect = gcode::Dialect::linuxcnc;
   std::vector<std::string> settings;    ///< "key=value"
   std::optional<double> most_override;  ///< JobInputs::most_override
   std::vector<ScenarioStep> steps;
   std::vector<ScenarioTechnology> technology;
   Expectations expect;
+
+  /// A file that it names.
+  InputFile input(const std::string& named) const { return {named, folders}; }
 };
 
 /// Reads a scenario file. All its mistakes are reported at once; unknown keys are errors.
 /// @param sources  the text is added here, so that diagnostics can be rendered
-/// @param path     of scenario.toml, or of its folder
+/// @param file     scenario.toml, or its folder
+/// @param allowed  folders below which its files may lie, too (--allow)
 /// @return the scenario, or the diagnostics
 /// @throws std::system_error if the file can't be opened
-tl::expected<Scenario, Diagnostics> read_scenario(const std::string& path, SourceSet& sources);
+tl::expected<Scenario, Diagnostics> read_scenario(const InputFile& file, SourceSet& sources,
+                                                  const std::vector<std::string>& allowed = {});
 /// The same of a text, named as its file is.
-tl::expected<Scenario, Diagnostics> read_scenario(SourceText text, SourceSet& sources);
+tl::expected<Scenario, Diagnostics> read_scenario(SourceText text, SourceSet& sources,
+                                                  const std::vector<std::string>& allowed = {});
 
 /// Opens program, machine and tool table of a scenario as inputs of prepare(). Diagnostics of
 /// machine file and tool table are added.
@@ -153,14 +160,16 @@ struct ScenarioResult {
 /// @param bounds  of the program
 ScenarioResult run_scenario(const Scenario& scenario, const cycle::RunOptions& options = {},
                             const gcode::ReadingBounds& bounds = {});
-/// The same from a path; a file that can't be read is a failed result.
-ScenarioResult run_scenario(const std::string& path, const cycle::RunOptions& options = {},
+/// The same from a file; one that can't be read is a failed result.
+ScenarioResult run_scenario(const InputFile& file, const cycle::RunOptions& options = {},
+                            const std::vector<std::string>& allowed = {},
                             const gcode::ReadingBounds& bounds = {});
 
 /// The scenario files under the given paths: a scenario.toml, its folder, or a folder of such folders.
-/// Sorted by path; with no paths those under "scenarios".
+/// Sorted by path; with no paths those under "scenarios". What is found in a folder lies below it, or an allowed one.
 /// @throws std::system_error for a path that does not exist or holds no scenario
-std::vector<std::string> find_scenarios(const std::vector<std::string>& paths);
+std::vector<InputFile> find_scenarios(const std::vector<std::string>& paths,
+                                      const std::vector<std::string>& allowed = {});
 
 /// One line: "passed  01_first_cut   4.211 s  12 checks", and below a failed one its differences, line by line.
 std::string render_result(const ScenarioResult& result);

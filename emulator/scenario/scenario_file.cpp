@@ -7,6 +7,7 @@
 #include "emulator/scenario/scenario.h"
 #include "emulator/scenario/scenario_keys.h"
 #include "machine/base/hash.h"
+#include "machine/file/named_file.h"
 #include "machine/file/table_reader.h"
 #include "machine/file/technology.h"
 #include "scenarios/generator/wind.h"
@@ -92,11 +93,16 @@ class ScenarioReader {
     }
     const auto program = table.text(kProgram.name);
     if (!program.valid) return;
-    const fs::path path = fs::path(scenario_.folder) / program.value;
-    scenario_.program_name = path.filename().string();
-    scenario_.program_path = path.string();
-    if (!fs::is_regular_file(path))
-      tell(Code::scenario_file_missing, program.span, fmt::format("there is no file {}", path.string()));
+    scenario_.program_name = fs::path(program.value).filename().string();
+    scenario_.program_file = program.value;
+    look_for(program);
+  }
+
+  /// The file that a key names.
+  void look_for(const machine::Reading<std::string>& name) {
+    const InputFile file = scenario_.input(name.value);
+    if (machine::look_for(file, name.span, context_.diagnostics) == InputPlace::missing)
+      tell(Code::scenario_file_missing, name.span, fmt::format("there is no file {}", file.path));
   }
 
   void read_winding(const Node& node) {
@@ -125,10 +131,9 @@ class ScenarioReader {
     if (!name.valid) return;
     scenario_.machine = name.value;
     if (!machine::shipped_machine(name.value).empty()) return;
-    const fs::path path = fs::path(scenario_.folder) / name.value;
-    scenario_.machine = path.string();
     scenario_.machine_is_file = true;
-    if (fs::is_regular_file(path)) return;
+    const InputFile file = scenario_.input(name.value);
+    if (machine::look_for(file, name.span, context_.diagnostics) != InputPlace::missing) return;
     std::string known;
     for (const auto shipped : machine::shipped_machine_names())
       known += fmt::format("{}{}", known.empty() ? "" : ", ", shipped);
@@ -141,14 +146,8 @@ class ScenarioReader {
     if (!table.has(kTools.name)) return;
     const auto name = table.text(kTools.name);
     if (!name.valid) return;
-    const fs::path inside = fs::path(name.value).lexically_normal();
-    if (inside.is_absolute() || *inside.begin() == "..")
-      return tell(Code::scenario_file_missing, name.span, "lies outside the scenario's folder",
-                  "a tool table is next to scenario.toml or below its folder");
-    const fs::path path = fs::path(scenario_.folder) / inside;
-    scenario_.tools_path = path.string();
-    if (!fs::is_regular_file(path))
-      tell(Code::scenario_file_missing, name.span, fmt::format("there is no file {}", path.string()));
+    scenario_.tools_file = name.value;
+    look_for(name);
   }
 
   /// planner.axis_limits = "report" becomes the setting planner.axis_limits="report".
@@ -358,15 +357,18 @@ class ScenarioReader {
 
 }  // namespace
 
-tl::expected<Scenario, Diagnostics> read_scenario(const std::string& path, SourceSet& sources) {
-  const std::string file = fs::is_directory(path) ? (fs::path(path) / "scenario.toml").string() : path;
-  return read_scenario(SourceText::open(file, kMostSettings_bytes), sources);
+tl::expected<Scenario, Diagnostics> read_scenario(const InputFile& file, SourceSet& sources,
+                                                  const std::vector<std::string>& allowed) {
+  const bool is_folder = !file.folders && fs::is_directory(file.path);
+  const InputFile found = is_folder ? InputFile("scenario.toml", InputFolders{file.path, allowed}) : file;
+  return read_scenario(SourceText::open(found, kMostSettings_bytes), sources, allowed);
 }
 
-tl::expected<Scenario, Diagnostics> read_scenario(SourceText text, SourceSet& sources) {
+tl::expected<Scenario, Diagnostics> read_scenario(SourceText text, SourceSet& sources,
+                                                  const std::vector<std::string>& allowed) {
   Scenario scenario;
   scenario.file = text.name();
-  scenario.folder = fs::path(scenario.file).parent_path().string();
+  scenario.folders = {fs::path(scenario.file).parent_path().string(), allowed};
   const std::uint32_t file = sources.add(std::move(text));
   scenario.text = sources[file].text();
   Diagnostics diagnostics;

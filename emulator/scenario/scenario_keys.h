@@ -20,11 +20,12 @@ using machine::NumberKey;
 inline constexpr machine::PlainKey kScenarioName{"name", "a text", "required", "name of the scenario"};
 inline constexpr machine::PlainKey kSummary{"summary", "a text", "", "what it shows, in a line"};
 inline constexpr machine::PlainKey kProgram{"program", "a file", "required without [wind]",
-                                            "a program beside the scenario"};
-inline constexpr machine::PlainKey kMachine{"machine", "a name or file", "required",
-                                            "a machine that ships with kadr, or a file beside the scenario"};
+                                            "a program in the scenario's folder or below"};
+inline constexpr machine::PlainKey kMachine{
+    "machine", "a name or file", "required",
+    "a machine that ships with kadr, or a file in the scenario's folder or below"};
 inline constexpr machine::PlainKey kTools{"tools", "a file", "tools have no length",
-                                          "a tool table beside the scenario"};
+                                          "a tool table in the scenario's folder or below"};
 inline constexpr machine::PlainKey kDialect{"dialect", "one of --dialect", "\"linuxcnc\"",
                                             "codes that controllers read differently"};
 inline constexpr NumberKey kScenarioFormat{

@@ -25,7 +25,8 @@ Flow::Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& optio
       report_(report),
       interpreter_(interpreter),
       state_(interpreter.state()),
-      beside_(FolderTexts::beside(sources[file].name(), options.sub_folders, options.bounds.file_bytes)),
+      beside_(FolderTexts::beside(sources[file].name(), options.sub_folders, options.bounds.file_bytes,
+                                  options.allowed_folders)),
       called_(options.called_files ? *options.called_files : beside_),
       end_{file, 1, 1, 1} {
   report_.set_call_chain(&places_);

@@ -28,21 +28,24 @@ class TextResolver {
   virtual FoundText find(std::string_view name) const = 0;
 };
 
-/// Looks for NAME.ngc in folders, in their order. A file counts only if it is a plain file below
-/// its folder once all symbolic links are followed; names that contain a path are refused.
+/// Looks for NAME.ngc in folders, in their order. A file counts only if it is a plain file below its folder, or an
+/// allowed one, once all links are followed; names that contain a path are refused.
 class FolderTexts final : public TextResolver {
  public:
   /// @param most_bytes  larger files are refused; 0: no bound
+  /// @param allowed     folders that links may lead to; nothing is looked for there
   explicit FolderTexts(std::vector<std::string> folders,
-                       std::uint64_t most_bytes = ReadingBounds().file_bytes)
-      : folders_(std::move(folders)), most_bytes_(most_bytes) {}
+                       std::uint64_t most_bytes = ReadingBounds().file_bytes,
+                       std::vector<std::string> allowed = {})
+      : folders_(std::move(folders)), allowed_(std::move(allowed)), most_bytes_(most_bytes) {}
   /// The folder of a program, unless it comes from standard input ("-"), then the others.
   static FolderTexts beside(const std::string& program, const std::vector<std::string>& others,
-                            std::uint64_t most_bytes = ReadingBounds().file_bytes);
+                            std::uint64_t most_bytes = ReadingBounds().file_bytes,
+                            std::vector<std::string> allowed = {});
   FoundText find(std::string_view name) const override;
 
  private:
-  std::vector<std::string> folders_;
+  std::vector<std::string> folders_, allowed_;
   std::uint64_t most_bytes_;
 };
 

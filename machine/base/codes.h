@@ -184,6 +184,7 @@ enum class Code : std::uint16_t {
   file_keys_exclude = 3011,
   file_duplicate_key = 3012,
   file_too_deep = 3013,
+  file_outside = 3014,
   machine_no_axis = 3101,
   machine_duplicate_axis = 3102,
   machine_axis_letter = 3103,

@@ -12,6 +12,8 @@
 
 namespace kadr {
 
+struct InputFile;
+
 /// A place in a text: 1-based line and 1-based byte column; length in bytes. line == 0: no place.
 struct Span {
   std::uint32_t file = 0;  ///< index in a SourceSet
@@ -44,8 +46,10 @@ class SourceText {
   SourceText(std::string name, std::string text);
   /// Reads a regular file, or standard input for "-", into memory: what happens to the file afterwards changes nothing.
   /// @param most_bytes  a larger file is refused before it is read, a longer input as soon as it is; 0: no bound
-  /// Throws UnreadableText if the file can't be opened, is a folder, pipe or device, is too large, or changes while it is
-  /// read.
+  /// Throws UnreadableText if the file can't be opened, lies outside its folders, is a folder, pipe or device, is too
+  /// large, or changes while it is read.
+  static SourceText open(const InputFile& file, std::uint64_t most_bytes);
+  /// The same of a file that the user names: it may lie anywhere.
   static SourceText open(const std::string& path, std::uint64_t most_bytes);
 
   SourceText(SourceText&&) noexcept;

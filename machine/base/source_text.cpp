@@ -1,4 +1,3 @@
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "machine/base/confinement.h"
 #include "machine/base/diagnostic.h"
 #include "machine/base/input_files.h"
 
@@ -114,12 +114,16 @@ UnreadableText::UnreadableText(const std::string& path, std::errc code, std::str
 SourceText::SourceText(std::string name, std::string text)
     : name_(std::move(name)), text_(std::make_unique<const std::string>(std::move(text))) {}
 
+SourceText SourceText::open(const InputFile& file, std::uint64_t most_bytes) {
+  const std::string& path = file.path;
+  if (path == "-" && !file.folders) return {path, read_input(path, most_bytes)};
+  const Descriptor opened{open_input(file)};
+  if (opened.fd < 0) fail(path);
+  return {path, read_file(opened.fd, path, most_bytes)};
+}
+
 SourceText SourceText::open(const std::string& path, std::uint64_t most_bytes) {
-  if (path == "-") return {path, read_input(path, most_bytes)};
-  // without O_NONBLOCK opening a pipe waits for its writer
-  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
-  if (file.fd < 0) fail(path);
-  return {path, read_file(file.fd, path, most_bytes)};
+  return open(InputFile(path), most_bytes);
 }
 
 SourceText::SourceText(SourceText&&) noexcept = default;

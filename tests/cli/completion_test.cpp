@@ -202,6 +202,7 @@ TEST_CASE("bash completes commands, values of vocabularies, and files of the rig
   CHECK(at("kadr info ''") == "a.lcmlog folder");
   CHECK(at("kadr run ''") == "a.lcmlog b.ngc folder m.toml two words.ngc");
   CHECK(at("kadr run --subs ''") == "folder");
+  CHECK(at("kadr tube --allow ''") == "folder");
   CHECK(at("kadr scenario run ''") == "folder m.toml");
   // a number of seconds can't be guessed
   CHECK(at("kadr run --until ''") == "");

@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 namespace {
 
 Json tube(const std::string& name, const std::vector<std::string>& methods) {
-  std::vector<std::string> arguments = {"tube", "docs/tube/" + name, "--json"};
+  std::vector<std::string> arguments = {"tube", "docs/tube/" + name, "--json", "--allow", "scenarios"};
   for (const std::string& method : methods) {
     arguments.push_back("--method");
     arguments.push_back(method);

@@ -56,16 +56,22 @@ TEST_CASE(
   folder.write("part.ngc", "plain");
   fs::create_symlink(folder.path / "out.ngc", folder.path / "in" / "out.ngc");
   const FolderTexts texts({(folder.path / "in").string(), folder.path.string()});
-  const auto refusal = [&](const char* name) {
+  const auto refusal = [&](const std::string& name) {
     const FoundText found = texts.find(name);
     CHECK_FALSE(found.text);
-    CHECK(found.help == "put the file below the program's folder, or name its folder with --subs");
+    CHECK(found.help == (name == "out"
+                             ? "put the file below the program's folder, or allow the folder that it is "
+                               "in with --allow DIR"
+                             : "put the file below the program's folder, or name its folder with --subs"));
     return found.refusal;
   };
   CHECK(refusal("in/out") == "the name holds a path");
   CHECK(refusal("..") == "the name holds a path");
   CHECK(refusal("out").ends_with("/in/out.ngc is a link that leads out of its folder"));
   CHECK(refusal("part").ends_with("/in/part.ngc is not a plain file"));
+  // the link is followed where the user allows it
+  const FolderTexts allowing({(folder.path / "in").string()}, 0, {folder.path.string()});
+  CHECK(allowing.find("out").text->text() == "outside");
 }
 
 TEST_CASE("a program's own folder comes before the others, and standard input has none") {

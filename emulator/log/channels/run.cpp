@@ -1,5 +1,10 @@
 #include "emulator/log/channels/run.h"
 
+#include <fmt/format.h>
+
+#include <charconv>
+#include <system_error>
+
 #include "emulator/log/log_types.h"
 #include "emulator/log/tick_columns.h"
 #include "machine/base/hash.h"
@@ -32,7 +37,31 @@ LogHeader log_header(const RunHeader& run) {
   for (const machine::AxisModel& axis : machine.axis)
     h.axis.push_back({std::string(1, axis.letter), axis.kind == machine::AxisKind::rotary ? "deg" : "mm",
                       axis.step_u, axis.home_u, axis.has_plant});
+  for (const ReadFile& file : run.files) h.files.push_back(file_text(file));
   return h;
+}
+
+std::string file_text(const ReadFile& file) {
+  return fmt::format("{} {} {} {}", file.role, file.bytes, hash_text(file.hash), file.name);
+}
+
+std::optional<ReadFile> parse_file_text(std::string_view text) {
+  std::array<std::string_view, 3> words;
+  for (std::string_view& word : words) {
+    const auto blank = text.find(' ');
+    if (blank == std::string_view::npos) return {};
+    word = text.substr(0, blank);
+    text.remove_prefix(blank + 1);
+  }
+  ReadFile file;
+  const auto number = [](std::string_view digits, std::uint64_t& value, int base) {
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
+    return error == std::errc{} && end == digits.data() + digits.size();
+  };
+  if (!number(words[1], file.bytes, 10) || !number(words[2], file.hash, 16)) return {};
+  file.role = words[0];
+  file.name = text;
+  return file;
 }
 
 const char* check_message(LogHeader& h, std::string_view, const LogHeader&) {

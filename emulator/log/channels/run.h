@@ -1,7 +1,9 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "emulator/log/channel.h"
@@ -35,8 +37,14 @@ struct LogHeader {
   std::int32_t block_ticks = 0;
   std::int32_t viewer_every_ticks = 0;
   std::vector<LogAxis> axis;
+  std::vector<std::string> files;  ///< a ReadFile each, as text
   double seconds(Ticks t) const { return static_cast<double>(t.value) / static_cast<double>(base_hz); }
 };
+
+/// "program 32 0123456789abcdef part.ngc": role, bytes, hash and name.
+std::string file_text(const ReadFile& file);
+/// Reads what file_text() wrote; nothing if it is something else.
+std::optional<ReadFile> parse_file_text(std::string_view text);
 
 /// The header of a run that begins.
 LogHeader log_header(const RunHeader& run);
@@ -76,6 +84,9 @@ struct Channel<R> {
       field::real<&R::axis, &LogAxis::home_u>("home_u", FieldUnit::axis, "machine position at program start")
           .by("n_axes"),
       field::flag<&R::axis, &LogAxis::has_plant>("has_plant", "two masses are modelled").by("n_axes"),
+      field::count<R, field::length<&R::files>>("n_files", CountRule::any, "files that were read"),
+      field::text<&R::files>("files", "\"program 32 0123456789abcdef part.ngc\": role, bytes, XXH3, name")
+          .by("n_files"),
   };
 };
 

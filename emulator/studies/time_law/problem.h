@@ -60,12 +60,14 @@ struct TimeLawProblem {
   double scale_mm_s() const;
 };
 
-/// Reads sources[file] as a problem; a table, or a program and its machine, are next to it and are added to
+/// Reads sources[file] as a problem; a table, or a program and its machine, are in its folder or below, and are added to
 /// the sources.
+/// @param allowed  folders below which they may lie, too (--allow)
 /// @return the problem, which passes check_problem(), or all mistakes found
 /// @param bounds  of the program
 /// @throws std::system_error for a table that is there and can't be read
 tl::expected<TimeLawProblem, Diagnostics> read_time_law_problem(SourceSet& sources, std::uint32_t file,
+                                                                const std::vector<std::string>& allowed = {},
                                                                 const gcode::ReadingBounds& bounds = {});
 
 }  // namespace kadr::studies

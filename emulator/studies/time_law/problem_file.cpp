@@ -8,6 +8,7 @@
 #include "emulator/studies/time_law/problem_keys.h"
 #include "emulator/studies/time_law/problem_machine.h"
 #include "emulator/studies/time_law/program_problem.h"
+#include "machine/file/named_file.h"
 #include "machine/file/table_reader.h"
 
 namespace kadr::studies {
@@ -25,9 +26,13 @@ constexpr double kMostDerivatives = 2e7;  ///< nodes times axes
 
 class ProblemReader {
  public:
-  ProblemReader(SourceSet& sources, std::uint32_t file, machine::ReadContext& context,
-                const gcode::ReadingBounds& bounds)
-      : sources_(sources), file_(file), context_(context), program_(sources, file, context, bounds) {}
+  ProblemReader(SourceSet& sources, std::uint32_t file, const InputFolders& folders,
+                machine::ReadContext& context, const gcode::ReadingBounds& bounds)
+      : sources_(sources),
+        file_(file),
+        folders_(folders),
+        context_(context),
+        program_(sources, folders, context, bounds) {}
 
   void read(const Node& root) {
     TableReader table(&root, "", Span{file_, 1, 1, 1}, context_);
@@ -83,7 +88,7 @@ class ProblemReader {
     if (by_program_)
       program_.read_path(keys);
     else if (keys.has(kPathMachine.name))
-      machine_ = open_problem_machine(sources_, file_, keys.text(kPathMachine.name), context_);
+      machine_ = open_problem_machine(sources_, folders_, keys.text(kPathMachine.name), context_);
     PathWords words;
     if (by_table_) read_key(keys, words, kPathEnds);
     ends_ = words.ends;
@@ -246,15 +251,15 @@ class ProblemReader {
   }
 
   bool place_table() {
-    const fs::path path = fs::path(sources_[file_].name()).parent_path() / table_.value;
-    if (!fs::is_regular_file(path)) {
-      tell(Code::problem_table, table_.span, fmt::format("there is no file {}", path.string()),
+    const InputFile named(table_.value, folders_);
+    const InputPlace place = machine::look_for(named, table_.span, context_.diagnostics);
+    if (place == InputPlace::missing)
+      tell(Code::problem_table, table_.span, fmt::format("there is no file {}", named.path),
            "the table is next to the problem file");
-      return false;
-    }
+    if (place != InputPlace::inside) return false;
     std::vector<std::string> names;
     for (const PathAxis& axis : out_.axes) names.push_back(axis.name);
-    const std::uint32_t file = sources_.add(SourceText::open(path.string(), kMostTable_bytes));
+    const std::uint32_t file = sources_.add(SourceText::open(named, kMostTable_bytes));
     auto rows = read_path_table(sources_, file, names, context_.diagnostics);
     if (!rows || !small_enough(nodes_ ? nodes_->value : static_cast<double>(rows->s_u.size()))) return false;
     out_.table.emplace(std::move(rows->s_u), std::move(rows->values), out_.axes.size(), ends_);
@@ -305,6 +310,7 @@ class ProblemReader {
 
   SourceSet& sources_;
   std::uint32_t file_;
+  InputFolders folders_;  ///< below which its files lie
   machine::ReadContext& context_;
   ProgramProblem program_;
   std::optional<machine::MachineFile> machine_;  ///< of a path by formula or table
@@ -333,11 +339,13 @@ double TimeLawProblem::scale_mm_s() const {
 }
 
 tl::expected<TimeLawProblem, Diagnostics> read_time_law_problem(SourceSet& sources, std::uint32_t file,
+                                                                const std::vector<std::string>& allowed,
                                                                 const gcode::ReadingBounds& bounds) {
   Diagnostics diagnostics;
   const machine::ParsedTree tree = machine::parse_toml(sources, file, diagnostics);
   machine::ReadContext context{diagnostics, sources, tree.complete, {}};
-  ProblemReader reader(sources, file, context, bounds);
+  const InputFolders folders{fs::path(sources[file].name()).parent_path().string(), allowed};
+  ProblemReader reader(sources, file, folders, context, bounds);
   reader.read(tree.root);
   if (diagnostics.has_errors()) return tl::unexpected(std::move(diagnostics));
   return reader.take();

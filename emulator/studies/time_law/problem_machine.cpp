@@ -2,19 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <utility>
+
+#include "machine/file/named_file.h"
 
 namespace kadr::studies {
 
-namespace fs = std::filesystem;
-
-std::optional<machine::MachineFile> open_problem_machine(SourceSet& sources, std::uint32_t file,
+std::optional<machine::MachineFile> open_problem_machine(SourceSet& sources, const InputFolders& folders,
                                                          const machine::Reading<std::string>& name,
                                                          machine::ReadContext& context) {
   const std::string_view shipped = machine::shipped_machine(name.value);
-  const fs::path beside = fs::path(sources[file].name()).parent_path() / name.value;
-  if (shipped.empty() && !fs::is_regular_file(beside)) {
+  const InputFile file(name.value, folders);
+  const InputPlace place =
+      shipped.empty() ? machine::look_for(file, name.span, context.diagnostics) : InputPlace::inside;
+  if (place == InputPlace::outside) return {};
+  if (place == InputPlace::missing) {
     std::string known;
     for (const auto other : machine::shipped_machine_names())
       known += fmt::format("{}{}", known.empty() ? "" : ", ", other);
@@ -25,7 +27,7 @@ std::optional<machine::MachineFile> open_problem_machine(SourceSet& sources, std
     context.diagnostics.add(std::move(d));
     return {};
   }
-  auto read = machine::read_machine(shipped.empty() ? SourceText::open(beside.string(), kMostSettings_bytes)
+  auto read = machine::read_machine(shipped.empty() ? SourceText::open(file, kMostSettings_bytes)
                                                     : SourceText(name.value + ".toml", std::string(shipped)),
                                     sources);
   if (read) return std::move(*read);

@@ -2,13 +2,14 @@
 #include <optional>
 #include <string>
 
+#include "machine/base/confinement.h"
 #include "machine/file/table_reader.h"
 
 namespace kadr::studies {
 
-/// Reads the machine that a problem names: one that ships with kadr, or a file next to the problem.
+/// Reads the machine that a problem names: one that ships with kadr, or a file below the problem's folders.
 /// @return nothing if there is none or it has mistakes (in the context's diagnostics)
-std::optional<machine::MachineFile> open_problem_machine(SourceSet& sources, std::uint32_t file,
+std::optional<machine::MachineFile> open_problem_machine(SourceSet& sources, const InputFolders& folders,
                                                          const machine::Reading<std::string>& name,
                                                          machine::ReadContext& context);
 

@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "emulator/emulator.h"
 #include "emulator/studies/time_law/problem_keys.h"
 #include "emulator/studies/time_law/problem_machine.h"
+#include "machine/file/named_file.h"
 
 namespace kadr::studies {
 namespace {
 
-namespace fs = std::filesystem;
 using machine::Node;
 using machine::read_key;
 using machine::read_number;
@@ -86,12 +85,13 @@ bool ProgramProblem::override_axes(machine::MachineModel& machine) {
 }
 
 bool ProgramProblem::lay_out(machine::MachineFile machine, TimeLawProblem& out) {
-  const fs::path folder = fs::path(sources_[file_].name()).parent_path();
-  const auto open = [&](const machine::Reading<std::string>& file,
+  const auto open = [&](const machine::Reading<std::string>& name,
                         std::uint64_t most_bytes) -> std::optional<SourceText> {
-    const fs::path path = folder / file.value;
-    if (fs::is_regular_file(path)) return SourceText::open(path.string(), most_bytes);
-    tell(Code::problem_program, file.span, fmt::format("there is no file {}", path.string()));
+    const InputFile file(name.value, folders_);
+    const InputPlace place = machine::look_for(file, name.span, context_.diagnostics);
+    if (place == InputPlace::inside) return SourceText::open(file, most_bytes);
+    if (place == InputPlace::missing)
+      tell(Code::problem_program, name.span, fmt::format("there is no file {}", file.path));
     return {};
   };
   auto program = open(program_, bounds_.file_bytes);
@@ -100,6 +100,7 @@ bool ProgramProblem::lay_out(machine::MachineFile machine, TimeLawProblem& out) 
   cycle::JobInputs given;
   given.machine = std::move(machine);
   given.reading.bounds = bounds_;
+  given.reading.allowed_folders = folders_.allowed;
   Diagnostics found;
   if (tools) given.reading.tools = gcode::read_tool_table(sources_, sources_.add(std::move(*tools)), found);
   given.program = program_file_ = sources_.add(std::move(*program));
@@ -120,7 +121,7 @@ bool ProgramProblem::lay_out(machine::MachineFile machine, TimeLawProblem& out) 
 }
 
 bool ProgramProblem::place(const std::optional<double>& nodes, TimeLawProblem& out) {
-  auto machine = open_problem_machine(sources_, file_, machine_name_, context_);
+  auto machine = open_problem_machine(sources_, folders_, machine_name_, context_);
   if (!machine || !override_axes(machine->model)) return false;
   // corners and arcs as a run by a time law has them
   machine->model.planner.method = machine::PlanMethod::certified;

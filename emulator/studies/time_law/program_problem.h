@@ -1,9 +1,11 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "emulator/studies/time_law/problem.h"
+#include "machine/base/confinement.h"
 #include "machine/file/table_reader.h"
 
 namespace kadr::studies {
@@ -11,9 +13,10 @@ namespace kadr::studies {
 /// A problem whose path is a stretch of a program: its keys and how they are used.
 class ProgramProblem {
  public:
-  ProgramProblem(SourceSet& sources, std::uint32_t file, machine::ReadContext& context,
+  /// @param folders  below which program, machine and tools lie
+  ProgramProblem(SourceSet& sources, InputFolders folders, machine::ReadContext& context,
                  const gcode::ReadingBounds& bounds)
-      : sources_(sources), file_(file), context_(context), bounds_(bounds) {}
+      : sources_(sources), folders_(std::move(folders)), context_(context), bounds_(bounds) {}
 
   /// The keys of [path] for such a problem; max_mm_s and others are read elsewhere.
   void read_path(machine::TableReader& keys);
@@ -50,7 +53,7 @@ class ProgramProblem {
   bool few_enough(double nodes);
 
   SourceSet& sources_;
-  std::uint32_t file_;
+  InputFolders folders_;
   machine::ReadContext& context_;
   gcode::ReadingBounds bounds_;
   machine::Reading<std::string> program_, machine_name_;

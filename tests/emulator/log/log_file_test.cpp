@@ -163,6 +163,16 @@ TEST_CASE("header, blocks, events, diagnostics and summary come back from a log"
   CHECK(h.axis[3].unit == "deg");
   CHECK(h.axis[3].home_u == 0.75);
   CHECK(h.axis[0].step_u == 0.001);
+  CHECK(h.files == std::vector<std::string>{"program 40 0123456789abcdef part.ngc",
+                                            "called 0 000000000000000f a b.ngc"});
+  const auto called = parse_file_text(h.files[1]);
+  REQUIRE(called);
+  CHECK(called->role == "called");
+  CHECK(called->bytes == 0);
+  CHECK(called->hash == 0xfu);
+  CHECK(called->name == "a b.ngc");
+  for (const char* bad : {"", "program", "program 1 2", "program x 0123456789abcdef p", "program 1 g p"})
+    CHECK_FALSE(parse_file_text(bad));
 
   const auto blocks = log.all<BlockRecord>();
   REQUIRE(blocks.size() == 5);

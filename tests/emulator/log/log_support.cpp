@@ -154,6 +154,7 @@ log::RunHeader log_header(const machine::MachineModel& machine) {
   h.machine_toml = "format = 1\n";
   h.settings_toml = "log.block_ticks = 32\n";
   h.inputs_hash = 0xfedcba9876543210u;
+  h.files = {{"program", "part.ngc", 40, 0x0123456789abcdefu}, {"called", "a b.ngc", 0, 0xfu}};
   h.machine = &machine;
   return h;
 }

@@ -148,7 +148,7 @@ TEST_CASE("a scenario names its tool table and its dialect") {
   folder.write("scenario.toml", head);
   const auto plain = read_scenario(folder.path(), sources);
   REQUIRE(plain.has_value());
-  CHECK(plain->tools_path.empty());
+  CHECK(plain->tools_file.empty());
   CHECK(plain->dialect == gcode::Dialect::linuxcnc);
 }
 
@@ -338,8 +338,13 @@ TEST_CASE("scenarios are found by file, folder and folder of folders, in order")
   Folder folder;
   folder.write("p.ngc", kOneLine);
   const std::string b = folder.write("b/scenario.toml", kHead), a = folder.write("a/scenario.toml", kHead);
-  CHECK(find_scenarios({folder.path()}) == std::vector<std::string>{a, b});
-  CHECK(find_scenarios({b, folder.path() + "/a"}) == std::vector<std::string>{b, a});
+  const auto found = [](const std::vector<std::string>& paths) {
+    std::vector<std::string> files;
+    for (const InputFile& file : find_scenarios(paths)) files.push_back(file.path);
+    return files;
+  };
+  CHECK(found({folder.path()}) == std::vector<std::string>{a, b});
+  CHECK(found({b, folder.path() + "/a"}) == std::vector<std::string>{b, a});
   CHECK_THROWS_AS(find_scenarios({folder.path() + "/none"}), std::system_error);
   const ScenarioResult missing = run_scenario(folder.path() + "/none/scenario.toml");
   CHECK_FALSE(missing.passed());

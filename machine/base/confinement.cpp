@@ -1,0 +1,93 @@
+#include "machine/base/confinement.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "machine/base/diagnostic.h"
+
+namespace kadr {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kReadFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
+
+/// True if `path` is below `folder`, both without links.
+bool lies_below(const fs::path& path, const fs::path& folder) {
+  const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  return end == folder.end();
+}
+
+bool lies_within(const fs::path& real, const InputFolders& folders) {
+  const auto holds = [&](const std::string& folder) {
+    std::error_code error;
+    const fs::path root = fs::canonical(folder.empty() ? "." : folder, error);
+    return !error && lies_below(real, root);
+  };
+  return holds(folders.own) || std::any_of(folders.allowed.begin(), folders.allowed.end(), holds);
+}
+
+}  // namespace
+
+std::string InputFolders::text() const {
+  std::string text = own.empty() ? "the current folder" : own;
+  for (const std::string& folder : allowed) text += ", " + folder;
+  return text;
+}
+
+InputFile::InputFile(const std::string& name, InputFolders below)
+    : path((fs::path(below.own) / name).string()), folders(std::move(below)) {}
+
+std::string InputFile::name() const {
+  if (!folders) return path == "-" ? "stdin" : path.substr(path.rfind('/') + 1);
+  const std::string own = (fs::path(folders->own) / "").string();
+  return path.starts_with(own) ? path.substr(own.size()) : path;
+}
+
+InputPlace place_of(const InputFile& file) {
+  std::error_code error;
+  const fs::path absolute = fs::absolute(file.path, error);
+  const fs::path real = error ? fs::path() : fs::weakly_canonical(absolute, error);
+  if (error) return InputPlace::missing;
+  if (file.folders && !lies_within(real, *file.folders)) return InputPlace::outside;
+  return fs::is_regular_file(real, error) ? InputPlace::inside : InputPlace::missing;
+}
+
+int open_without_links(const std::string& path) {
+  int at = ::open("/", O_PATH | O_DIRECTORY | O_CLOEXEC);
+  const fs::path parts = fs::path(path).relative_path();
+  for (auto part = parts.begin(); at >= 0 && part != parts.end();) {
+    const fs::path name = *part++;
+    const int flags = part == parts.end() ? kReadFlags : O_PATH | O_DIRECTORY | O_CLOEXEC;
+    const int next = ::openat(at, name.c_str(), flags | O_NOFOLLOW);
+    const int fault = errno;
+    ::close(at);
+    errno = fault;
+    at = next;
+  }
+  return at;
+}
+
+int open_input(const InputFile& file) {
+  if (!file.folders) return ::open(file.path.c_str(), kReadFlags);
+  std::error_code error;
+  const fs::path real = fs::canonical(file.path, error);
+  if (error) {
+    errno = error.value();
+    return -1;
+  }
+  if (!lies_within(real, *file.folders))
+    throw UnreadableText(
+        file.path, std::errc::operation_not_permitted,
+        fmt::format("lies outside {}; --allow DIR allows files below another folder", file.folders->text()));
+  return open_without_links(real.string());
+}
+
+}  // namespace kadr
