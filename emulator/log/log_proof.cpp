@@ -181,7 +181,7 @@ Breach LogProof::columns(const TickBlock& b) {
   const auto changed = [](std::optional<bool>& column, bool has, const char* count, std::size_t full) -> Breach {
     if (!column) column = has;
     if (*column == has) return {};
-    return breach("{} is {}, in the blocks before it {}", count, has ? full : 0, has ? "0" : "it is more than 0");
+    return breach("{} is {}, in the blocks before it {}", count, has ? full : 0, has ? "0" : "more than 0");
   };
   if (auto wrong = changed(plant_, b.has_plant, "n_plant_axes", b.axis.size())) return wrong;
   if (auto wrong = changed(override_, b.has_override, "n_override", b.size())) return wrong;

@@ -104,10 +104,10 @@ struct LogReader::Impl {
         hash.add(event.time_us, event.channel, event.data);
         continue;
       }
-      const auto summary = decode<LogSummary>(event.data, event.channel, header);
-      if (summary)
-        sentence =
-            denial(hashes_at_summary(hash, event.time_us, event.channel, event.data, summary->record), summary->record);
+      const auto read = decode<LogSummary>(event.data, event.channel, header);
+      if (read)
+        sentence = denial(hashes_at_summary(hash, event.time_us, event.channel, event.data, read->record),
+                          read->record);
       break;
     }
     events.rewind();
