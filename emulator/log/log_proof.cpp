@@ -116,10 +116,12 @@ Breach LogProof::add(const LogEventView& event, const LogMessage& message, bool 
 }
 
 Breach LogProof::stamp(const LogEventView& event, const LogMessage& message) {
-  if (event.time_us < last_us_)
-    return breach("it is stamped with {} us, the event before it with {} us: stamps never decrease",
+  // events of one control tick are written by kind
+  const std::int64_t back_us = event_time_us(Ticks{header_.control_tick_ticks}, header_.base_hz) + 1;
+  if (event.time_us < last_us_ - back_us)
+    return breach("it is stamped with {} us, an event before it with {} us: one control tick back is allowed",
                   event.time_us, last_us_);
-  last_us_ = event.time_us;
+  last_us_ = std::max(last_us_, event.time_us);
   const auto tick = std::visit(StampOf(header_.control_tick_ticks), message);
   if (!tick) return {};
   if (tick->value < 0 || tick->value > kLatest)

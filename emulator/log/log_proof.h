@@ -61,7 +61,7 @@ class LogProof {
 
   const LogHeader& header_;
   bool hashes_deny_ = false;
-  std::int64_t last_us_ = 0;
+  std::int64_t last_us_ = 0;                 // the latest stamp
   std::int64_t control_ticks_ = 0;           // in KADR_TICKS, or in KADR_STEPS if those are off
   std::int64_t next_tick_ = 0;               // the first control tick that exact data may begin with
   std::optional<Stretch> steps_due_;         // of the KADR_TICKS whose KADR_STEPS follows
