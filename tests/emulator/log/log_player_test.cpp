@@ -15,6 +15,7 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "log_support.h"
+#include "machine/machine.h"
 #include "machine/step_hash.h"
 
 /// The real lcm-logplayer plays a written log over UDP multicast that stays on this host (ttl=0), and every
