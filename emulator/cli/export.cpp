@@ -36,8 +36,7 @@ tl::expected<LogSamples, int> open_log(const Arguments& arguments, const char* w
       std::string_view rest = without_choice;
       while (!rest.empty()) {
         const auto comma = rest.find(',');
-        if (log_tools::matches_pattern(signal.name, rest.substr(0, comma)))
-          names.push_back(signal.name);
+        if (log_tools::matches_pattern(signal.name, rest.substr(0, comma))) names.push_back(signal.name);
         rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
       }
     }

@@ -41,8 +41,9 @@ HashesRead hashes_at_summary(ContentHash& before, std::int64_t time_us, std::str
 
 std::string denial(const HashesRead& read, const LogSummary& summary) {
   const auto sentence = [](std::string_view of, std::uint64_t is, std::uint64_t says) {
-    return fmt::format("its numbers are not those that were written: {} has the hash {}, KADR_SUMMARY says {}",
-                       of, hash_text(is), hash_text(says));
+    return fmt::format(
+        "its numbers are not those that were written: {} has the hash {}, KADR_SUMMARY says {}", of,
+        hash_text(is), hash_text(says));
   };
   if (read.content != summary.content_hash)
     return sentence("its content", read.content, summary.content_hash);

@@ -145,7 +145,7 @@ std::string log_state_name(LogState state) {
 
 std::string render_log_info(const LogInfo& info) {
   const LogHeader& h = info.header;
-  const std::string state = info.end.state == LogState::complete ? "complete"
+  const std::string state = info.end.state == LogState::complete  ? "complete"
                             : info.end.state == LogState::altered ? "altered: " + info.end.detail
                                                                   : info.end.detail;
   std::string out = fmt::format("{}: {}\n", info.path, state);

@@ -46,9 +46,7 @@ class StampOf {
 };
 
 /// Bit by bit: a number that is none equals itself.
-bool same(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
+bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
@@ -82,7 +80,8 @@ Breach LogProof::of_header(const LogHeader& h) {
       return breach("the name of axis {} has {} bytes, 1 to {} are allowed", a, axis.name.size(), kMostName);
     for (std::size_t before = 0; before < a; ++before)
       if (h.axis[before].name == axis.name) return breach("axes {} and {} have one name", before, a);
-    if (axis.unit != "mm" && axis.unit != "deg") return breach("the unit of axis {} is neither mm nor deg", a);
+    if (axis.unit != "mm" && axis.unit != "deg")
+      return breach("the unit of axis {} is neither mm nor deg", a);
     if (!std::isfinite(axis.step_u) || axis.step_u <= 0)
       return breach("a step of axis {} is {} long, more than 0 is allowed", a, axis.step_u);
     if (!std::isfinite(axis.home_u)) return breach("axis {} begins at {}", a, axis.home_u);
@@ -159,7 +158,8 @@ Breach LogProof::check(const BlockEndRecord& end) {
   const std::size_t axes = header_.axis.size(), energies = end.positive_J.size();
   if (end.peak_link_u.size() != axes)
     return breach("n_axes is {}, in KADR_RUN it is {}", end.peak_link_u.size(), axes);
-  if (energies != 0 && energies != axes) return breach("n_energy_axes is {}, 0 or {} is allowed", energies, axes);
+  if (energies != 0 && energies != axes)
+    return breach("n_energy_axes is {}, 0 or {} is allowed", energies, axes);
   return {};
 }
 
@@ -180,7 +180,8 @@ Breach LogProof::check(const TickBlock& b) {
 
 /// A column that one block has, every block has.
 Breach LogProof::columns(const TickBlock& b) {
-  const auto changed = [](std::optional<bool>& column, bool has, const char* count, std::size_t full) -> Breach {
+  const auto changed = [](std::optional<bool>& column, bool has, const char* count,
+                          std::size_t full) -> Breach {
     if (!column) column = has;
     if (*column == has) return {};
     return breach("{} is {}, in the blocks before it {}", count, has ? full : 0, has ? "0" : "more than 0");
@@ -300,8 +301,7 @@ Breach LogProof::check(const FeedSample& s) {
   const std::int64_t number = s.tick.value / tau - 1;
   if (last_viewed_ && number <= *last_viewed_)
     return breach("it is of control tick {}, the one before it of {}", number, *last_viewed_);
-  if (number < next_tick_)
-    return breach("it is of control tick {}, its exact data came before it", number);
+  if (number < next_tick_) return breach("it is of control tick {}, its exact data came before it", number);
   last_viewed_ = number;
   last_axis_ = -1;
   if (!header_.logs_ticks) return {};
@@ -332,8 +332,7 @@ Breach LogProof::check(const LogSummary& s) {
     return breach("n_axes is {}, in KADR_RUN it is {}", s.run.axis.size(), header_.axis.size());
   const auto alarms = static_cast<std::int64_t>(s.run.alarms);
   const auto warnings = static_cast<std::int64_t>(s.run.warnings);
-  if (alarms < 0 || warnings < 0)
-    return breach("it counts {} alarms and {} warnings", alarms, warnings);
+  if (alarms < 0 || warnings < 0) return breach("it counts {} alarms and {} warnings", alarms, warnings);
   return hashes_deny_ ? Breach{} : totals(s);
 }
 
@@ -344,7 +343,8 @@ Breach LogProof::totals(const LogSummary& s) const {
   // the control tick in which the plant failed is in no block
   const std::int64_t failed = run.outcome == Outcome::plant_error ? 1 : 0;
   const std::int64_t ticks = run.control_ticks.value;
-  if (run.ticks.value / header_.control_tick_ticks != ticks || run.ticks.value % header_.control_tick_ticks != 0)
+  if (run.ticks.value / header_.control_tick_ticks != ticks ||
+      run.ticks.value % header_.control_tick_ticks != 0)
     return breach("control_ticks is {}, tick is {}", ticks, run.ticks.value);
   if (exact && (next_tick_ > ticks || next_tick_ < ticks - failed))
     return breach("control_ticks is {}, the exact data end after {}", ticks, next_tick_);
@@ -354,7 +354,8 @@ Breach LogProof::totals(const LogSummary& s) const {
     return breach("n_alarms is {}, KADR_EVENT has {}", run.alarms, alarms_);
   if (auto wrong = axis_totals(s)) return wrong;
   if (header_.logs_steps && failed == 0 && run.steps_hash != steps_hash())
-    return breach("steps_hash is {}, that of KADR_STEPS {}", hash_text(run.steps_hash), hash_text(steps_hash()));
+    return breach("steps_hash is {}, that of KADR_STEPS {}", hash_text(run.steps_hash),
+                  hash_text(steps_hash()));
   return {};
 }
 
@@ -370,7 +371,8 @@ Breach LogProof::axis_totals(const LogSummary& s) const {
       return breach("net_steps of axis {} is {}, those of KADR_STEPS are {}", a, axis.net_steps.value,
                     sums.net_steps);
     if (control_ticks_ > 0 && header_.logs_ticks && axis.end_steps.value != sums.last_node)
-      return breach("end_steps of axis {} is {}, KADR_TICKS ends at {}", a, axis.end_steps.value, sums.last_node);
+      return breach("end_steps of axis {} is {}, KADR_TICKS ends at {}", a, axis.end_steps.value,
+                    sums.last_node);
   }
   if (header_.logs_steps && s.run.pulses != pulses)
     return breach("pulses is {}, KADR_STEPS has {}", s.run.pulses, pulses);

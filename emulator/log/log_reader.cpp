@@ -151,7 +151,8 @@ struct LogReader::Impl {
     auto decoded = decode_message(view, header);
     if (!decoded) return stop_in_event(decoded.error()), false;
     hash_event(decoded->record);
-    if (const Breach wrong = proof->add(view, decoded->record, !denied.empty())) return stop_in_event(*wrong), false;
+    if (const Breach wrong = proof->add(view, decoded->record, !denied.empty()))
+      return stop_in_event(*wrong), false;
     if (decoded->newer) note_newer(view.channel);
     message = std::move(decoded->record);
     if (std::holds_alternative<UnknownMessage>(message)) note_unknown(view.channel);
@@ -217,7 +218,9 @@ LogReader::~LogReader() = default;
 const LogHeader& LogReader::header() const { return impl_->header; }
 bool LogReader::next(LogMessage& message) { return impl_->next(message); }
 const LogEventView& LogReader::event() const { return impl_->view; }
-std::uint64_t LogReader::content_hash() const { return impl_->summary ? impl_->hashes.content : impl_->content.digest(); }
+std::uint64_t LogReader::content_hash() const {
+  return impl_->summary ? impl_->hashes.content : impl_->content.digest();
+}
 std::optional<std::uint64_t> LogReader::log_hash() const { return impl_->hashes.log; }
 std::uint64_t LogReader::steps_hash() const { return impl_->proof->steps_hash(); }
 const LogEnd& LogReader::end() const {

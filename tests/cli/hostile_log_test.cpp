@@ -28,11 +28,14 @@ struct Logs {
   Bytes bytes;
   Logs() {
     scratch.write("p.ngc", "G21 G90 G94\nG1 X5 F1500\nG1 Y3\nM2\n");
-    REQUIRE(call({"run", "p.ngc", "-o", "a.lcmlog", "-q", "--set", "log.viewer_rate_hz=0"}, scratch.path()).code == 0);
+    REQUIRE(call({"run", "p.ngc", "-o", "a.lcmlog", "-q", "--set", "log.viewer_rate_hz=0"}, scratch.path())
+                .code == 0);
     const std::string log = scratch.read("a.lcmlog");
     bytes.assign(log.begin(), log.end());
   }
-  void save(const std::string& name, const Bytes& log) const { scratch.write(name, {log.begin(), log.end()}); }
+  void save(const std::string& name, const Bytes& log) const {
+    scratch.write(name, {log.begin(), log.end()});
+  }
   /// The log with changed events, whose hashes fit.
   void save_sealed(const std::string& name, const std::function<void(Events&)>& change) const {
     Events events = kadr::test::events_of(bytes);
@@ -153,7 +156,8 @@ TEST_CASE("finite values beyond any picture are drawn within it") {
     for (LogEvent& e : events) {
       if (e.channel != "KADR_TICKS") continue;
       const std::size_t n = e.data[27];
-      for (std::size_t i = 0; i < n; ++i) std::copy_n((up ? high : low).begin(), 8, e.data.begin() + 40 + 8 * static_cast<std::ptrdiff_t>(i));
+      for (std::size_t i = 0; i < n; ++i)
+        std::copy_n((up ? high : low).begin(), 8, e.data.begin() + 40 + 8 * static_cast<std::ptrdiff_t>(i));
       up = !up;
     }
   });
@@ -162,6 +166,7 @@ TEST_CASE("finite values beyond any picture are drawn within it") {
   CHECK(contains(plot.out, "feed.commanded_mm_s   -1e+308 .. 1e+308 mm/s\n"));
   CHECK(contains(plot.out, " 1e+308 "));
   CHECK(std::count(plot.out.begin(), plot.out.end(), '#') > 100);
-  for (const std::string form : {"--svg", "--json", "--csv", "--vcd"}) CHECK(logs.kadr({"export", "b.lcmlog", form}).code == 0);
+  for (const std::string form : {"--svg", "--json", "--csv", "--vcd"})
+    CHECK(logs.kadr({"export", "b.lcmlog", form}).code == 0);
   CHECK_FALSE(contains(logs.kadr({"export", "b.lcmlog", "--svg"}).out, "nan"));
 }

@@ -29,7 +29,8 @@ void put_number(Bytes& data, std::size_t at, std::size_t width, std::uint64_t va
 
 std::uint64_t odd_number(Chance& chance, std::size_t width) {
   static constexpr std::array<std::uint64_t, 8> kWhole{
-      0, 1, 63, 65, std::uint64_t{1} << 62, std::numeric_limits<std::int64_t>::max(), ~std::uint64_t{0}, 1000};
+      0,   1, 63, 65, std::uint64_t{1} << 62, std::numeric_limits<std::int64_t>::max(), ~std::uint64_t{0},
+      1000};
   static constexpr std::array<double, 7> kReal{0.0,
                                                -1.0,
                                                1e308,
@@ -50,7 +51,8 @@ void swap_two(Events& events, Chance& chance) {
   std::swap(events[chance.below(events.size())], events[chance.below(events.size())]);
 }
 void drop_one(Events& events, Chance& chance) {
-  if (events.size() > 1) events.erase(events.begin() + static_cast<std::ptrdiff_t>(chance.below(events.size())));
+  if (events.size() > 1)
+    events.erase(events.begin() + static_cast<std::ptrdiff_t>(chance.below(events.size())));
 }
 void double_one(Events& events, Chance& chance) {
   const LogEvent copy = any(events, chance);
@@ -60,7 +62,8 @@ void move_one(Events& events, Chance& chance) {
   const std::size_t from = chance.below(events.size());
   LogEvent moved = std::move(events[from]);
   events.erase(events.begin() + static_cast<std::ptrdiff_t>(from));
-  events.insert(events.begin() + static_cast<std::ptrdiff_t>(chance.below(events.size() + 1)), std::move(moved));
+  events.insert(events.begin() + static_cast<std::ptrdiff_t>(chance.below(events.size() + 1)),
+                std::move(moved));
 }
 /// Messages of one channel change their places, stamps stay.
 void swap_messages(Events& events, Chance& chance) {
@@ -84,8 +87,8 @@ void shift_stamp(Events& events, Chance& chance) {
 /// Tick, control tick and stamp of a block of exact data, together.
 void shift_block(Events& events, Chance& chance) {
   constexpr std::uint64_t kTau = 10'000;
-  const std::int64_t by = chance.one_in(8) ? std::int64_t{1} << chance.below(40)
-                                           : static_cast<std::int64_t>(chance.below(9)) - 4;
+  const std::int64_t by =
+      chance.one_in(8) ? std::int64_t{1} << chance.below(40) : static_cast<std::int64_t>(chance.below(9)) - 4;
   const bool all = chance.one_in(2);
   const std::size_t from = chance.below(events.size());
   for (std::size_t i = from; i < events.size(); ++i) {
@@ -102,10 +105,11 @@ void shift_block(Events& events, Chance& chance) {
 void drop_columns(Events& events, Chance& chance) {
   for (std::size_t tries = 0; tries < 8; ++tries) {
     Bytes& data = any(events, chance).data;
-    if (data.size() < 64 || number_at(data, 0, 8) != static_cast<std::uint64_t>(log::kFingerprints<log::TickBlock>.back()))
+    if (data.size() < 64 ||
+        number_at(data, 0, 8) != static_cast<std::uint64_t>(log::kFingerprints<log::TickBlock>.back()))
       continue;
-    const std::size_t n = number_at(data, 24, 4), axes = number_at(data, 28, 4), plant = number_at(data, 32, 4),
-                      override = number_at(data, 36, 4);
+    const std::size_t n = number_at(data, 24, 4), axes = number_at(data, 28, 4),
+                      plant = number_at(data, 32, 4), override = number_at(data, 36, 4);
     const std::size_t head = 40 + 4 * 8 * n + 2 * n + 4 * n + 8 * axes + 4 * n * axes + 8 * n * axes;
     const std::size_t states = 5 * 8 * n * plant;
     if (n > 64 || axes > 64 || plant > 64 || override > 64 || head + states > data.size()) continue;
@@ -124,7 +128,8 @@ void cut_message(Events& events, Chance& chance) {
     data.insert(data.end(), 1 + chance.below(16), static_cast<std::uint8_t>(chance.bits()));
 }
 void rename_channel(Events& events, Chance& chance) {
-  static constexpr std::array kNames{"KADR_TICKS", "KADR_STEPS", "KADR_AXIS_X", "KADR_OTHER", "\x1b[31m", "KADR_SUMMARY"};
+  static constexpr std::array kNames{"KADR_TICKS", "KADR_STEPS", "KADR_AXIS_X",
+                                     "KADR_OTHER", "\x1b[31m",   "KADR_SUMMARY"};
   any(events, chance).channel = kNames[chance.below(kNames.size())];
 }
 void add_unknown(Events& events, Chance& chance) {
@@ -134,12 +139,14 @@ void add_unknown(Events& events, Chance& chance) {
 }
 /// Another text, in one of the places where the header, a block or an event has one.
 void odd_text(Events& events, Chance& chance) {
-  static constexpr std::array kTexts{"<script>", "a,b\"c\n", "***********.*", "$end", "\x1b]0;x\x07", "\xff\xfe", ""};
+  static constexpr std::array kTexts{"<script>", "a,b\"c\n", "***********.*", "$end", "\x1b]0;x\x07",
+                                     "\xff\xfe", ""};
   Bytes& data = any(events, chance).data;
   std::vector<std::size_t> texts;
   for (std::size_t at = kFieldsAt; at + 5 <= data.size(); ++at) {
     const std::size_t size = number_at(data, at, 4);
-    if (size >= 1 && size < 100 && at + 4 + size <= data.size() && data[at + 4 + size - 1] == 0) texts.push_back(at);
+    if (size >= 1 && size < 100 && at + 4 + size <= data.size() && data[at + 4 + size - 1] == 0)
+      texts.push_back(at);
   }
   if (texts.empty()) return;
   const std::size_t at = texts[chance.below(texts.size())], size = number_at(data, at, 4);
@@ -152,9 +159,9 @@ void odd_text(Events& events, Chance& chance) {
 }
 
 using Change = void (*)(Events&, Chance&);
-constexpr std::array<Change, 14> kChanges{swap_two,  drop_one,     double_one,  move_one,    swap_messages,
-                                          flip_bit,  odd_value,    shift_stamp, shift_block, drop_columns,
-                                          cut_message, rename_channel, add_unknown, odd_text};
+constexpr std::array<Change, 14> kChanges{
+    swap_two,    drop_one,    double_one,   move_one,    swap_messages,  flip_bit,    odd_value,
+    shift_stamp, shift_block, drop_columns, cut_message, rename_channel, add_unknown, odd_text};
 
 }  // namespace
 
@@ -168,7 +175,8 @@ std::uint64_t Chance::bits() {
 Mutation mutated(const Bytes& log, Chance& chance) {
   Events events = test::events_of(log);
   if (events.empty()) return {log, true};
-  for (std::size_t n = 1 + chance.below(4); n > 0; --n) kChanges[chance.below(kChanges.size())](events, chance);
+  for (std::size_t n = 1 + chance.below(4); n > 0; --n)
+    kChanges[chance.below(kChanges.size())](events, chance);
   Mutation out;
   out.sealed = !chance.one_in(4);
   if (out.sealed) test::seal(events);

@@ -50,7 +50,8 @@ std::string exports(const std::string& path, const log::LogInfo& info) {
          sampled(path, log_tools::write_vcd) +
          sampled(path, [](LogSamples& log, const log_tools::Sink& sink) { write_svg(log, "title", sink); }) +
          sampled(path, [&](LogSamples& log, const log_tools::Sink& sink) { sink(render_plot(log, form)); }) +
-         sampled(path, [&](LogSamples& log, const log_tools::Sink& sink) { sink(render_path_plot(log, form)); });
+         sampled(path,
+                 [&](LogSamples& log, const log_tools::Sink& sink) { sink(render_path_plot(log, form)); });
 }
 
 std::string pages(const std::string& path, const std::string& other) {
@@ -77,7 +78,9 @@ void diffs(const std::string& path, const std::string& other) {
   const log_tools::LogDiff* logs = nullptr;
   log_tools::TickDiffSinks by_tick;
   by_tick.begin = [&](const log_tools::LogDiff& diff) { logs = &diff; };
-  by_tick.each = [&](const log_tools::TickDifference& d) { bytes += render_tick_difference(d, *logs).size(); };
+  by_tick.each = [&](const log_tools::TickDifference& d) {
+    bytes += render_tick_difference(d, *logs).size();
+  };
   if (const auto diff = log_tools::diff_logs(other, path, options, by_tick))
     bytes += log_tools::render_log_diff(*diff).size() + text::json_text(log_tools::json_of(*diff)).size();
   const log_tools::PathDiff* paths = nullptr;
@@ -108,7 +111,8 @@ LogAnswers read_log(const std::string& path, const std::string& other) {
   answers.sound = log::is_sound(info->end.state);
   if (answers.sound)
     require(info->content_hash_agrees().value_or(false) && info->log_hash_agrees().value_or(true) &&
-                (info->steps_hash_agrees().value_or(true) || info->summary->run.outcome == log::Outcome::plant_error),
+                (info->steps_hash_agrees().value_or(true) ||
+                 info->summary->run.outcome == log::Outcome::plant_error),
             "a sound log has the hashes of its summary");
   const std::string text = exports(path, *info), page = pages(path, other);
   diffs(path, other);

@@ -29,7 +29,8 @@ void keep(const std::string& path, const fuzz::Bytes& log) {
 
 int write_bases(const std::string& folder) {
   std::size_t number = 0;
-  for (const fuzz::Bytes& log : fuzz::true_logs()) keep(folder + "/true" + std::to_string(number++) + ".lcm", log);
+  for (const fuzz::Bytes& log : fuzz::true_logs())
+    keep(folder + "/true" + std::to_string(number++) + ".lcm", log);
   return 0;
 }
 
@@ -81,8 +82,8 @@ int mutate(std::uint64_t count, std::uint64_t seed, const std::string& folder) {
     if (!folder.empty()) keep(folder + "/log-" + std::to_string(seed + i), mutation.log);
   }
   std::printf("%llu of them read to the end as sound, slowest %.3f s\n%llu mutations, %llu findings\n",
-              static_cast<unsigned long long>(tally.sound), tally.slowest_s, static_cast<unsigned long long>(count),
-              static_cast<unsigned long long>(tally.findings));
+              static_cast<unsigned long long>(tally.sound), tally.slowest_s,
+              static_cast<unsigned long long>(count), static_cast<unsigned long long>(tally.findings));
   return tally.findings == 0 ? 0 : 1;
 }
 
@@ -96,5 +97,6 @@ int main(int count, char** arguments) {
     std::fputs("usage: mutate_logs COUNT [SEED [FOLDER]]\n", stderr);
     return 2;
   }
-  return mutate(number, count > 2 ? std::strtoull(arguments[2], nullptr, 10) : 1, count > 3 ? arguments[3] : "");
+  return mutate(number, count > 2 ? std::strtoull(arguments[2], nullptr, 10) : 1,
+                count > 3 ? arguments[3] : "");
 }

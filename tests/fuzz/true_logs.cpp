@@ -38,12 +38,12 @@ void write(const std::string& path, const machine::MachineModel& machine, const 
   auto log = log::open_lcm_log({path, ""});
   if (!log) throw std::runtime_error(log.error().path + ": " + log.error().reason);
   check((*log)->begin(test::log_header(machine)));
-  check((*log)->diagnostic({all_codes().front().code, Severity::warning, {0, 1, 1, 3}, "text", "label", {"note"}, "help"},
-                           Ticks{-1}));
-  test::FakeRun run(machine, {.peak_steps_per_s = 20'000,
-                              .ramp_ticks = 4,
-                              .plant = kind.plant,
-                              .has_override = kind.has_override});
+  check((*log)->diagnostic(
+      {all_codes().front().code, Severity::warning, {0, 1, 1, 3}, "text", "label", {"note"}, "help"},
+      Ticks{-1}));
+  test::FakeRun run(
+      machine,
+      {.peak_steps_per_s = 20'000, .ramp_ticks = 4, .plant = kind.plant, .has_override = kind.has_override});
   test::Totals totals(machine);
   const std::int64_t tau = machine.clock.control_tick.value;
   const std::vector<double> peaks(machine.axis.size(), 0.5);
@@ -51,7 +51,8 @@ void write(const std::string& path, const machine::MachineModel& machine, const 
     const Ticks begin{k * tau};
     if (k % 5 == 0) {
       const auto number = static_cast<std::uint32_t>(k / 5);
-      check((*log)->block({begin, number, {0, number + 1, 1, 3}, "N10 G1 X10", "line", 1, 100, 99, 0, 0.1, "program"}));
+      check((*log)->block(
+          {begin, number, {0, number + 1, 1, 3}, "N10 G1 X10", "line", 1, 100, 99, 0, 0.1, "program"}));
       if (k > 0) check((*log)->block_end({Ticks{(k + 1) * tau}, number - 1, 1, peaks, peaks, {}, {}}));
     }
     if (k == 3) check((*log)->event(event(begin + Ticks{5}, log::EventKind::dwell, "dwell")));
@@ -71,7 +72,8 @@ void write(const std::string& path, const machine::MachineModel& machine, const 
 std::vector<Bytes> true_logs() {
   const test::TestFolder folder;
   std::vector<Bytes> logs;
-  for (const Kind& kind : {Kind{}, Kind{.plant = false, .has_override = true}, Kind{.ticks = false}, Kind{.steps = false}}) {
+  for (const Kind& kind :
+       {Kind{}, Kind{.plant = false, .has_override = true}, Kind{.ticks = false}, Kind{.steps = false}}) {
     machine::MachineModel machine = test::log_machine(2);
     machine.log.block_ticks = ControlTicks{4};
     machine.log.viewer_rate_hz = 500;

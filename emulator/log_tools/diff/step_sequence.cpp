@@ -96,7 +96,8 @@ void StepSequence::add_pulses(Side& side, int number, const LogFrame& frame) {
 void StepSequence::settle_marks(Side& side, Ticks until) {
   // marks ascend: each is touched twice, however many there are at one stamp
   const auto at = [&](std::size_t n) { return side.marks[n].stamp.value; };
-  for (; side.reached < side.marks.size() && until.value >= at(side.reached) - kStampSlack_ticks; ++side.reached)
+  for (; side.reached < side.marks.size() && until.value >= at(side.reached) - kStampSlack_ticks;
+       ++side.reached)
     side.marks[side.reached].low = side.total;
   for (; side.known < side.reached && until.value > at(side.known) + kStampSlack_ticks; ++side.known)
     side.marks[side.known].high = side.total;

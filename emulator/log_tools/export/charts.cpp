@@ -17,7 +17,7 @@ constexpr std::size_t kPieces = 2048;  ///< of a line: at least one per pixel co
 constexpr std::size_t kStyles = 6;
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFarthest = 1e300;  ///< a value beyond is drawn there, so that a chart's range is finite
-constexpr double kGap = 12;  ///< pixels between charts
+constexpr double kGap = 12;          ///< pixels between charts
 
 constexpr std::string_view kStyle = R"css(
 svg { background: #ffffff; font: 12px system-ui, sans-serif; } text { fill: #1c2024; }

@@ -90,9 +90,10 @@ double share_of(double value, const text::ChartRange& range) {
 std::string framed(const Canvas& canvas, int rows, const text::ChartRange& y) {
   std::string out;
   for (int r = 0; r < rows; ++r) {
-    const double value = r == 0          ? y.high
-                         : r == rows - 1 ? y.low
-                                         : 2 * (0.5 * y.low + half_way(y.low, y.high) * (rows - 1 - r) / (rows - 1));
+    const double value = r == 0 ? y.high
+                         : r == rows - 1
+                             ? y.low
+                             : 2 * (0.5 * y.low + half_way(y.low, y.high) * (rows - 1 - r) / (rows - 1));
     const bool labelled = r == 0 || r == rows - 1 || 2 * r == rows - 1;
     out += text::pad_left(labelled ? text::significant(value) : "", kMargin - 2) + (labelled ? " ┤" : " │") +
            canvas.row(r);
@@ -218,8 +219,9 @@ std::string render_path_plot(LogSamples& log, const PlotForm& form) {
   const Canvas room(columns, most_rows, form.ascii);
   constexpr double kLeast_mm = 1e-9;
   // dots for half a millimetre
-  const double scale = std::min((room.width() - 1) / std::max(half_way(x.low, x.high), kLeast_mm / 2),
-                                (room.height() - 1) * tall / std::max(half_way(y.low, y.high), kLeast_mm / 2));
+  const double scale =
+      std::min((room.width() - 1) / std::max(half_way(x.low, x.high), kLeast_mm / 2),
+               (room.height() - 1) * tall / std::max(half_way(y.low, y.high), kLeast_mm / 2));
   // no more rows than the path fills
   const int dots = static_cast<int>(half_way(y.low, y.high) * scale / tall + 0.5) + 1,
             down = room.height() / most_rows;

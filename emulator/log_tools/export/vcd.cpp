@@ -72,8 +72,9 @@ class Dump {
   std::size_t signal_wire(std::size_t k) const { return kWires + 2 * header_.axis.size() + k; }
 
   void head() {
-    std::string out = fmt::format("$version kadr {} $end\n$comment {} on {} $end\n", plain(header_.kadr_version),
-                                  plain(header_.program_name), plain(header_.machine_name));
+    std::string out =
+        fmt::format("$version kadr {} $end\n$comment {} on {} $end\n", plain(header_.kadr_version),
+                    plain(header_.program_name), plain(header_.machine_name));
     if (!scale_.exact) out += "$comment base ticks are rounded down to 1 ps $end\n";
     out += fmt::format("$timescale {} $end\n$scope module kadr $end\n", scale_.name);
     const auto wire = [&](std::size_t number, const std::string& name) {
@@ -88,7 +89,8 @@ class Dump {
       wire(dir_wire(a), axis + "_dir");
     }
     for (std::size_t k = 0; k < log_.chosen().size(); ++k)
-      out += fmt::format("$var real 64 {} {} $end\n", identifier(signal_wire(k)), word(log_.chosen()[k].name));
+      out +=
+          fmt::format("$var real 64 {} {} $end\n", identifier(signal_wire(k)), word(log_.chosen()[k].name));
     out += "$upscope $end\n$enddefinitions $end\n";
     sink_(out);
     level_.assign(kWires + 2 * header_.axis.size(), -1);

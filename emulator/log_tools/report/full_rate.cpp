@@ -124,8 +124,7 @@ tl::expected<FullRate, log::LogReadError> read_full_rate(const std::string& path
           sample.frame->ticks->axis[a].steps[sample.frame->tick_index], INT32_MIN, INT32_MAX));
     if (!inside) continue;
     fill_to(at + 1);
-    for (std::size_t k = 0; k < out.tracks.size(); ++k)
-      out.tracks[k][at] = narrowed(sample.value[k]);
+    for (std::size_t k = 0; k < out.tracks.size(); ++k) out.tracks[k][at] = narrowed(sample.value[k]);
   }
   fill_to(total);
   return out;

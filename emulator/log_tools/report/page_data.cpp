@@ -80,7 +80,7 @@ class Gatherer {
     const std::size_t i = s.frame->tick_index;
     if (data_.control_ticks++ == 0) data_.first_control_tick = s.control_tick;
     const auto piece = static_cast<std::size_t>((s.control_tick - data_.first_control_tick) / data_.every);
-    if (piece >= kMostPieces) {
+    if (piece >= most_pieces()) {
       halve(data_);
       --data_.control_ticks;
       return sample(s);
@@ -103,6 +103,12 @@ class Gatherer {
   PathCorners corners() const { return corners_.corners(); }
 
  private:
+  /// Control ticks that a log skips take pieces too: a log of a few ticks that are far apart gets few.
+  std::size_t most_pieces() const {
+    constexpr std::size_t kForEachTick = 4096;
+    return std::min(kMostPieces, kForEachTick * static_cast<std::size_t>(data_.control_ticks));
+  }
+
   void grow() {
     for (Track& track : data_.tracks) {
       track.low.push_back(std::numeric_limits<float>::quiet_NaN());

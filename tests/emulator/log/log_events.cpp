@@ -17,7 +17,8 @@ std::uint64_t number_at(const std::vector<std::uint8_t>& data, std::size_t at, s
 log::LogHeader header_of(const LogEvent& first) {
   log::LogHeader header;
   header.base_hz = 10'000'000;
-  if (auto read = log::decode<log::LogHeader>(first.data, first.channel, header)) header = std::move(read->record);
+  if (auto read = log::decode<log::LogHeader>(first.data, first.channel, header))
+    header = std::move(read->record);
   return header;
 }
 

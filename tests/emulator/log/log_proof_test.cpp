@@ -42,7 +42,9 @@ class Forge {
     REQUIRE(record.has_value());
     // the reader fills these in
     if constexpr (std::same_as<R, TickBlock>)
-      if (!record->record.has_override) record->record.override_requested.clear(), record->record.limiter.clear(), record->record.override_note.clear();
+      if (!record->record.has_override)
+        record->record.override_requested.clear(), record->record.limiter.clear(),
+            record->record.override_note.clear();
     change(record->record);
     encode(record->record, header_, e.data);
   }
@@ -85,7 +87,8 @@ TEST_CASE("columns of the plant or of the override that come or go make a log da
   Forge forge;
   forge.change<TickBlock>(2, [](TickBlock& b) {
     b.has_plant = false;
-    for (AxisTicks& axis : b.axis) axis.base_u = axis.base_u_s = axis.link_u = axis.link_u_s = axis.motor_force_N = {};
+    for (AxisTicks& axis : b.axis)
+      axis.base_u = axis.base_u_s = axis.link_u = axis.link_u_s = axis.motor_force_N = {};
   });
   CHECK(forge.found() == "KADR_TICKS: n_plant_axes is 0, in the blocks before it more than 0");
   Forge other;
@@ -109,7 +112,8 @@ TEST_CASE("exact data in another order make a log damaged") {
   }
   SUBCASE("blocks that run back") {
     Forge forge;
-    std::swap(forge.events[forge.index("KADR_TICKS", 1)].data, forge.events[forge.index("KADR_TICKS", 2)].data);
+    std::swap(forge.events[forge.index("KADR_TICKS", 1)].data,
+              forge.events[forge.index("KADR_TICKS", 2)].data);
     CHECK(forge.found() == "KADR_TICKS: it is stamped with 64000 us, its tick 960000 is at 96000 us");
   }
   SUBCASE("a block twice") {
@@ -117,7 +121,8 @@ TEST_CASE("exact data in another order make a log damaged") {
     const std::size_t at = forge.index("KADR_STEPS", 1);
     const Events twice(forge.events.begin() + static_cast<std::ptrdiff_t>(at) - 1,
                        forge.events.begin() + static_cast<std::ptrdiff_t>(at) + 1);
-    forge.events.insert(forge.events.begin() + static_cast<std::ptrdiff_t>(at) + 1, twice.begin(), twice.end());
+    forge.events.insert(forge.events.begin() + static_cast<std::ptrdiff_t>(at) + 1, twice.begin(),
+                        twice.end());
     CHECK(forge.found() == "KADR_TICKS: it begins with control tick 32, the block before it ends with 63");
   }
   SUBCASE("a block far behind its pulses") {
@@ -126,7 +131,8 @@ TEST_CASE("exact data in another order make a log damaged") {
       b.first = ControlTicks{1'000'000'000};
       b.begin = Ticks{10'000'000'000'000};
     });
-    CHECK(forge.found() == "KADR_TICKS: it is stamped with 32000 us, its tick 10000000320000 is at 1000000032000 us");
+    CHECK(forge.found() ==
+          "KADR_TICKS: it is stamped with 32000 us, its tick 10000000320000 is at 1000000032000 us");
   }
 }
 
@@ -154,11 +160,14 @@ TEST_CASE("blocks, viewers, events and stamps that contradict the messages befor
   SUBCASE("stamps") {
     Forge forge;
     forge.events[forge.index("KADR_FEED", 3)].time_us = 1;
-    CHECK(forge.found() == "KADR_FEED: it is stamped with 1 us, an event before it with 32000 us: one control tick back is allowed");
+    CHECK(forge.found() ==
+          "KADR_FEED: it is stamped with 1 us, an event before it with 32000 us: one control tick back is "
+          "allowed");
   }
   SUBCASE("numbers that are not finite") {
     Forge forge;
-    forge.change<TickBlock>(1, [](TickBlock& b) { b.axis[1].link_u[3] = std::numeric_limits<double>::infinity(); });
+    forge.change<TickBlock>(
+        1, [](TickBlock& b) { b.axis[1].link_u[3] = std::numeric_limits<double>::infinity(); });
     CHECK(forge.found() == "KADR_TICKS: a number in link_u is not finite");
   }
   SUBCASE("a path that runs back") {
@@ -178,11 +187,19 @@ TEST_CASE("a summary that contradicts the messages before it makes a log damaged
         "KADR_SUMMARY: control_ticks is 301, tick is 3000000");
   CHECK(with([](RunSummary& s) { s.blocks = 2; }) == "KADR_SUMMARY: blocks is 2, KADR_BLOCK came 3 times");
   CHECK(with([](RunSummary& s) { s.alarms = 0; }) == "KADR_SUMMARY: n_alarms is 0, KADR_EVENT has 1");
-  CHECK(with([](RunSummary& s) { s.axis[1].pulses = 7; }).find("KADR_SUMMARY: axis_pulses of axis 1 is 7, ") == 0);
-  CHECK(with([](RunSummary& s) { s.axis[0].net_steps = Steps{-1}; }).find("KADR_SUMMARY: net_steps of axis 0 is -1, ") == 0);
-  CHECK(with([](RunSummary& s) { s.axis[0].end_steps = Steps{-1}; }).find("KADR_SUMMARY: end_steps of axis 0 is -1, ") == 0);
+  CHECK(with([](RunSummary& s) {
+          s.axis[1].pulses = 7;
+        }).find("KADR_SUMMARY: axis_pulses of axis 1 is 7, ") == 0);
+  CHECK(with([](RunSummary& s) {
+          s.axis[0].net_steps = Steps{-1};
+        }).find("KADR_SUMMARY: net_steps of axis 0 is -1, ") == 0);
+  CHECK(with([](RunSummary& s) {
+          s.axis[0].end_steps = Steps{-1};
+        }).find("KADR_SUMMARY: end_steps of axis 0 is -1, ") == 0);
   CHECK(with([](RunSummary& s) { s.pulses = 1; }).find("KADR_SUMMARY: pulses is 1, ") == 0);
-  CHECK(with([](RunSummary& s) { s.steps_hash = 1; }).find("KADR_SUMMARY: steps_hash is 0000000000000001, ") == 0);
+  CHECK(with([](RunSummary& s) {
+          s.steps_hash = 1;
+        }).find("KADR_SUMMARY: steps_hash is 0000000000000001, ") == 0);
   CHECK(with([](RunSummary& s) { s.axis.pop_back(); }) == "KADR_SUMMARY: n_axes is 1, in KADR_RUN it is 2");
 }
 
@@ -195,10 +212,13 @@ TEST_CASE("a header that contradicts itself is damaged") {
   };
   CHECK(with([](LogHeader&) {}) == "");
   CHECK(with([](LogHeader& h) { h.axis[1].name = "X"; }) == "axes 0 and 1 have one name");
-  CHECK(with([](LogHeader& h) { h.axis[1].name = ""; }) == "the name of axis 1 has 0 bytes, 1 to 53 are allowed");
+  CHECK(with([](LogHeader& h) { h.axis[1].name = ""; }) ==
+        "the name of axis 1 has 0 bytes, 1 to 53 are allowed");
   CHECK(with([](LogHeader& h) { h.axis[0].unit = "inch"; }) == "the unit of axis 0 is neither mm nor deg");
-  CHECK(with([](LogHeader& h) { h.axis[0].step_u = 0; }) == "a step of axis 0 is 0 long, more than 0 is allowed");
-  CHECK(with([](LogHeader& h) { h.program_text = "G1"; }) == "its program_text has 2 bytes, program_bytes is 0");
+  CHECK(with([](LogHeader& h) { h.axis[0].step_u = 0; }) ==
+        "a step of axis 0 is 0 long, more than 0 is allowed");
+  CHECK(with([](LogHeader& h) { h.program_text = "G1"; }) ==
+        "its program_text has 2 bytes, program_bytes is 0");
   CHECK(with([](LogHeader& h) {
           h.program_text = "G1";
           h.program_bytes = 2;

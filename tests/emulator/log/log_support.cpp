@@ -262,30 +262,30 @@ std::int64_t write_log(const std::string& path, const machine::MachineModel& mac
     const std::vector<double> energies(peaks.size(), 0.25);
     if (k % 100 == 0) {
       begin({Ticks{k * tau + 7},
-                           number,
-                           {0, number + 1, 1, 8},
-                           "N10 G1 X10 F100",
-                           "line",
-                           10.5,
-                           100,
-                           99,
-                           0,
-                           0.105,
-                           "axis X speed"});
+             number,
+             {0, number + 1, 1, 8},
+             "N10 G1 X10 F100",
+             "line",
+             10.5,
+             100,
+             99,
+             0,
+             0.105,
+             "axis X speed"});
       if (k > 0)
         check(
             (*log)->block_end({Ticks{(k + 1) * tau}, number - 1, number, peaks, peaks, energies, energies}));
     }
     if (k % 250 == 249)
       happen({Ticks{k * tau + 9},
-                           number,
-                           {0, 3, 4, 5},
-                           log::EventKind::alarm,
-                           all_codes().back().code,
-                           1,
-                           2.5,
-                           2.0,
-                           "axis Y is too fast: 2.5 mm/s, allowed 2.0 mm/s"});
+              number,
+              {0, 3, 4, 5},
+              log::EventKind::alarm,
+              all_codes().back().code,
+              1,
+              2.5,
+              2.0,
+              "axis Y is too fast: 2.5 mm/s, allowed 2.0 mm/s"});
     const log::TickRecord& record = run.advance();
     totals.add(run.batch());
     check((*log)->tick(record, run.batch()));
