@@ -107,8 +107,9 @@ TEST_CASE("no command says yes to a log with a flipped bit, and none leaves an o
     }
     const Finished info = logs.kadr({"info", "b.lcmlog"});
     CHECK(info.code == 1);
-    CHECK(contains(info.out, "b.lcmlog: altered: its numbers are not those that were written: "));
-    CHECK(contains(info.out, "DIFFERS from the summary"));
+    // a message that is impossible in itself ends it before the hash is asked
+    CHECK((contains(info.out, "b.lcmlog: altered: its numbers are not those that were written: ") ||
+           contains(info.out, "b.lcmlog: damaged: event ")));
   }
 }
 
@@ -163,8 +164,8 @@ TEST_CASE("finite values beyond any picture are drawn within it") {
   });
   const Finished plot = logs.kadr({"plot", "b.lcmlog", "--signals", "feed.commanded*", "--ascii"});
   CHECK(plot.code == 0);
-  CHECK(contains(plot.out, "feed.commanded_mm_s   -1e+308 .. 1e+308 mm/s\n"));
-  CHECK(contains(plot.out, " 1e+308 "));
+  CHECK(contains(plot.out, "feed.commanded_mm_s   -1.000e+308 .. 1.000e+308 mm/s\n"));
+  CHECK(contains(plot.out, "\n1.000e+308 "));
   CHECK(std::count(plot.out.begin(), plot.out.end(), '#') > 100);
   for (const std::string form : {"--svg", "--json", "--csv", "--vcd"})
     CHECK(logs.kadr({"export", "b.lcmlog", form}).code == 0);
