@@ -6,6 +6,7 @@
 #include "emulator/log/log.h"
 #include "emulator/log/log_decode.h"
 #include "emulator/log/log_messages.h"
+#include "log_events.h"
 #include "log_support.h"
 #include "machine/machine.h"
 
@@ -20,39 +21,14 @@ namespace {
 /// warning.
 const std::string kFormat2 = KADR_SOURCE_DIR "/tests/emulator/log/data/format2.lcm";
 
-struct Event {
-  std::string channel;
-  std::int64_t time_us;
-  std::vector<std::uint8_t> data;
-};
+using Event = test::LogEvent;
 
-std::vector<Event> events_of(const std::string& path) {
-  auto reader = LogReader::open(path);
-  REQUIRE(reader.has_value());
-  std::vector<Event> events;
-  for (LogMessage m; reader->next(m);) {
-    const LogEventView& e = reader->event();
-    events.push_back({std::string(e.channel), e.time_us, {e.data.begin(), e.data.end()}});
-  }
-  return events;
-}
+std::vector<Event> events_of(const std::string& path) { return test::events_of(test::read_bytes(path)); }
 
-/// Writes events as an LCM log; bytes only, so that they may be of any kadr.
-void write_events(const std::string& path, const std::vector<Event>& events) {
-  std::vector<std::uint8_t> bytes, head;
-  std::int64_t number = 0;
-  for (const Event& e : events) {
-    WireWriter out(head);
-    out.i32(static_cast<std::int32_t>(kEventSync));
-    out.i64(number++);
-    out.i64(e.time_us);
-    out.i32(static_cast<std::int32_t>(e.channel.size()));
-    out.i32(static_cast<std::int32_t>(e.data.size()));
-    bytes.insert(bytes.end(), head.begin(), head.end());
-    bytes.insert(bytes.end(), e.channel.begin(), e.channel.end());
-    bytes.insert(bytes.end(), e.data.begin(), e.data.end());
-  }
-  test::write_bytes(path, bytes);
+/// Writes events as an LCM log whose hashes fit.
+void write_events(const std::string& path, std::vector<Event> events) {
+  test::seal(events);
+  test::write_bytes(path, test::log_of(events));
 }
 
 /// A header of an older kadr as this one writes it, with the fields that were appended since.
