@@ -14,6 +14,14 @@ class TimelineDraw {
 
   std::string make() {
     for (int n = d_.whole(0, 7); n > 0; --n) step();
+    if (d_.chance(0.1)) return text_;
+    // whatever was asked for, the program comes to its end
+    at(kLastTick + 300);
+    text_ += "override_pct = 100\n";
+    at(kLastTick + 300);
+    text_ += "rapid_override_pct = 100\n";
+    at(kLastTick + 300);
+    text_ += "spindle_load_pct = 0\n";
     return text_;
   }
 
