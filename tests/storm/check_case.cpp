@@ -96,9 +96,9 @@ class CaseCheck {
     if (prepared_->given.most_override && tell(other_timeline())) return;
     if (run_->whole() && prepared_->given.most_override) met("live");
     if (tell(check_live(*prepared_, *run_, seed_))) return;
-    bool compared = false;
-    if (tell(check_integrators(*prepared_, *run_, compared))) return;
-    if (compared) met("integrators");
+    std::optional<double> apart_um;
+    if (tell(check_integrators(*prepared_, *run_, apart_um))) return;
+    if (apart_um) met(*apart_um <= 1e-6 ? "integrators, within 1e-6 um" : "integrators, within 1e-5 um");
     if (mixed(seed_ + 1) % 3 == 0) {
       met("replay of inputs");
       tell(check_replay_of_inputs(case_, *run_, options_.scratch));

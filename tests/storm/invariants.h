@@ -74,8 +74,8 @@ Verdict check_replay_of_inputs(const StormCase& storm_case, const FinishedRun& r
 /// The pulses in the log, through a plant of its own, give the states in the log, to the last bit.
 Verdict check_replay_of_pulses(const PreparedCase& prepared, const FinishedRun& run);
 Verdict check_live(const PreparedCase& prepared, const FinishedRun& run, std::uint64_t seed);
-/// @return nothing too where there is nothing to compare: no plant, steps lost, too many pulses
-Verdict check_integrators(const PreparedCase& prepared, const FinishedRun& run, bool& compared);
+/// @param apart_um  set to the largest distance; stays where there is nothing to compare: no plant, steps lost, many pulses
+Verdict check_integrators(const PreparedCase& prepared, const FinishedRun& run, std::optional<double>& apart_um);
 Verdict check_planted(const PreparedCase& prepared);
 
 }  // namespace kadr::storm

@@ -59,13 +59,13 @@ Verdict check_replay_of_pulses(const PreparedCase& prepared, const FinishedRun& 
   return {};
 }
 
-Verdict check_integrators(const PreparedCase& prepared, const FinishedRun& run, bool& compared) {
+Verdict check_integrators(const PreparedCase& prepared, const FinishedRun& run, std::optional<double>& largest_um) {
   // CVODE from pulse to pulse takes some 20 us a pulse
   constexpr std::int64_t kMostPulses = 3000;
   constexpr std::size_t kMostTicks = 1500;
-  // docs/promises.md: 1e-6 um each; what is far from rest is a larger number with a larger rounding
-  constexpr double kBound_um = 2e-6, kOfSize = 1e-9;
-  compared = false;
+  // tests/plant keeps 1e-6 um on usual machines; the storm's have frequencies of up to a third of the control rate, and what is
+  // far from rest has a larger rounding
+  constexpr double kBound_um = 1e-5, kOfSize = 1e-9;
   if (!has_plant(run) || run.summary.pulses > kMostPulses || run.tape.size() > kMostTicks) return {};
   machine::MachineModel machine = prepared.given.machine.model;
   machine.plant.tolerance_um = machine::PlantSettings{}.tolerance_um;
@@ -75,6 +75,7 @@ Verdict check_integrators(const PreparedCase& prepared, const FinishedRun& run, 
   machine.plant.integrator = IntegratorKind::smooth;
   const Replay smooth = through_plant(machine, run);
   if (smooth.lost_steps) return {};
+  double largest = 0;
   for (const IntegratorKind kind : {IntegratorKind::reference, IntegratorKind::oracle}) {
     if (kind == IntegratorKind::oracle && !linear) continue;
     machine.plant.integrator = kind;
@@ -91,6 +92,7 @@ Verdict check_integrators(const PreparedCase& prepared, const FinishedRun& run, 
         const double node_u = static_cast<double>(run.tape[k].position[a].value) * machine.axis[a].step_u;
         lag_um[a] = std::max({lag_um[a], 1e3 * std::fabs(s.base_u - node_u), 1e3 * std::fabs(s.link_u)});
         const double apart_um = 1e3 * std::max(std::fabs(s.base_u - o.base_u), std::fabs(s.link_u - o.link_u));
+        largest = std::max(largest, apart_um);
         if (apart_um > kBound_um + kOfSize * lag_um[a])
           return Finding{Invariant::integrators_agree,
                          fmt::format("smooth and {} are {:.3g} um apart on axis {} at control tick {}, {:.3g} um from "
@@ -98,7 +100,7 @@ Verdict check_integrators(const PreparedCase& prepared, const FinishedRun& run, 
                                      name, apart_um, machine.axis[a].letter, k, lag_um[a])};
       }
   }
-  compared = smooth.failure.empty();
+  if (smooth.failure.empty()) largest_um = largest;
   return {};
 }
 

@@ -161,7 +161,7 @@ class World {
       if (fault == "signal") words >> d.signal;
       words >> number;
       d.after_s = number * wall_s_;
-      return look(run(d), fault, false);
+      return look(run(d), fault, false, d.signal);
     }
     if (fault == "fsize") {
       words >> number;
@@ -231,9 +231,10 @@ class World {
     return Finding{Invariant::whole_or_nothing, "a log of a program that changes is neither's"};
   }
 
-  Verdict codes(const Ended& ended, const std::string& fault) const {
+  Verdict codes(const Ended& ended, const std::string& fault, int sent = 0) const {
     if (ended.hung) return Finding{Invariant::time_bounded, fault + ": kadr does not end within a minute"};
-    if (ended.signal == SIGKILL && fault == "kill") return {};
+    // before kadr takes signals, and after, they end it: to a shell that is the same code
+    if (ended.signal != 0 && ended.signal == sent) return {};
     if (ended.signal != 0)
       return Finding{Invariant::exit_code, fmt::format("{}: kadr ends by signal {}", fault, ended.signal)};
     if (std::find(kAllowedCodes.begin(), kAllowedCodes.end(), ended.code) == kAllowedCodes.end())
@@ -261,8 +262,8 @@ class World {
     return {};
   }
 
-  Verdict look(const Ended& ended, const std::string& fault, bool alone) const {
-    if (auto wrong = codes(ended, fault)) return wrong;
+  Verdict look(const Ended& ended, const std::string& fault, bool alone, int sent = 0) const {
+    if (auto wrong = codes(ended, fault, sent)) return wrong;
     return files(fault, !alone && (ended.code == 0 || ended.code == 3), alone);
   }
 
