@@ -124,7 +124,8 @@ void ProgramDraw::references() {
 }
 
 void ProgramDraw::dwell() {
-  const double seconds = m_.scale.tau_s * d_.whole(0, 30) + (d_.chance(0.2) ? m_.scale.tau_s * d_.real(0, 1) : 0);
+  double seconds = m_.scale.tau_s * d_.whole(0, 30);
+  if (d_.chance(0.2)) seconds += m_.scale.tau_s * d_.real(0, 1);
   if (program_.dialect == "marlin" && d_.chance(0.5))
     line("G4 S" + plain(seconds));
   else if (program_.dialect == "fanuc" && d_.chance(0.5))
@@ -148,13 +149,15 @@ void ProgramDraw::functions() {
 
 void ProgramDraw::outputs() {
   const int n = d_.whole(0, 3);
+  std::string text;
   switch (d_.whole(0, 6)) {
     case 0:
       line(fmt::format("M66 P{} L0", n));
       program_.waits = true;
       break;
     case 1:
-      line(fmt::format("M66 P{} L{} Q", n, d_.whole(1, 4)) + plain(m_.scale.tau_s * d_.pick({1, 7, 30})));
+      text = fmt::format("M66 P{} L{} Q", n, d_.whole(1, 4));
+      line(text + plain(m_.scale.tau_s * d_.pick({1, 7, 30})));
       program_.waits = true;
       break;
     case 2:

@@ -27,7 +27,8 @@ std::string ProgramDraw::to(char letter, double delta_u) {
 
 std::string ProgramDraw::spelled(char letter, double delta_u) {
   if (!d_.chance(0.15)) return to(letter, delta_u);
-  const std::string factor = (d_.chance(0.5) ? "SIN[" : "COS[") + w_.expression(1) + "]";
+  std::string factor = d_.chance(0.5) ? "SIN[" : "COS[";
+  factor += w_.expression(1) + "]";
   const std::string delta = fmt::format("{}*{}", length(delta_u, letter), factor);
   if (modes_.incremental) return fmt::format("{}[{}]", letter, delta);
   return fmt::format("{}[#{}+{}]", letter, 5420 + kLetters.find(letter), delta);
@@ -84,7 +85,10 @@ void ProgramDraw::arc() {
     if (d_.chance(0.15)) text += fmt::format("P{} ", d_.whole(1, 3));
   }
   if (m_.has(p.normal) && d_.chance(0.4)) text += " " + to(p.normal, some_u() * 0.3);
-  if (!m_.turning.empty() && d_.chance(0.2)) text += " " + to(d_.letter_of(m_.turning), some_u());
+  if (!m_.turning.empty() && d_.chance(0.2)) {
+    const char letter = d_.letter_of(m_.turning);
+    text += " " + to(letter, some_u());
+  }
   if (d_.chance(0.2)) text += " " + feed(d_.decades(0.02, 1.5));
   line(text);
 }
@@ -162,7 +166,9 @@ void ProgramDraw::nurbs() {
     std::string text = fmt::format("X[#101+{}] ", length(some_u()));
     return text + fmt::format("Y[#102+{}] ", length(some_u()));
   };
-  line(fmt::format("G5.2 P{} L{} ", plain(d_.real(0.5, 2), 3), order) + (d_.chance(0.5) ? point() : ""));
+  std::string head = fmt::format("G5.2 P{} L{} ", plain(d_.real(0.5, 2), 3), order);
+  if (d_.chance(0.5)) head += point();
+  line(head);
   for (int n = order + d_.whole(0, 3); n > 0; --n) {
     const std::string words = point();
     line(words + "P" + plain(d_.real(0.3, 3), 3));
@@ -209,7 +215,8 @@ void ProgramDraw::thread() {
   if (!m_.has('Z')) return;
   const double pitch = m_.scale.move_u * d_.decades(0.05, 1);
   line("M3 S" + plain(rpm(d_.decades(0.05, 0.6), pitch)));
-  const double depth = m_.scale.move_u * d_.real(0.3, 1.5) * (d_.chance(0.7) ? -1 : 1);
+  double depth = m_.scale.move_u * d_.real(0.3, 1.5);
+  if (d_.chance(0.7)) depth = -depth;
   std::string text = d_.chance(0.6) ? "G33 " : "G33.1 ";
   text += to('Z', depth) + " ";
   if (text[3] == ' ' && m_.has('X') && d_.chance(0.3)) text += to('X', 0.2 * some_u()) + " ";

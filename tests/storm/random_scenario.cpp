@@ -9,8 +9,8 @@ constexpr int kLastTick = 700;  // most runs are under way by then
 
 class TimelineDraw {
  public:
-  TimelineDraw(Draw& draw, const RandomMachine& machine, const RandomProgram& program, int most_pct)
-      : d_(draw), m_(machine), program_(program), most_pct_(most_pct) {}
+  TimelineDraw(Draw& draw, const RandomMachine& machine, int most_pct)
+      : d_(draw), m_(machine), most_pct_(most_pct) {}
 
   std::string make() {
     for (int n = d_.whole(0, 7); n > 0; --n) step();
@@ -93,7 +93,6 @@ class TimelineDraw {
 
   Draw& d_;
   const RandomMachine& m_;
-  const RandomProgram& program_;
   int most_pct_;
   std::string text_;
 };
@@ -121,8 +120,8 @@ void add_scenario(Draw& draw, const RandomMachine& machine, const RandomProgram&
   std::string& scenario = storm_case.files[kScenarioFile];
   scenario = head;
   if (!has_operator) return;
-  scenario += TimelineDraw(draw, machine, program, most_pct).make();
-  if (draw.chance(0.7)) storm_case.files[kOtherFile] = head + TimelineDraw(draw, machine, program, most_pct).make();
+  scenario += TimelineDraw(draw, machine, most_pct).make();
+  if (draw.chance(0.7)) storm_case.files[kOtherFile] = head + TimelineDraw(draw, machine, most_pct).make();
 }
 
 std::string random_fault(Draw& draw) {

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "machine/base/hash.h"
 #include "tests/storm/random_machine.h"
 #include "tests/storm/random_program.h"
 #include "tests/storm/random_scenario.h"
@@ -155,6 +156,16 @@ StormCase make_case(std::uint64_t seed, bool with_fault) {
   add_scenario(draw, machine, program, storm_case);
   if (with_fault) storm_case.files[kFaultFile] = random_fault(draw);
   return storm_case;
+}
+
+std::uint64_t hash_of_cases(std::uint64_t last) {
+  Hash64 hash;
+  for (std::uint64_t seed = 1; seed <= last; ++seed)
+    for (const auto& [name, text] : make_case(seed, seed % 2 == 0).files) {
+      hash.integer(static_cast<std::int64_t>(text.size()));
+      hash.bytes(text.data(), text.size());
+    }
+  return hash.digest();
 }
 
 }  // namespace kadr::storm

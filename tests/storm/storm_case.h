@@ -44,5 +44,7 @@ std::vector<std::string> features_of(const StormCase& storm_case);
 /// The case of a seed: the same on every machine.
 /// @param with_fault  the world does something to it
 StormCase make_case(std::uint64_t seed, bool with_fault);
+/// Hash of the texts of the cases of seeds 1 to `last`.
+std::uint64_t hash_of_cases(std::uint64_t last);
 
 }  // namespace kadr::storm
