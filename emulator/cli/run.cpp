@@ -86,11 +86,13 @@ struct RunInputs {
   std::string scenario_toml;
   std::string scenario_name;
   std::optional<scenario::Scenario> scenario;
+  std::uint32_t scenario_file = 0;  ///< in the sources
   bool machine_good = false;
   bool started = false;  ///< machine, tool table and scenario could be read
 };
 
 void take_scenario(RunInputs& in) {
+  in.scenario_file = static_cast<std::uint32_t>(in.sources.size());  // the file that is read first
   auto scenario = scenario::read_scenario(in.arguments.scenario, in.sources);
   if (!scenario) {
     for (const Diagnostic& d : scenario.error().list()) in.diagnostics.add(d);
@@ -125,11 +127,8 @@ void read_inputs(RunInputs& in) {
   }
   in.started = load_reading(in.arguments, in.sources, in.given.reading, in.diagnostics) && in.machine_good;
   if (!in.started || !in.scenario) return;
-  const auto& steps = in.scenario->steps;
-  const auto& points = in.scenario->technology;
-  if (steps.empty() && points.empty()) return;
-  const Span& place = steps.empty() ? points.front().span : steps.front().span;
-  scenario::place_inputs(*in.scenario, place.file, in.given, in.diagnostics);
+  // also of a timeline without steps: it has a highest override
+  scenario::place_inputs(*in.scenario, in.scenario_file, in.given, in.diagnostics);
   in.started = !in.diagnostics.has_errors();
 }
 
