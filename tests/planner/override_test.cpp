@@ -388,6 +388,8 @@ TEST_CASE("a limiter whose band is wider than an axis is fast takes no feed belo
   for (machine::AxisModel& axis : m.axis) axis.max_feed_u_s = 1;
   const Ride r = ride(m, [](ProgramWriter& w) { w.rapid(xyz(0.3)); }, {{50, 0.0}, {300, 1.0}});
   CHECK(r.ticks.back().s_end_u == 0.3);
+  // the feed comes to rest while it is limited: it does not run back
+  for (std::size_t k = 1; k < r.ticks.size(); ++k) CHECK(r.ticks[k].s_end_u >= r.ticks[k - 1].s_end_u);
 }
 
 TEST_CASE("a limiter whose slope is matched jerks less than a sixth of one with a threshold") {
