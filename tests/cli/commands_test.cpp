@@ -571,8 +571,10 @@ TEST_CASE("a scenario whose timeline has a highest override and no step is run u
   const auto tick_bytes = [](const std::string& steps) {
     const Scratch scratch;
     scratch.write("square.ngc", test::kSquare);
-    scratch.write("scenario.toml", "format = 1\nname = \"s\"\nprogram = \"square.ngc\"\nmachine = \"mill3\"\n" + steps);
-    const Finished run = call({"run", "-s", "scenario.toml", "-q", "--no-plant", "-o", "s.lcmlog"}, scratch.path());
+    scratch.write("scenario.toml",
+                  "format = 1\nname = \"s\"\nprogram = \"square.ngc\"\nmachine = \"mill3\"\n" + steps);
+    const Finished run =
+        call({"run", "-s", "scenario.toml", "-q", "--no-plant", "-o", "s.lcmlog"}, scratch.path());
     CAPTURE(run.err);
     REQUIRE(run.code == 0);
     auto reader = kadr::log::LogReader::open(scratch.file("s.lcmlog"));

@@ -39,8 +39,9 @@ class CaseCheck {
     out_.cpu_s = cpu_s() - begin_s;
     const double allowed_s = kMost_s + kMostPerTick_s * static_cast<double>(out_.ticks);
     if (out_.cpu_s > allowed_s)
-      tell(Finding{Invariant::time_bounded, fmt::format("{:.3g} s of processor time for {} control ticks, allowed {:.3g} s",
-                                                        out_.cpu_s, out_.ticks, allowed_s)});
+      tell(Finding{Invariant::time_bounded,
+                   fmt::format("{:.3g} s of processor time for {} control ticks, allowed {:.3g} s",
+                               out_.cpu_s, out_.ticks, allowed_s)});
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
     if (usage.ru_maxrss > kMostMemory_kB)
@@ -91,7 +92,8 @@ class CaseCheck {
     out_.end = std::string(run_->summary.outcome.text());
     out_.ticks = run_->summary.control_ticks.value;
     if (tell(check_end(*prepared_, *run_)) || tell(check_log(*prepared_, *run_)) || tell(check_diff(*run_)) ||
-        tell(check_threads(*prepared_, *run_, options_.scratch)) || tell(check_replay_of_pulses(*prepared_, *run_)))
+        tell(check_threads(*prepared_, *run_, options_.scratch)) ||
+        tell(check_replay_of_pulses(*prepared_, *run_)))
       return;
     if (prepared_->given.most_override && tell(other_timeline())) return;
     if (run_->whole() && prepared_->given.most_override) met("live");

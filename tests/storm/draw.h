@@ -43,7 +43,8 @@ class Draw : public gcode::test::Random {
 inline std::string plain(double value, int digits = 5) {
   int decimals = digits;
   for (double size = value < 0 ? -value : value; size >= 1 && decimals > 0; size /= 10) --decimals;
-  for (double size = value < 0 ? -value : value; size > 0 && size < 0.1 && decimals < 12; size *= 10) ++decimals;
+  for (double size = value < 0 ? -value : value; size > 0 && size < 0.1 && decimals < 12; size *= 10)
+    ++decimals;
   std::string text = fmt::format("{:.{}f}", value, decimals);
   if (text.find('.') != std::string::npos) {
     text.erase(text.find_last_not_of('0') + 1);

@@ -41,11 +41,14 @@ inline constexpr Vocabulary<Invariant, 18> kInvariants{{
     {Invariant::threads_equal, "threads equal", "one thread and two write the same log"},
     {Invariant::log_proved, "log proved", "a log is complete, its hashes agree, and it holds what was run"},
     {Invariant::diff_of_itself, "diff of itself", "a log does not differ from itself"},
-    {Invariant::replay_equal, "replay equal", "the inputs in a log give it again; its pulses give its states"},
-    {Invariant::live_equal, "live equal", "a live operator's steps give the run of the timeline with the same steps"},
+    {Invariant::replay_equal, "replay equal",
+     "the inputs in a log give it again; its pulses give its states"},
+    {Invariant::live_equal, "live equal",
+     "a live operator's steps give the run of the timeline with the same steps"},
     {Invariant::integrators_agree, "integrators agree", "smooth, reference and oracle give the same states"},
     {Invariant::exit_code, "exit code", "the program ends with 0 1 2 3 130 or 143"},
-    {Invariant::program_equal, "program equal", "the program writes the library's log, and exit 0 means the whole output"},
+    {Invariant::program_equal, "program equal",
+     "the program writes the library's log, and exit 0 means the whole output"},
     {Invariant::whole_or_nothing, "whole or nothing", "what has its name is whole"},
     {Invariant::inputs_unchanged, "inputs unchanged", "no input is written"},
     {Invariant::time_bounded, "time bounded", "time is bounded by control ticks"},
@@ -70,12 +73,14 @@ Verdict check_threads(const PreparedCase& prepared, const FinishedRun& run, cons
 Verdict check_log(const PreparedCase& prepared, const FinishedRun& run);
 Verdict check_diff(const FinishedRun& run);
 /// The texts in the log's header are a case; its run writes the same log.
-Verdict check_replay_of_inputs(const StormCase& storm_case, const FinishedRun& run, const std::string& scratch);
+Verdict check_replay_of_inputs(const StormCase& storm_case, const FinishedRun& run,
+                               const std::string& scratch);
 /// The pulses in the log, through a plant of its own, give the states in the log, to the last bit.
 Verdict check_replay_of_pulses(const PreparedCase& prepared, const FinishedRun& run);
 Verdict check_live(const PreparedCase& prepared, const FinishedRun& run, std::uint64_t seed);
 /// @param apart_um  set to the largest distance; stays where there is nothing to compare: no plant, steps lost, many pulses
-Verdict check_integrators(const PreparedCase& prepared, const FinishedRun& run, std::optional<double>& apart_um);
+Verdict check_integrators(const PreparedCase& prepared, const FinishedRun& run,
+                          std::optional<double>& apart_um);
 Verdict check_planted(const PreparedCase& prepared);
 
 }  // namespace kadr::storm

@@ -6,8 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <charconv>
+#include <chrono>
 #include <csignal>
 #include <deque>
 #include <filesystem>
@@ -21,8 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t kBatch = 25;                 // seeds of a process
-constexpr rlim_t kMostMemory = rlim_t{3} << 30;      // of address space
+constexpr std::uint64_t kBatch = 25;             // seeds of a process
+constexpr rlim_t kMostMemory = rlim_t{3} << 30;  // of address space
 constexpr auto kLongestSilence = std::chrono::seconds(240);
 
 std::string one_line(std::string text) {
@@ -45,7 +45,8 @@ std::string written(const SeedResult& result) {
 /// Takes one line of what written() made.
 void read_line(const std::string& line, SeedResult& result) {
   const auto space = line.find(' ');
-  const std::string key = line.substr(0, space), rest = space == std::string::npos ? "" : line.substr(space + 1);
+  const std::string key = line.substr(0, space),
+                    rest = space == std::string::npos ? "" : line.substr(space + 1);
   std::istringstream words(rest);
   if (key == "end") result.checked.end = rest;
   if (key == "cost") words >> result.checked.cpu_s >> result.checked.ticks;
@@ -79,8 +80,8 @@ void bound_time(int most_cpu_s) {
   ::getrusage(RUSAGE_SELF, &usage);
   rlimit limit{};
   ::getrlimit(RLIMIT_CPU, &limit);
-  limit.rlim_cur = static_cast<rlim_t>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-                   static_cast<rlim_t>(most_cpu_s);
+  limit.rlim_cur =
+      static_cast<rlim_t>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) + static_cast<rlim_t>(most_cpu_s);
   ::setrlimit(RLIMIT_CPU, &limit);
 }
 

@@ -46,8 +46,8 @@ class LogBesideTape {
 
  private:
   void tell(const std::string& what, std::size_t tick) {
-    wrong_ = found(Invariant::log_proved,
-                   fmt::format("{} at control tick {} of {} are not those of the run", what, tick, run_.tape.size()));
+    wrong_ = found(Invariant::log_proved, fmt::format("{} at control tick {} of {} are not those of the run",
+                                                      what, tick, run_.tape.size()));
   }
   void compare(const log::TickBlock& block) {
     for (std::size_t i = 0; i < block.size() && !wrong_; ++i, ++ticks_) {
@@ -56,7 +56,8 @@ class LogBesideTape {
       for (std::size_t a = 0; a < block.axis.size(); ++a) {
         const log::AxisTicks& axis = block.axis[a];
         if (axis.steps[i] != tape.position[a].value) return tell("positions", ticks_);
-        if (!same_bits(axis.command_u[i], tape.batch.axis[a].command.position_end_u)) return tell("commands", ticks_);
+        if (!same_bits(axis.command_u[i], tape.batch.axis[a].command.position_end_u))
+          return tell("commands", ticks_);
         if (tape.axis.empty()) continue;
         const AxisState& s = tape.axis[a];
         if (!same_bits(axis.base_u[i], s.base_u) || !same_bits(axis.base_u_s[i], s.base_u_s) ||
@@ -70,7 +71,8 @@ class LogBesideTape {
     for (std::size_t i = 0; i < block.batches.size() && !wrong_; ++i, ++steps_) {
       if (steps_ >= run_.tape.size()) return tell("pulses", steps_);
       for (std::size_t a = 0; a < block.batches[i].axis.size(); ++a)
-        if (!same_pulses(block.batches[i].axis[a], run_.tape[steps_].batch.axis[a])) return tell("pulses", steps_);
+        if (!same_pulses(block.batches[i].axis[a], run_.tape[steps_].batch.axis[a]))
+          return tell("pulses", steps_);
     }
   }
 
@@ -111,7 +113,8 @@ Verdict check_log(const PreparedCase& prepared, const FinishedRun& run) {
       at[a] += run.tape[k].batch.axis[a].net_steps();
       if (at[a] != run.tape[k].position[a])
         return found(Invariant::log_proved,
-                     fmt::format("axis {} is not where its pulses lead at control tick {}", machine.axis[a].letter, k));
+                     fmt::format("axis {} is not where its pulses lead at control tick {}",
+                                 machine.axis[a].letter, k));
     }
   return LogBesideTape(run).check(run.log_path, info->header);
 }
@@ -133,26 +136,31 @@ Verdict check_same_steps(const FinishedRun& run, const FinishedRun& other) {
   if (!run.whole() || !other.whole()) return {};
   for (std::size_t a = 0; a < run.summary.axis.size(); ++a)
     if (run.summary.axis[a].pulses != other.summary.axis[a].pulses)
-      return found(Invariant::same_steps, fmt::format("axis {} has {} pulses under one timeline, {} under another", a,
-                                                      run.summary.axis[a].pulses, other.summary.axis[a].pulses));
+      return found(Invariant::same_steps,
+                   fmt::format("axis {} has {} pulses under one timeline, {} under another", a,
+                               run.summary.axis[a].pulses, other.summary.axis[a].pulses));
   log_tools::DiffOptions options;
-  if (auto added = log_tools::add_ignored(options, "feed"); !added) return found(Invariant::same_steps, added.error());
+  if (auto added = log_tools::add_ignored(options, "feed"); !added)
+    return found(Invariant::same_steps, added.error());
   const auto diff = log_tools::diff_paths(run.log_path, other.log_path, options);
   if (!diff) return {};  // the log was asked not to hold what is compared
   if (diff->blocks_differing > 0) {
     const log_tools::BlockDifference& d = *diff->first_block;
-    std::string text = fmt::format("block {} of line {} has other steps: {} {}", d.a.block, d.a.span.line, d.order, d.geometry);
+    std::string text = fmt::format("block {} of line {} has other steps: {} {}", d.a.block, d.a.span.line,
+                                   d.order, d.geometry);
     for (const auto& count : d.counts) text += fmt::format(" {} {} | {}", count.axis, count.a, count.b);
     return found(Invariant::same_steps, text);
   }
   if (diff->event)
-    return found(Invariant::same_steps, fmt::format("event {} is \"{}\" under one timeline, \"{}\" under another",
-                                                    diff->event->number, diff->event->a, diff->event->b));
+    return found(Invariant::same_steps,
+                 fmt::format("event {} is \"{}\" under one timeline, \"{}\" under another",
+                             diff->event->number, diff->event->a, diff->event->b));
   if (diff->differ()) return found(Invariant::same_steps, "the logs differ by path");
   return {};
 }
 
-Verdict check_replay_of_inputs(const StormCase& storm_case, const FinishedRun& run, const std::string& scratch) {
+Verdict check_replay_of_inputs(const StormCase& storm_case, const FinishedRun& run,
+                               const std::string& scratch) {
   const auto reader = log::LogReader::open(run.log_path);
   if (!reader) return found(Invariant::replay_equal, "the log can't be read");
   // what the log holds only by its hash, called files, and the tools, come from the case
@@ -163,7 +171,8 @@ Verdict check_replay_of_inputs(const StormCase& storm_case, const FinishedRun& r
   const std::string folder = scratch + "/replay";
   write_case(replayed, folder);
   const auto prepared = prepare_case(folder, kScenarioFile);
-  if (!prepared->job) return found(Invariant::replay_equal, "what a log holds is refused: " + prepared->refusal);
+  if (!prepared->job)
+    return found(Invariant::replay_equal, "what a log holds is refused: " + prepared->refusal);
   const FinishedRun again = run_case(*prepared, scratch + "/replay.lcmlog", 1);
   const std::string a = read_file(run.log_path), b = read_file(again.log_path);
   if (a == b) return {};
@@ -172,7 +181,8 @@ Verdict check_replay_of_inputs(const StormCase& storm_case, const FinishedRun& r
 
 Verdict check_live(const PreparedCase& prepared, const FinishedRun& run, std::uint64_t seed) {
   const auto& steps = prepared.given.operator_steps;
-  const bool placed = std::any_of(steps.begin(), steps.end(), [](const auto& s) { return s.place.has_value(); });
+  const bool placed =
+      std::any_of(steps.begin(), steps.end(), [](const auto& s) { return s.place.has_value(); });
   if (!run.whole() || placed || !prepared.given.most_override) return {};
   cycle::JobInputs given = prepared.given;
   given.operator_steps.clear();
@@ -190,16 +200,19 @@ Verdict check_live(const PreparedCase& prepared, const FinishedRun& run, std::ui
   for (const cycle::OperatorStep& step : steps) {
     if (!on) break;
     if (step.tick > session.ticks()) on = advance(step.tick.value - session.ticks().value);
-    if (on && !session.operate(step)) return found(Invariant::live_equal, "a step of the timeline is refused of a live operator");
+    if (on && !session.operate(step))
+      return found(Invariant::live_equal, "a step of the timeline is refused of a live operator");
   }
   // a hold that nothing releases does not end a live run
   while (on && session.ticks() < run.summary.control_ticks) on = advance(draw.whole(1, 60));
   auto summary = session.finish();
   if (!summary) return found(Invariant::live_equal, summary.error().what);
-  if (summary->steps_hash == run.summary.steps_hash && summary->control_ticks == run.summary.control_ticks) return {};
-  return found(Invariant::live_equal, fmt::format("{} control ticks and steps {:016x} live, {} and {:016x} by the timeline",
-                                                  summary->control_ticks.value, summary->steps_hash,
-                                                  run.summary.control_ticks.value, run.summary.steps_hash));
+  if (summary->steps_hash == run.summary.steps_hash && summary->control_ticks == run.summary.control_ticks)
+    return {};
+  return found(Invariant::live_equal,
+               fmt::format("{} control ticks and steps {:016x} live, {} and {:016x} by the timeline",
+                           summary->control_ticks.value, summary->steps_hash, run.summary.control_ticks.value,
+                           run.summary.steps_hash));
 }
 
 }  // namespace kadr::storm

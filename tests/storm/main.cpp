@@ -27,7 +27,8 @@ constexpr std::string_view kUsage =
     "       storm --replay FOLDER ...   cases of folders, or of the folders in them\n"
     "       storm --show SEED DIR       writes the case of a seed\n"
     "       storm --self-test           plants defects and demands that they are found and shrunk\n"
-    "options: --program KADR --failing-calls LIBRARY (what the world does, does it to that kadr), --shrink-minutes M\n";
+    "options: --program KADR --failing-calls LIBRARY (what the world does, does it to that kadr), "
+    "--shrink-minutes M\n";
 
 /// Of the first cases. A change of what is drawn changes it; a compiler or a machine does not.
 constexpr std::uint64_t kHashedSeeds = 500, kCases = 0x005900d44109712e;

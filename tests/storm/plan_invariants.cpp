@@ -16,8 +16,9 @@ Verdict check_verify(const PreparedCase& prepared) {
                                      cycle::pauses(job.read.events, machine));
   if (found.empty()) return {};
   const planner::Violation& v = found.front();
-  return Finding{Invariant::verify, fmt::format("{} of axis {} is {:.9g}, allowed {:.9g}, at {:.9g} s, segment {}",
-                                                v.what, v.axis, v.value, v.limit, v.time_s, v.segment)};
+  return Finding{Invariant::verify,
+                 fmt::format("{} of axis {} is {:.9g}, allowed {:.9g}, at {:.9g} s, segment {}", v.what,
+                             v.axis, v.value, v.limit, v.time_s, v.segment)};
 }
 
 Verdict check_end(const PreparedCase& prepared, const FinishedRun& run) {
@@ -30,8 +31,8 @@ Verdict check_end(const PreparedCase& prepared, const FinishedRun& run) {
     const Steps planned = lattice_node(end_u, machine.axis[a].step_u);
     const Steps run_to = run.summary.axis[a].end_steps;
     if (planned != run_to)
-      return Finding{Invariant::end_exact, fmt::format("axis {} ends on step {}, planned {}", machine.axis[a].letter,
-                                                       run_to.value, planned.value)};
+      return Finding{Invariant::end_exact, fmt::format("axis {} ends on step {}, planned {}",
+                                                       machine.axis[a].letter, run_to.value, planned.value)};
   }
   return {};
 }

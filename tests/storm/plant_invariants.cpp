@@ -59,7 +59,8 @@ Verdict check_replay_of_pulses(const PreparedCase& prepared, const FinishedRun& 
   return {};
 }
 
-Verdict check_integrators(const PreparedCase& prepared, const FinishedRun& run, std::optional<double>& largest_um) {
+Verdict check_integrators(const PreparedCase& prepared, const FinishedRun& run,
+                          std::optional<double>& largest_um) {
   // CVODE from pulse to pulse takes some 20 us a pulse
   constexpr std::int64_t kMostPulses = 3000;
   constexpr std::size_t kMostTicks = 1500;
@@ -69,9 +70,9 @@ Verdict check_integrators(const PreparedCase& prepared, const FinishedRun& run, 
   if (!has_plant(run) || run.summary.pulses > kMostPulses || run.tape.size() > kMostTicks) return {};
   machine::MachineModel machine = prepared.given.machine.model;
   machine.plant.tolerance_um = machine::PlantSettings{}.tolerance_um;
-  const bool linear = std::all_of(machine.axis.begin(), machine.axis.end(), [](const machine::AxisModel& axis) {
-    return !axis.has_plant || machine::Motor(axis).linear();
-  });
+  const bool linear = std::all_of(
+      machine.axis.begin(), machine.axis.end(),
+      [](const machine::AxisModel& axis) { return !axis.has_plant || machine::Motor(axis).linear(); });
   machine.plant.integrator = IntegratorKind::smooth;
   const Replay smooth = through_plant(machine, run);
   if (smooth.lost_steps) return {};
@@ -91,13 +92,15 @@ Verdict check_integrators(const PreparedCase& prepared, const FinishedRun& run, 
         const AxisState &s = smooth.states[k][a], &o = other.states[k][a];
         const double node_u = static_cast<double>(run.tape[k].position[a].value) * machine.axis[a].step_u;
         lag_um[a] = std::max({lag_um[a], 1e3 * std::fabs(s.base_u - node_u), 1e3 * std::fabs(s.link_u)});
-        const double apart_um = 1e3 * std::max(std::fabs(s.base_u - o.base_u), std::fabs(s.link_u - o.link_u));
+        const double apart_um =
+            1e3 * std::max(std::fabs(s.base_u - o.base_u), std::fabs(s.link_u - o.link_u));
         largest = std::max(largest, apart_um);
         if (apart_um > kBound_um + kOfSize * lag_um[a])
-          return Finding{Invariant::integrators_agree,
-                         fmt::format("smooth and {} are {:.3g} um apart on axis {} at control tick {}, {:.3g} um from "
-                                     "the command at most",
-                                     name, apart_um, machine.axis[a].letter, k, lag_um[a])};
+          return Finding{
+              Invariant::integrators_agree,
+              fmt::format("smooth and {} are {:.3g} um apart on axis {} at control tick {}, {:.3g} um from "
+                          "the command at most",
+                          name, apart_um, machine.axis[a].letter, k, lag_um[a])};
       }
   }
   if (smooth.failure.empty()) largest_um = largest;

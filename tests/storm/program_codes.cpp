@@ -131,17 +131,46 @@ void ProgramDraw::dwell() {
   else if (program_.dialect == "fanuc" && d_.chance(0.5))
     line("G4 X" + plain(seconds));
   else
-    line("G4 P" + plain(program_.dialect == "marlin" || program_.dialect == "fanuc" ? seconds * 1e3 : seconds));
+    line("G4 P" +
+         plain(program_.dialect == "marlin" || program_.dialect == "fanuc" ? seconds * 1e3 : seconds));
 }
 
 void ProgramDraw::functions() {
-  static const char* const kLines[] = {"M7",       "M8",       "M9",      "M3 S500",          "M4 S800",
-                                       "M5",       "M48",      "M49",     "M50 P0",           "M50 P1",
-                                       "M51 P0",   "M51 P1",   "M52 P1",  "M53 P1",           "M0",
-                                       "M1",       "M60",      "S1234.5", "(MSG, storm)",     "(plain)",
-                                       "; rest",   "/ M9",     "G40",     "M19 R45",          "M3 M8",
-                                       "G0",       "G80",      "G49",     "(DEBUG, #1 #5420)", "(PRINT, #<_feed>)",
-                                       "N20 M9",   "M48 M9",   "G91.1",   "$0 M5",            "G61 (exact)"};
+  static const char* const kLines[] = {"M7",
+                                       "M8",
+                                       "M9",
+                                       "M3 S500",
+                                       "M4 S800",
+                                       "M5",
+                                       "M48",
+                                       "M49",
+                                       "M50 P0",
+                                       "M50 P1",
+                                       "M51 P0",
+                                       "M51 P1",
+                                       "M52 P1",
+                                       "M53 P1",
+                                       "M0",
+                                       "M1",
+                                       "M60",
+                                       "S1234.5",
+                                       "(MSG, storm)",
+                                       "(plain)",
+                                       "; rest",
+                                       "/ M9",
+                                       "G40",
+                                       "M19 R45",
+                                       "M3 M8",
+                                       "G0",
+                                       "G80",
+                                       "G49",
+                                       "(DEBUG, #1 #5420)",
+                                       "(PRINT, #<_feed>)",
+                                       "N20 M9",
+                                       "M48 M9",
+                                       "G91.1",
+                                       "$0 M5",
+                                       "G61 (exact)"};
   const std::string text = kLines[d_.below(std::size(kLines))];
   if (text == "G91.1") modes_.absolute_centers = false;
   line(text);
@@ -190,8 +219,8 @@ void ProgramDraw::parameters() {
     default: {
       const char letter = d_.letter_of(m_.letters);
       line(fmt::format("#7=[SIN[{}]*{}]", w_.expression(1), length(m_.scale.move_u, letter)));
-      line(fmt::format("G1 {}", modes_.incremental ? fmt::format("{}#7", letter)
-                                                   : to(letter, 0).insert(2, "#7+")));
+      line(fmt::format("G1 {}",
+                       modes_.incremental ? fmt::format("{}#7", letter) : to(letter, 0).insert(2, "#7+")));
     }
   }
 }
@@ -212,13 +241,15 @@ void ProgramDraw::tools() {
       line(fmt::format("M61 Q{}", number));
       break;
     case 4:
-      line(tools_given_ ? fmt::format("G43 H{}", number) : "G43.1 " + (m_.letters[0] + length(some_u(), m_.letters[0])));
+      line(tools_given_ ? fmt::format("G43 H{}", number)
+                        : "G43.1 " + (m_.letters[0] + length(some_u(), m_.letters[0])));
       break;
     case 5:
       line(tools_given_ ? fmt::format("G43.2 H{}", number) : "G49");
       break;
     case 6:
-      if (tools_given_) line(fmt::format("G10 L1 P{} {}{}", number, m_.letters[0], length(some_u(), m_.letters[0])));
+      if (tools_given_)
+        line(fmt::format("G10 L1 P{} {}{}", number, m_.letters[0], length(some_u(), m_.letters[0])));
       break;
     default:
       line("G49");

@@ -200,7 +200,8 @@ void ProgramDraw::contour() {
     text += to('Y', side * direction.sin);
     if (i > 0 && m_.has('Z') && d_.chance(0.1)) text += " " + to('Z', side * 0.1);
     line(text);
-    if (i > 0 && d_.chance(0.1)) line(d_.pick<std::string>({"M8", "S300", "G4 P0.001", "(MSG, on the contour)"}));
+    if (i > 0 && d_.chance(0.1))
+      line(d_.pick<std::string>({"M8", "S300", "G4 P0.001", "(MSG, on the contour)"}));
     heading += i == 0 ? 0 : turn;
   }
   line("G40");
@@ -257,9 +258,8 @@ void ProgramDraw::cycle() {
   text += to(p.first, some_u()) + " ";
   text += to(p.second, some_u()) + " ";
   text += modes_.incremental ? fmt::format("{}{} ", p.normal, length(-depth)) : to(p.normal, -depth) + " ";
-  text += modes_.incremental
-              ? "R" + length(above)
-              : fmt::format("R[#{}+{}]", 5420 + kLetters.find(p.normal), length(above));
+  text += modes_.incremental ? "R" + length(above)
+                             : fmt::format("R[#{}+{}]", 5420 + kLetters.find(p.normal), length(above));
   if (code == "G82" || code == "G86" || code == "G89") text += " P" + plain(m_.scale.tau_s * d_.whole(0, 20));
   if (code == "G83" || code == "G73") text += " Q" + length((depth + above) * d_.real(0.2, 1.2));
   if (d_.chance(0.25)) text += fmt::format(" L{}", d_.whole(1, 3));
@@ -276,8 +276,7 @@ void ProgramDraw::tapping() {
   text += to('X', some_u() * 0.3) + " ";
   const double depth = m_.scale.move_u * d_.real(0.2, 0.7);
   text += modes_.incremental ? "Z" + length(-depth) : to('Z', -depth);
-  text += modes_.incremental ? " R" + length(depth * 0.1)
-                             : fmt::format(" R[#5422+{}]", length(depth * 0.1));
+  text += modes_.incremental ? " R" + length(depth * 0.1) : fmt::format(" R[#5422+{}]", length(depth * 0.1));
   line(text + " P" + plain(m_.scale.tau_s * d_.whole(0, 5)));
   line("G80");
 }

@@ -43,9 +43,10 @@ class MachineDraw {
   void table(const std::string& name) { out_.text += "\n[" + name + "]\n"; }
 
   void letters() {
-    out_.letters = d_.pick<std::string>({"XYZ", "XYZ", "XYZ", "XYZ", "XY", "X", "XZ", "XYZA", "XYZA", "XYZC",
-                                         "XYZAB", "XYZABC", "XYZUV", "XYZUVW", "XYZABCU", "XYZABCUV",
-                                         "XYZABCUVW", "ZYX", "AX", "UVW", "YZB", "A"});
+    out_.letters = d_.pick<std::string>({"XYZ",   "XYZ",    "XYZ",     "XYZ",      "XY",        "X",
+                                         "XZ",    "XYZA",   "XYZA",    "XYZC",     "XYZAB",     "XYZABC",
+                                         "XYZUV", "XYZUVW", "XYZABCU", "XYZABCUV", "XYZABCUVW", "ZYX",
+                                         "AX",    "UVW",    "YZB",     "A"});
     for (const char letter : out_.letters) {
       const bool either = letter >= 'U' && letter <= 'W';
       if ((letter >= 'A' && letter <= 'C') || (either && d_.chance(0.2))) out_.turning += letter;
@@ -80,8 +81,7 @@ class MachineDraw {
     if (d_.chance(0.4)) key("max_mm_s", dynamics_.speed_u_s * d_.decades(0.2, 3));
     if (d_.chance(0.4)) key("max_acceleration_mm_s2", dynamics_.accel_u_s2 * d_.decades(0.2, 3));
     if (dynamics_.has_jerk && d_.chance(0.5)) key("max_jerk_mm_s3", dynamics_.jerk_u_s3 * d_.decades(0.2, 3));
-    if (d_.chance(0.6))
-      key("centripetal_acceleration_mm_s2", dynamics_.accel_u_s2 * d_.decades(0.2, 3));
+    if (d_.chance(0.6)) key("centripetal_acceleration_mm_s2", dynamics_.accel_u_s2 * d_.decades(0.2, 3));
   }
 
   void planner() {
@@ -111,9 +111,9 @@ class MachineDraw {
   void interpolator() {
     if (d_.chance(0.7)) return;
     table("interpolator");
-    word("method", d_.pick<std::string>({"classic", "half_step", "diagonal", "extra_points", "octant_midpoint",
-                                         "dda", "dda_preloaded", "dda_sequential", "dda_simultaneous",
-                                         "progression", "chords", "ptp"}));
+    word("method", d_.pick<std::string>({"classic", "half_step", "diagonal", "extra_points",
+                                         "octant_midpoint", "dda", "dda_preloaded", "dda_sequential",
+                                         "dda_simultaneous", "progression", "chords", "ptp"}));
   }
 
   void overrides() {
@@ -203,7 +203,8 @@ class MachineDraw {
     else
       out_.text += "max_jerk_" + u + "_s3 = inf\n";
     if (d_.chance(0.4)) key("junction_acceleration_" + u + "_s2", dynamics_.accel_u_s2 * d_.decades(0.05, 2));
-    if (d_.chance(0.2)) key("junction_jerk_" + u + "_s3", dynamics_.accel_u_s2 / out_.scale.tau_s * d_.decades(0.05, 2));
+    if (d_.chance(0.2))
+      key("junction_jerk_" + u + "_s3", dynamics_.accel_u_s2 / out_.scale.tau_s * d_.decades(0.05, 2));
     if (has_plant_ && d_.chance(0.85)) motor(u, rotary, step_u);
   }
 

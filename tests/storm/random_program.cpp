@@ -25,19 +25,18 @@ ProgramDraw::ProgramDraw(Draw& draw, const RandomMachine& machine) : d_(draw), w
   }
   // a program has some of the other subjects, so that each meets few others
   static constexpr Statement kSubjects[] = {
-      &ProgramDraw::polar,     &ProgramDraw::spline,       &ProgramDraw::nurbs,      &ProgramDraw::contour,
-      &ProgramDraw::thread,    &ProgramDraw::thread_cycle, &ProgramDraw::cycle,      &ProgramDraw::tapping,
-      &ProgramDraw::probe,     &ProgramDraw::per_turn,     &ProgramDraw::diameter,   &ProgramDraw::offsets,
-      &ProgramDraw::rotation,  &ProgramDraw::references,   &ProgramDraw::outputs,    &ProgramDraw::tools,
-      &ProgramDraw::stored,    &ProgramDraw::condition,    &ProgramDraw::loop,       &ProgramDraw::call,
+      &ProgramDraw::polar,        &ProgramDraw::spline,       &ProgramDraw::nurbs,    &ProgramDraw::contour,
+      &ProgramDraw::thread,       &ProgramDraw::thread_cycle, &ProgramDraw::cycle,    &ProgramDraw::tapping,
+      &ProgramDraw::probe,        &ProgramDraw::per_turn,     &ProgramDraw::diameter, &ProgramDraw::offsets,
+      &ProgramDraw::rotation,     &ProgramDraw::references,   &ProgramDraw::outputs,  &ProgramDraw::tools,
+      &ProgramDraw::stored,       &ProgramDraw::condition,    &ProgramDraw::loop,     &ProgramDraw::call,
       &ProgramDraw::dialect_words};
   for (const Statement subject : kSubjects)
     if (d_.chance(0.3)) add(subject, 2);
 }
 
 RandomProgram ProgramDraw::make() {
-  program_.dialect =
-      d_.pick<std::string>({"linuxcnc", "linuxcnc", "linuxcnc", "grbl", "marlin", "fanuc"});
+  program_.dialect = d_.pick<std::string>({"linuxcnc", "linuxcnc", "linuxcnc", "grbl", "marlin", "fanuc"});
   rubbish_ = d_.chance(0.02);
   if (d_.chance(0.4)) {
     tools_given_ = true;

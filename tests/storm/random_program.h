@@ -9,7 +9,7 @@ namespace kadr::storm {
 struct RandomProgram {
   std::map<std::string, std::string> files;  ///< program.ngc, called files, tools.tbl
   std::string dialect;
-  int lines = 0;      ///< of program.ngc
+  int lines = 0;       ///< of program.ngc
   bool waits = false;  ///< reads inputs (M66)
 };
 

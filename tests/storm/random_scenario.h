@@ -9,7 +9,8 @@ namespace kadr::storm {
 struct StormCase;
 
 /// Adds scenario.toml, and where it has operator's steps mostly a second timeline, other.toml, for the same highest override.
-void add_scenario(Draw& draw, const RandomMachine& machine, const RandomProgram& program, StormCase& storm_case);
+void add_scenario(Draw& draw, const RandomMachine& machine, const RandomProgram& program,
+                  StormCase& storm_case);
 
 /// What the world does to a run, as fault.txt has it (world.h).
 std::string random_fault(Draw& draw);

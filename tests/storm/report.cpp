@@ -11,10 +11,12 @@ namespace {
 /// Counts by size, as "name count" with a share of the seeds.
 std::string by_size(const Tally& tally, std::uint64_t seeds) {
   std::vector<std::pair<std::string, std::int64_t>> list(tally.begin(), tally.end());
-  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
   std::string text;
   for (const auto& [name, count] : list)
-    text += fmt::format("  {:>9} {:6.2f} %  {}\n", count, 100.0 * static_cast<double>(count) / static_cast<double>(seeds), name);
+    text += fmt::format("  {:>9} {:6.2f} %  {}\n", count,
+                        100.0 * static_cast<double>(count) / static_cast<double>(seeds), name);
   return text;
 }
 
@@ -53,10 +55,11 @@ void Report::add(const SeedResult& result) {
 
 std::string Report::text() const {
   if (seeds_ == 0) return "";
-  return fmt::format("how they ended\n{}checks that had something to look at\n{}features\n{}"
-                     "processor time: {:.4f} s a seed, at most {:.2f} s (seed {})\n",
-                     by_size(ends_, seeds_), by_size(met_, seeds_), by_kind(features_),
-                     cpu_s_ / static_cast<double>(seeds_), slowest_s_, slowest_seed_);
+  return fmt::format(
+      "how they ended\n{}checks that had something to look at\n{}features\n{}"
+      "processor time: {:.4f} s a seed, at most {:.2f} s (seed {})\n",
+      by_size(ends_, seeds_), by_size(met_, seeds_), by_kind(features_), cpu_s_ / static_cast<double>(seeds_),
+      slowest_s_, slowest_seed_);
 }
 
 }  // namespace kadr::storm

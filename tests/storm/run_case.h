@@ -21,9 +21,9 @@ struct PreparedCase {
   cycle::JobInputs given;
   std::string scenario_toml;
   std::string program_name;
-  std::optional<cycle::Job> job;  ///< nothing: refused
+  std::optional<cycle::Job> job;        ///< nothing: refused
   double until_s = machine::kInfinity;  ///< of runs that would take too long
-  std::string refusal;            ///< "scenario", "machine", "program K2107", "plan K4008"; empty: there is a job
+  std::string refusal;  ///< "scenario", "machine", "program K2107", "plan K4008"; empty: there is a job
 };
 
 /// Every control tick of a run, beside its log.

@@ -1,7 +1,7 @@
 #include "tests/storm/shrink.h"
 
-#include <chrono>
 #include <cctype>
+#include <chrono>
 #include <cstdlib>
 #include <string_view>
 
@@ -64,7 +64,8 @@ class Shrinker {
         invariant_(invariant),
         seed_(seed),
         options_(options),
-        end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(60 * minutes))),
+        end_(Clock::now() +
+             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(60 * minutes))),
         tries_(tries) {}
 
   StormCase shrink() {
@@ -154,16 +155,17 @@ class Shrinker {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Pieces words = words_of(lines[i]);
       if (words.size() < 3) continue;
-      smaller = reduce(words, [&](const Pieces& fewer_pieces) {
-                  Pieces tried_lines = lines;
-                  tried_lines[i] = joined(fewer_pieces);
-                  if (!tried_lines[i].ends_with('\n')) tried_lines[i] += '\n';
-                  StormCase tried = case_;
-                  tried.files[name] = joined(tried_lines);
-                  if (!take(std::move(tried))) return false;
-                  lines = tried_lines;
-                  return true;
-                }) ||
+      smaller = reduce(words,
+                       [&](const Pieces& fewer_pieces) {
+                         Pieces tried_lines = lines;
+                         tried_lines[i] = joined(fewer_pieces);
+                         if (!tried_lines[i].ends_with('\n')) tried_lines[i] += '\n';
+                         StormCase tried = case_;
+                         tried.files[name] = joined(tried_lines);
+                         if (!take(std::move(tried))) return false;
+                         lines = tried_lines;
+                         return true;
+                       }) ||
                 smaller;
     }
     return smaller;
@@ -209,8 +211,8 @@ class Shrinker {
 
 }  // namespace
 
-StormCase shrunk(const StormCase& storm_case, Invariant invariant, std::uint64_t seed, const CheckOptions& options,
-                 double minutes, int tries) {
+StormCase shrunk(const StormCase& storm_case, Invariant invariant, std::uint64_t seed,
+                 const CheckOptions& options, double minutes, int tries) {
   return Shrinker(storm_case, invariant, seed, options, minutes, tries).shrink();
 }
 

@@ -9,7 +9,7 @@ namespace kadr::storm {
 /// shorter numbers.
 /// @param minutes  when to stop
 /// @param tries    how often a case is looked at before it counts as sound: more than once for what depends on moments
-StormCase shrunk(const StormCase& storm_case, Invariant invariant, std::uint64_t seed, const CheckOptions& options,
-                 double minutes, int tries = 1);
+StormCase shrunk(const StormCase& storm_case, Invariant invariant, std::uint64_t seed,
+                 const CheckOptions& options, double minutes, int tries = 1);
 
 }  // namespace kadr::storm

@@ -44,7 +44,8 @@ struct Ended {
 
 class Kadr {
  public:
-  Kadr(const WorldOptions& options, const Disturbance& disturbance) : begin_(Clock::now()), disturbance_(disturbance) {
+  Kadr(const WorldOptions& options, const Disturbance& disturbance)
+      : begin_(Clock::now()), disturbance_(disturbance) {
     std::vector<std::string> words{options.program, "run", "-s", options.folder, "-o", kOutput, "-q"};
     if (options.until_s != machine::kInfinity) {
       words.push_back("--until");
@@ -134,7 +135,8 @@ class World {
     wall_s_ = alone.wall_s;
     const bool runs = code_ == 0 || code_ == 3;
     if (runs != fs::exists(place(kOutput)))
-      return Finding{Invariant::whole_or_nothing, fmt::format("exit code {} and {} log", code_, runs ? "no" : "a")};
+      return Finding{Invariant::whole_or_nothing,
+                     fmt::format("exit code {} and {} log", code_, runs ? "no" : "a")};
     if (runs && !options_.library_log.empty() && whole_ != read_file(options_.library_log))
       return Finding{Invariant::program_equal, "the program's log is not the library's"};
     return disturb();
@@ -194,7 +196,8 @@ class World {
     if (auto wrong = codes(a, "race")) return wrong;
     if (auto wrong = codes(b, "race")) return wrong;
     if (a.code != code_ && b.code != code_)
-      return Finding{Invariant::exit_code, fmt::format("of two runs with one -o none succeeds: {} and {}", a.code, b.code)};
+      return Finding{Invariant::exit_code,
+                     fmt::format("of two runs with one -o none succeeds: {} and {}", a.code, b.code)};
     return files("race", true, false);
   }
 
@@ -238,7 +241,8 @@ class World {
     if (ended.signal != 0)
       return Finding{Invariant::exit_code, fmt::format("{}: kadr ends by signal {}", fault, ended.signal)};
     if (std::find(kAllowedCodes.begin(), kAllowedCodes.end(), ended.code) == kAllowedCodes.end())
-      return Finding{Invariant::exit_code, fmt::format("{}: kadr ends with {}: {}", fault, ended.code, last_error())};
+      return Finding{Invariant::exit_code,
+                     fmt::format("{}: kadr ends with {}: {}", fault, ended.code, last_error())};
     return {};
   }
   std::string last_error() const {
@@ -252,9 +256,11 @@ class World {
     if (whole && !fs::exists(place(kOutput)) && (code_ == 0 || code_ == 3))
       return Finding{Invariant::program_equal, fault + ": success without a log"};
     if (!alone && fs::exists(place(kOutput)) && output() != whole_)
-      return Finding{Invariant::whole_or_nothing, fault + ": a log under its name is not that of an undisturbed run"};
+      return Finding{Invariant::whole_or_nothing,
+                     fault + ": a log under its name is not that of an undisturbed run"};
     std::set<std::string> names;
-    for (const auto& entry : fs::directory_iterator(options_.folder)) names.insert(entry.path().filename().string());
+    for (const auto& entry : fs::directory_iterator(options_.folder))
+      names.insert(entry.path().filename().string());
     for (const auto& [name, text] : case_.files)
       if (names.erase(name) == 0 || read_file(options_.folder + "/" + name) != text)
         return Finding{Invariant::inputs_unchanged, fault + ": " + name + " is not as it was"};
