@@ -83,11 +83,13 @@ struct RunInputs {
   /// Of the command line, or else of the scenario; an empty path: none is named.
   InputFile program_file{""}, machine{""}, tools{""};
   std::vector<log::ReadFile> files;  ///< that were read
+  std::uint32_t scenario_file = 0;  ///< in the sources
   bool machine_good = false;
   bool started = false;  ///< machine, tool table and scenario could be read
 };
 
 void take_scenario(RunInputs& in) {
+  in.scenario_file = static_cast<std::uint32_t>(in.sources.size());  // the file that is read first
   auto scenario = scenario::read_scenario(in.arguments.scenario, in.sources, in.arguments.allowed_folders);
   if (!scenario) {
     in.diagnostics.add(scenario.error());
@@ -142,11 +144,8 @@ void read_inputs(RunInputs& in) {
   if (!in.started) return;
   list_files(in, tools);
   if (!in.scenario) return;
-  const auto& steps = in.scenario->steps;
-  const auto& points = in.scenario->technology;
-  if (steps.empty() && points.empty()) return;
-  const Span& place = steps.empty() ? points.front().span : steps.front().span;
-  scenario::place_inputs(*in.scenario, place.file, in.given, in.diagnostics);
+  // also of a timeline without steps: it has a highest override
+  scenario::place_inputs(*in.scenario, in.scenario_file, in.given, in.diagnostics);
   in.started = !in.diagnostics.has_errors();
 }
 

@@ -15,7 +15,8 @@ struct LimitedFeed {
   int axis = -1;        ///< that it comes from, -1: none
 };
 
-/// K_j of one axis whose share of the feed is f = |e_j| F, with F_max its highest speed and d the band:
+/// K_j of one axis whose share of the feed is f = |e_j| F, with F_max its highest speed and d the band, or F_max if
+/// that is less:
 ///   threshold (eq. 10)   K = F_max / f above F_max, else 1
 ///   paper (eq. 13-16)    K = [F_max - d + (1 - k(x)) D] / f for D = f - F_max + d in [0, 2 d], x = D / (2
 ///   d),

@@ -56,6 +56,8 @@ MotionState towards(MotionState x, double wanted_u_s, RampLimits l, double time_
     const double change = std::clamp(a - x.accel_u_s2, -l.jerk_u_s3 * dt, l.jerk_u_s3 * dt);
     x.speed_u_s += dt * (x.accel_u_s2 + 0.5 * change);
     x.accel_u_s2 += change;
+    // towards rest the parts may overshoot: there it stays
+    if (x.speed_u_s < 0.0) x.speed_u_s = x.accel_u_s2 = 0.0;
   }
   return x;
 }

@@ -606,3 +606,26 @@ TEST_CASE("an M66 that waits in vain and an output that no motion follows are wa
   CHECK(check.code == 0);
   check_golden("check_outputs.txt", check.out);
 }
+
+TEST_CASE("a scenario whose timeline has a highest override and no step is run under an operator") {
+  // the first KADR_TICKS has the overrides that were requested, as with a step that asks for 100 %
+  const auto tick_bytes = [](const std::string& steps) {
+    const Scratch scratch;
+    scratch.write("square.ngc", test::kSquare);
+    scratch.write("scenario.toml",
+                  "format = 1\nname = \"s\"\nprogram = \"square.ngc\"\nmachine = \"mill3\"\n" + steps);
+    const Finished run =
+        call({"run", "-s", "scenario.toml", "-q", "--no-plant", "-o", "s.lcmlog"}, scratch.path());
+    CAPTURE(run.err);
+    REQUIRE(run.code == 0);
+    auto reader = kadr::log::LogReader::open(scratch.file("s.lcmlog"));
+    REQUIRE(reader);
+    for (kadr::log::LogMessage message; reader->next(message);)
+      if (std::holds_alternative<kadr::log::TickBlock>(message)) return reader->event().data.size();
+    return std::size_t{0};
+  };
+  const std::string most = "most_override_pct = 150\n";
+  const std::size_t bytes = tick_bytes(most);
+  CHECK(bytes == tick_bytes(most + "[[step]]\nat_tick = 0\noverride_pct = 100\n"));
+  CHECK(bytes > tick_bytes(""));
+}

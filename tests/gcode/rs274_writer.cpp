@@ -32,8 +32,10 @@ std::string Writer::word_value() {
   switch (random.below(6)) {
     case 0:
       return fmt::format("[[{}] MOD 50]", expression(2));
-    case 1:
-      return fmt::format("[[{}] MOD {} - 20]", expression(1), number(1, 40));
+    case 1: {
+      const std::string of = expression(1);
+      return fmt::format("[[{}] MOD {} - 20]", of, number(1, 40));
+    }
     case 2:
       return random.chance(0.5) ? "-SIN[" + expression(1) + "]" : " COS[" + expression(1) + "]";
     default:
@@ -43,7 +45,8 @@ std::string Writer::word_value() {
 
 std::string Writer::expression(int depth) {
   if (depth <= 0) return operand(0);
-  const std::string left = operand(depth - 1), right = operand(depth - 1);
+  const std::string left = operand(depth - 1);
+  const std::string right = operand(depth - 1);
   switch (random.below(10)) {
     case 0:
       return left + "*" + right;
@@ -55,11 +58,13 @@ std::string Writer::expression(int depth) {
       return fmt::format("[[{}] MOD 5 + 0.5]**[[{}] MOD 3]", left, right);
     case 4: {
       static const std::vector<std::string> kComparisons = {"EQ", "NE", "GT", "GE", "LT", "LE"};
-      return fmt::format("{} {} {}", left, respelled(pick(kComparisons)), right);
+      const std::string word = pick(kComparisons);
+      return fmt::format("{} {} {}", left, respelled(word), right);
     }
     case 5: {
       static const std::vector<std::string> kLogic = {"AND", "OR", "XOR"};
-      return fmt::format("{} {} {}", left, respelled(pick(kLogic)), right);
+      const std::string word = pick(kLogic);
+      return fmt::format("{} {} {}", left, respelled(word), right);
     }
     case 6:
     case 7:
@@ -109,8 +114,11 @@ std::string Writer::parameter() {
   switch (random.below(6)) {
     case 0:
       return fmt::format("#{}", 31 + random.below(5));
-    case 1:
-      return fmt::format("#[{}+{}]", 31 + random.below(3), random.below(3));
+    case 1: {
+      // one draw at a time: the order of arguments is the compiler's choice
+      const auto first = 31 + random.below(3);
+      return fmt::format("#[{}+{}]", first, random.below(3));
+    }
     case 2:
       return fmt::format("-#{}", 1 + random.below(5));
     case 3:

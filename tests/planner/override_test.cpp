@@ -6,6 +6,7 @@
 
 #include "gcode/block.h"
 #include "machine/machine.h"
+#include "planner/override/axis_limiter.h"
 #include "planner_support.h"
 
 /// The cases of paper 003 by hand: XY, 110 mm/s an axis, a 2000 mm/s2 and jerk 40000 mm/s3 along the path,
@@ -369,6 +370,26 @@ TEST_CASE("an axis limiter takes back what multiplying asks of an axis, a tick l
     m.feed_override.predictive = true;
     CHECK(ride(m, kLine, steps).top_feed() <= 110.0 + 1e-6);
   }
+}
+
+TEST_CASE("a limiter whose band is wider than an axis is fast takes no feed below rest") {
+  // the band, 3 mm/s, holds every speed of an axis of 3 or 1 mm/s
+  for (const double most : {3.0, 1.0})
+    for (const auto kind : {machine::LimiterKind::paper, machine::LimiterKind::matched})
+      for (const double speed : {0.0, 1e-12, 0.1, 1.0, 3.0, 7.0}) {
+        const double factor = planner::axis_factor(kind, speed, most, 3);
+        CAPTURE(speed);
+        CHECK(factor > 0.0);
+        CHECK(factor <= 1.0);
+        CHECK(factor * speed <= most * (1 + 1e-15));
+      }
+  auto m = paper_machine(OverrideMode::corrected_plus);
+  m.feed_override.limiter = machine::LimiterKind::matched;
+  for (machine::AxisModel& axis : m.axis) axis.max_feed_u_s = 1;
+  const Ride r = ride(m, [](ProgramWriter& w) { w.rapid(xyz(0.3)); }, {{50, 0.0}, {300, 1.0}});
+  CHECK(r.ticks.back().s_end_u == 0.3);
+  // the feed comes to rest while it is limited: it does not run back
+  for (std::size_t k = 1; k < r.ticks.size(); ++k) CHECK(r.ticks[k].s_end_u >= r.ticks[k - 1].s_end_u);
 }
 
 TEST_CASE("a limiter whose slope is matched jerks less than a sixth of one with a threshold") {
