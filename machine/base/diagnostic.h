@@ -119,8 +119,8 @@ class Diagnostics {
   /// No further error is kept: reading on is pointless.
   bool full() const { return errors_ >= kMost; }
   bool has_errors() const { return errors_ > 0; }
-  std::size_t errors() const { return errors_; }      ///< found, kept or not
-  std::size_t warnings() const { return warnings_; }  ///< found, kept or not
+  std::size_t errors() const { return errors_; }                                  ///< found, kept or not
+  std::size_t warnings() const { return warnings_; }                              ///< found, kept or not
   std::size_t left_out() const { return left_out_errors_ + left_out_warnings_; }  ///< found and not kept
   bool stopped() const { return errors_read_ > 0; }
   const std::vector<Diagnostic>& list() const { return list_; }

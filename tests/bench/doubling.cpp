@@ -98,7 +98,7 @@ void check_with_tools(const std::string& text) {
 /// A timeline with a step of the override for each byte, at its place on the path, taken control tick by control tick.
 void take_steps(const std::string& text) {
   const machine::MachineModel machine;
-  const planner::Path path;
+  const planner::Path path(1);
   std::vector<cycle::OperatorStep> steps(text.size());
   std::vector<double> places_u;
   for (cycle::OperatorStep& step : steps) {

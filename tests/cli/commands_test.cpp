@@ -545,7 +545,7 @@ TEST_CASE("usage mistakes: exit 2, a complaint and nothing on standard output") 
       {{"run", "square.ngc", "--until", "1,5"}, "--until takes seconds"},
       {{"run", "square.ngc", "--threads", "3"}, "takes 1 or 2"},
       {{"run", "square.ngc", "--progress", "loud"}, "--progress takes one of"},
-      {{"run", "square.ngc", "-o", "-"}, "standard output"},
+      {{"run", "square.ngc", "-o", "-", "--json"}, "standard output"},
       {{"run", "square.ngc", "-o", "."}, "is a folder"},
       {{"run", "square.ngc", "-o", "square.ngc"}, "would overwrite"},
       {{"run", "square.ngc", "-o", "no/such/folder/x.lcmlog"}, "No such file or directory"},
