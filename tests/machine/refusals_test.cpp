@@ -82,6 +82,8 @@ TEST_CASE("every code from K3001 to K3199 has a bad machine file that brings it 
   }
   for (const CodeEntry& e : all_codes()) {
     const int number = static_cast<int>(e.code);
+    // a machine file names no other file: tests/bad/scenario has one that does
+    if (e.code == Code::file_outside) continue;
     if (number >= 3000 && number < 3200) CHECK_MESSAGE(seen.count(e.code) == 1, e.name);
   }
 }
