@@ -14,12 +14,10 @@ int compare_logs(const Arguments& arguments, Console& console) {
   std::vector<log_tools::ComparedRun> runs;
   for (const std::string& path : arguments.files) {
     auto data = log_tools::read_page_data(path, {});
-    if (data && !data->summary)
-      data = tl::unexpected(
-          log::LogReadError{log::LogReadFault::not_a_log, path, "the log has no summary: it was cut off"});
-    if (!data) {
-      console.error(fmt::format("{}: {}", data.error().path, data.error().reason));
-      return kNotStarted;
+    if (!data) return unreadable_log(data.error(), console);
+    if (!log::is_sound(data->end.state)) {
+      console.error(fmt::format("{}: {}", path, data->end.detail));
+      return kNo;
     }
     note_passed_over(path, data->end, console);
     runs.push_back({path, std::move(*data)});

@@ -40,15 +40,19 @@ Json head(const Diff& diff, const char* align) {
   return {{"align", align}, {"a", json_of(diff.a)}, {"b", json_of(diff.b)}, {"inputs", json_of(diff.inputs)}};
 }
 
-/// Exit code of a comparison: inputs count only with --strict.
+/// Exit code of a comparison: inputs count only with --strict. A log whose messages contradict each other is
+/// never the same as another one.
 template <class Diff>
-int answer(const Diff& diff, const Arguments& arguments) {
-  return diff.differ() || (arguments.strict && diff.inputs_differ()) ? kNo : kYes;
-}
-
-int unreadable(const log::LogReadError& error, Console& console) {
-  console.error(fmt::format("{}: {}", error.path, error.reason));
-  return kNotStarted;
+int answer(const Diff& diff, const Arguments& arguments, Console& console) {
+  note_passed_over(diff.a.path, diff.a.end, console);
+  note_passed_over(diff.b.path, diff.b.end, console);
+  bool denied = false;
+  for (const log_tools::LogSide* side : {&diff.a, &diff.b}) {
+    if (side->end.state != log::LogState::damaged && side->end.state != log::LogState::altered) continue;
+    console.error(fmt::format("{}: {}", side->path, side->end.detail));
+    denied = true;
+  }
+  return denied || diff.differ() || (arguments.strict && diff.inputs_differ()) ? kNo : kYes;
 }
 
 int by_tick(const Arguments& arguments, Console& console) {
@@ -68,13 +72,11 @@ int by_tick(const Arguments& arguments, Console& console) {
     if (json) document.entry(log_tools::json_of(d, logs->a.header));
   };
   const auto diff = log_tools::diff_logs(arguments.files[0], arguments.files[1], options, sinks);
-  if (!diff) return unreadable(diff.error(), console);
+  if (!diff) return unreadable_log(diff.error(), console);
   if (json && options.all) document.end_list();
   if (json) document.end(log_tools::json_of(*diff));
   if (text) console.data(log_tools::render_log_diff(*diff));
-  note_passed_over(diff->a.path, diff->a.end, console);
-  note_passed_over(diff->b.path, diff->b.end, console);
-  return answer(*diff, arguments);
+  return answer(*diff, arguments, console);
 }
 
 int by_path(const Arguments& arguments, Console& console) {
@@ -98,13 +100,11 @@ int by_path(const Arguments& arguments, Console& console) {
     if (json) document.entry(log_tools::json_of(span, logs->a.header));
   };
   const auto diff = log_tools::diff_paths(arguments.files[0], arguments.files[1], options, sinks);
-  if (!diff) return unreadable(diff.error(), console);
+  if (!diff) return unreadable_log(diff.error(), console);
   if (json && options.all) document.end_list();
   if (json) document.end(log_tools::json_of(*diff));
   if (text) console.data(log_tools::render_path_diff(*diff));
-  note_passed_over(diff->a.path, diff->a.end, console);
-  note_passed_over(diff->b.path, diff->b.end, console);
-  return answer(*diff, arguments);
+  return answer(*diff, arguments, console);
 }
 
 }  // namespace

@@ -13,7 +13,6 @@
 namespace kadr::cli {
 namespace {
 
-using log::LogState;
 using log_tools::LogSamples;
 
 // shown unless signals are chosen
@@ -24,26 +23,25 @@ constexpr const char* kTwo = "feed.commanded*,path.error*";
 tl::expected<LogSamples, int> open_log(const Arguments& arguments, const char* without_choice,
                                        Console& console) {
   auto log = LogSamples::open(arguments.files.front());
-  if (!log) {
-    console.error(fmt::format("{}: {}", log.error().path, log.error().reason));
-    return tl::unexpected(kNotStarted);
-  }
-  log_tools::SampleChoice choice = arguments.exported.choice;
+  if (!log) return tl::unexpected(unreadable_log(log.error(), console));
+  const log_tools::SampleChoice& choice = arguments.exported.choice;
   if (choice.from_s > choice.to_s) {
     console.error(fmt::format("--from {} s is after --to {} s", choice.from_s, choice.to_s));
     return tl::unexpected(kNotStarted);
   }
   if (choice.signals.empty() && without_choice != nullptr) {
+    std::vector<std::string> names;
     // the usual signals that the log has: without plant there is no path error
     for (const log_tools::Signal& signal : log->signals()) {
       std::string_view rest = without_choice;
       while (!rest.empty()) {
         const auto comma = rest.find(',');
-        if (log_tools::matches_pattern(signal.name, rest.substr(0, comma)))
-          choice.signals += (choice.signals.empty() ? "" : ",") + signal.name;
+        if (log_tools::matches_pattern(signal.name, rest.substr(0, comma))) names.push_back(signal.name);
         rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
       }
     }
+    log->choose(choice, names);
+    return std::move(*log);
   }
   if (const auto chosen = log->choose(choice); !chosen) {
     console.error(fmt::format("{}: {}", arguments.files.front(), chosen.error()));
@@ -56,7 +54,7 @@ tl::expected<LogSamples, int> open_log(const Arguments& arguments, const char* w
 int end_of(const LogSamples& log, const std::string& path, Console& console) {
   const log::LogEnd* end = log.end();
   if (end != nullptr) note_passed_over(path, *end, console);
-  if (end == nullptr || end->state == LogState::complete || end->state == LogState::interrupted) return kYes;
+  if (end == nullptr || log::is_sound(end->state)) return kYes;
   console.error(fmt::format("{}: {}; what was written ends at {} s", path, end->detail,
                             text::fixed(log.header().seconds(end->valid_until), 6)));
   return kNo;

@@ -11,7 +11,6 @@ namespace kadr::cli {
 namespace {
 
 using log::LogInfo;
-using log::LogState;
 using text::Json;
 
 Json hash_json(const std::optional<std::uint64_t>& hash) {
@@ -61,15 +60,11 @@ Json info_json(const LogInfo& info) {
   j["steps_hash_agrees"] = agreement(info.steps_hash_agrees());
   j["content_hash"] = hash_text(info.content_hash);
   j["content_hash_agrees"] = agreement(info.content_hash_agrees());
+  j["log_hash"] = hash_json(info.log_hash);
+  j["log_hash_agrees"] = agreement(info.log_hash_agrees());
   j["file_hash"] = hash_text(info.file_hash);
   if (!info.end.passed_over.empty()) j["passed_over"] = info.end.passed_over;
   return j;
-}
-
-/// No if the log was cut off or damaged, or its numbers differ from those written.
-bool sound(const LogInfo& info) {
-  return (info.end.state == LogState::complete || info.end.state == LogState::interrupted) &&
-         info.steps_hash_agrees().value_or(true) && info.content_hash_agrees().value_or(true);
 }
 
 }  // namespace
@@ -85,7 +80,7 @@ int log_info(const Arguments& arguments, Console& console) {
       worst = kNotStarted;
       continue;
     }
-    worst = std::max(worst, sound(*info) ? kYes : kNo);
+    worst = std::max(worst, log::is_sound(info->end.state) ? kYes : kNo);
     if (console.options().json) {
       documents.push_back(info_json(*info));
     } else if (!console.options().quiet) {

@@ -95,6 +95,8 @@ class Session::Cycle {
     program_.tick(motion_);
     if (plant_)
       if (auto moved = plant_->advance(batch_); !moved) return fail(moved.error());
+    // pulses of a control tick whose plant failed are in no record
+    hash_.add(batch_);
     watch();
     if (motion_.s_end_u > motion_.s_begin_u) ++motion_ticks_;
     if (auto failure = log_tick()) return failure;
@@ -152,7 +154,6 @@ class Session::Cycle {
     interpolator_.set_self_check(check);
     interpolator_.advance(motion_, batch_);
     if (check) require_sound_nodes(ticks_, interpolator_, job_);
-    hash_.add(batch_);
   }
 
   void watch() {

@@ -35,6 +35,12 @@ tl::expected<EventFile, std::string> EventFile::open(const std::string& path) {
   return events;
 }
 
+void EventFile::rewind() {
+  std::rewind(file_.get());
+  position_ = 0;
+  number_ = 0;
+}
+
 EventFile::Next EventFile::stop(Next why, std::string detail) {
   detail_ = std::move(detail);
   return why;

@@ -20,6 +20,8 @@ class EventFile {
   static tl::expected<EventFile, std::string> open(const std::string& path);
   /// Reads the next event into `view`, which stays valid until the next call.
   Next next(LogEventView& view);
+  /// Back to the first event.
+  void rewind();
   std::int64_t size() const { return size_; }            ///< bytes in the file when it was opened
   std::int64_t position() const { return position_; }    ///< end of the last whole event
   const std::string& detail() const { return detail_; }  ///< after cut or damaged: a sentence

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "emulator/log/block_builder.h"
+#include "emulator/log/content_hash.h"
 #include "emulator/log/log_types.h"
 #include "emulator/log/run_log.h"
 #include "emulator/log/wire.h"
-#include "machine/base/hash.h"
 #include "machine/base/output_file.h"
 #include "machine/base/require.h"
 #include "machine/machine.h"
@@ -54,6 +54,19 @@ class Sink {
   Done write(const std::string& channel, std::int64_t time_us, const R& record, const LogHeader& header) {
     if (error_) return tl::unexpected(*error_);
     encode(record, header, bytes_);
+    content_.add(time_us, channel, bytes_);
+    return write_bytes(channel, time_us);
+  }
+  /// The last message: it is encoded once more with the hash of the whole log.
+  Done write_summary(const RunSummary& run, std::int64_t time_us, const LogHeader& header) {
+    if (error_) return tl::unexpected(*error_);
+    const std::string channel(Channel<LogSummary>::info.name);
+    LogSummary summary{run, content_.digest()};
+    encode(summary, header, bytes_);
+    // with zeros in its place
+    content_.add(time_us, channel, bytes_);
+    summary.log_hash = content_.digest();
+    encode(summary, header, bytes_);
     return write_bytes(channel, time_us);
   }
 
@@ -74,17 +87,10 @@ class Sink {
     return done ? Done{} : fail(done.error().path, done.error().reason);
   }
 
-  std::uint64_t content_hash() const { return content_.digest(); }
-
  private:
   Done write_bytes(const std::string& channel, std::int64_t time_us) {
     const auto size = static_cast<std::int32_t>(bytes_.size());
     const auto channel_size = static_cast<std::int32_t>(channel.size());
-    content_.integer(time_us);
-    content_.integer(channel_size);
-    content_.bytes(channel.data(), channel.size());
-    content_.integer(size);
-    content_.bytes(bytes_.data(), bytes_.size());
     if (file_) {
       WireWriter head(head_);
       head.i32(static_cast<std::int32_t>(kEventSync));
@@ -123,7 +129,7 @@ class Sink {
   std::uint64_t file_bytes_ = 0;
   std::int64_t events_ = 0;
   std::vector<std::uint8_t> head_, bytes_;
-  Hash64 content_;
+  ContentHash content_;
   Ticks valid_until_;
   std::optional<LogError> error_;  // the first one stays: nothing is written after a gap
 };
@@ -172,7 +178,9 @@ class LcmLog final : public RunLog {
 
   Done end(const RunSummary& summary) override {
     if (auto done = finish_block(); !done) return done;
-    if (auto done = write(LogSummary{summary, sink_.content_hash()}, summary.ticks); !done) return done;
+    require(builder_.has_value(), "a log begins with its header");
+    const std::int64_t time_us = event_time_us(summary.ticks, header_.base_hz);
+    if (auto done = sink_.write_summary(summary, time_us, header_); !done) return done;
     if (auto done = sink_.flush(summary.ticks); !done) return done;
     return sink_.close(summary.outcome != Outcome::interrupted);
   }

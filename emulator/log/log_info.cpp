@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <unordered_map>
 
 #include "machine/base/hash.h"
-#include "machine/step_hash.h"
 
 namespace kadr::log {
 namespace {
@@ -29,13 +29,22 @@ std::uint64_t hash_of_file(const std::string& path, std::int64_t bytes) {
   return hash.digest();
 }
 
-void count_channel(std::vector<ChannelInfo>& channels, const LogEventView& event) {
-  auto it = std::find_if(channels.begin(), channels.end(),
-                         [&](const ChannelInfo& c) { return c.name == event.channel; });
-  if (it == channels.end()) it = channels.insert(channels.end(), {std::string(event.channel), 0, 0});
-  ++it->messages;
-  it->bytes += event.bytes();
-}
+/// Counts the messages of each channel, in the order of the first ones.
+class ChannelCounts {
+ public:
+  explicit ChannelCounts(std::vector<ChannelInfo>& channels) : channels_(channels) {}
+  void add(const LogEventView& event) {
+    const auto [it, fresh] = place_.try_emplace(std::string(event.channel), channels_.size());
+    if (fresh) channels_.push_back({it->first, 0, 0});
+    ChannelInfo& channel = channels_[it->second];
+    ++channel.messages;
+    channel.bytes += event.bytes();
+  }
+
+ private:
+  std::vector<ChannelInfo>& channels_;
+  std::unordered_map<std::string, std::size_t> place_;
+};
 
 /// Adds the facts of one message.
 class Collector {
@@ -45,11 +54,9 @@ class Collector {
   void operator()(const TickBlock& b) { info_.control_ticks += static_cast<std::int64_t>(b.size()); }
   void operator()(const StepBlock& b) {
     if (!info_.header.logs_ticks) info_.control_ticks += static_cast<std::int64_t>(b.batches.size());
-    for (const StepBatch& batch : b.batches) {
-      hash_.add(batch);
+    for (const StepBatch& batch : b.batches)
       for (std::size_t a = 0; a < batch.axis.size(); ++a)
         info_.pulses[a] += static_cast<std::int64_t>(batch.axis[a].count());
-    }
   }
   void operator()(const EventRecord& e) {
     ++info_.events;
@@ -61,11 +68,8 @@ class Collector {
   template <class Other>
   void operator()(const Other&) {}
 
-  std::uint64_t steps_hash() const { return hash_.digest(); }
-
  private:
   LogInfo& info_;
-  StepHash hash_;
 };
 
 std::string grouped(std::int64_t value) {
@@ -96,22 +100,29 @@ std::optional<bool> LogInfo::content_hash_agrees() const {
   return content_hash == summary->content_hash;
 }
 
+std::optional<bool> LogInfo::log_hash_agrees() const {
+  if (!summary || !log_hash) return std::nullopt;
+  return *log_hash == summary->log_hash;
+}
+
 tl::expected<LogInfo, LogReadError> log_info(const std::string& path) {
-  auto reader = LogReader::open(path);
+  auto reader = LogReader::inspect(path);
   if (!reader) return tl::unexpected(reader.error());
   LogInfo info;
   info.path = path;
   info.header = reader->header();
   Collector collect(info);
+  ChannelCounts channels(info.channels);
   for (LogMessage message; reader->next(message);) {
-    count_channel(info.channels, reader->event());
+    channels.add(reader->event());
     std::visit(collect, message);
   }
   info.end = reader->end();
   info.last_tick = info.end.valid_until.value;
   info.span_s = info.header.seconds(info.end.valid_until);
   info.content_hash = reader->content_hash();
-  if (info.header.logs_steps) info.steps_hash = collect.steps_hash();
+  info.log_hash = reader->log_hash();
+  if (info.header.logs_steps) info.steps_hash = reader->steps_hash();
   info.file_hash = hash_of_file(path, info.end.file_bytes);
   return info;
 }
@@ -126,14 +137,18 @@ std::string log_state_name(LogState state) {
       return "cut off";
     case LogState::damaged:
       return "damaged";
+    case LogState::altered:
+      return "altered";
   }
   return "";
 }
 
 std::string render_log_info(const LogInfo& info) {
   const LogHeader& h = info.header;
-  std::string out =
-      fmt::format("{}: {}\n", info.path, info.end.state == LogState::complete ? "complete" : info.end.detail);
+  const std::string state = info.end.state == LogState::complete  ? "complete"
+                            : info.end.state == LogState::altered ? "altered: " + info.end.detail
+                                                                  : info.end.detail;
+  std::string out = fmt::format("{}: {}\n", info.path, state);
   const auto line = [&](const char* name, const std::string& text) {
     out += fmt::format("  {:<12}{}\n", name, text);
   };
@@ -155,6 +170,7 @@ std::string render_log_info(const LogInfo& info) {
   line("inputs hash", hash_text(h.inputs_hash));
   if (info.steps_hash) line("steps hash", hash_text(*info.steps_hash) + agreement(info.steps_hash_agrees()));
   line("content", hash_text(info.content_hash) + agreement(info.content_hash_agrees()));
+  if (info.log_hash) line("log", hash_text(*info.log_hash) + agreement(info.log_hash_agrees()));
   line("file", fmt::format("{}  {} bytes", hash_text(info.file_hash), grouped(info.end.file_bytes)));
   for (const std::string& note : info.end.passed_over) line("newer", note);
   out += fmt::format("  {:<20}{:>12}{:>16}{:>9}\n", "channel", "messages", "bytes", "share");

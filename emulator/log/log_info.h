@@ -30,16 +30,18 @@ struct LogInfo {
   std::int64_t events = 0, alarms = 0, diagnostics = 0, blocks = 0;
   std::optional<std::uint64_t> steps_hash;  ///< recomputed from KADR_STEPS; none if they are not in the log
   std::uint64_t content_hash = 0;           ///< recomputed from the messages
+  std::optional<std::uint64_t> log_hash;    ///< recomputed from all of them; none: the log holds no such hash
   std::optional<LogSummary> summary;
 
   /// The recomputed hash equals the summary's; nothing to compare: none.
   std::optional<bool> steps_hash_agrees() const;
   std::optional<bool> content_hash_agrees() const;
+  std::optional<bool> log_hash_agrees() const;
 };
 
 tl::expected<LogInfo, LogReadError> log_info(const std::string& path);
 
-/// "complete", "interrupted", "cut off", "damaged"
+/// "complete", "interrupted", "cut off", "damaged", "altered"
 std::string log_state_name(LogState state);
 
 /// Table for people, lines end in '\n'.

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 
+#include "emulator/log/content_hash.h"
 #include "emulator/log/event_file.h"
 #include "emulator/log/log_decode.h"
-#include "machine/base/hash.h"
+#include "emulator/log/log_proof.h"
 #include "machine/base/require.h"
 
 namespace kadr::log {
@@ -20,12 +21,20 @@ struct LogReader::Impl {
   EventFile events;
   LogEventView view;
   LogHeader header;
-  Hash64 content;
+  std::optional<LogProof> proof;
+  ContentHash content;
+  HashesRead hashes;
+  std::string denied;  // by the summary's hashes; a sentence
   bool header_given = false;
   bool finished = false;
   std::optional<LogState> summary;  // of the KADR_SUMMARY that was read
   Ticks ticks_until, steps_until, seen_until;
   LogEnd end;
+
+  void take_header(LogHeader read) {
+    header = std::move(read);
+    proof.emplace(header);
+  }
 
   void stop(LogState state, std::string detail) {
     finished = true;
@@ -74,12 +83,36 @@ struct LogReader::Impl {
     pass_over(fmt::format("channel {} is not known: it is passed over", printable(channel)));
   }
 
-  void hash_event() {
-    content.integer(view.time_us);
-    content.integer(static_cast<std::int64_t>(view.channel.size()));
-    content.bytes(view.channel.data(), view.channel.size());
-    content.integer(static_cast<std::int64_t>(view.data.size()));
-    content.bytes(view.data.data(), view.data.size());
+  /// Takes the event into the hashes, which are compared at the summary.
+  void hash_event(const LogMessage& message) {
+    if (const auto* s = std::get_if<LogSummary>(&message)) {
+      hashes = hashes_at_summary(content, view.time_us, view.channel, view.data, *s);
+      denied = denial(hashes, *s);
+    } else {
+      content.add(view.time_us, view.channel, view.data);
+    }
+  }
+
+  /// Reads the file once, from its beginning to its summary, and back to the first message.
+  /// @return a sentence if its hashes deny what was read; empty: they don't, or there are none
+  std::string denial_of_file() {
+    ContentHash hash;
+    std::string sentence;
+    events.rewind();
+    for (LogEventView event; sentence.empty() && events.next(event) == EventFile::Next::event;) {
+      if (event.channel != Channel<LogSummary>::info.name) {
+        hash.add(event.time_us, event.channel, event.data);
+        continue;
+      }
+      const auto read = decode<LogSummary>(event.data, event.channel, header);
+      if (read)
+        sentence = denial(hashes_at_summary(hash, event.time_us, event.channel, event.data, read->record),
+                          read->record);
+      break;
+    }
+    events.rewind();
+    events.next(view);
+    return sentence;
   }
 
   void stop_at(EventFile::Next why) {
@@ -87,6 +120,7 @@ struct LogReader::Impl {
     if (why == EventFile::Next::damaged)
       return stop(LogState::damaged, fmt::format("damaged: {}; valid up to tick {} ({:.6f} s)",
                                                  events.detail(), valid_until().value, at_s()));
+    if (summary && !denied.empty() && why == EventFile::Next::end) return stop(LogState::altered, denied);
     if (summary == LogState::complete && why == EventFile::Next::end) return stop(LogState::complete, "");
     if (summary == LogState::interrupted && why == EventFile::Next::end)
       return stop(LogState::interrupted,
@@ -96,33 +130,34 @@ struct LogReader::Impl {
                                         valid_until().value, at_s()));
   }
 
+  void stop_in_event(const std::string& reason) {
+    stop(LogState::damaged,
+         fmt::format("damaged: event {} ({}) at byte {}: {}; valid up to tick {} ({:.6f} s)", view.number,
+                     printable(view.channel), valid_bytes, reason, valid_until().value,
+                     header.seconds(valid_until())));
+  }
+
   bool next(LogMessage& message) {
     if (finished) return false;
     if (!header_given) {
       header_given = true;
-      hash_event();
-      valid_bytes = events.position();
       message = header;
+      hash_event(message);
+      valid_bytes = events.position();
       return true;
     }
     if (const auto got = events.next(view); got != EventFile::Next::event) return stop_at(got), false;
+    if (summary) return stop_in_event("an event follows the summary"), false;
     auto decoded = decode_message(view, header);
-    const char* reason = summary   ? "an event follows the summary"
-                         : decoded ? nullptr
-                                   : decoded.error().c_str();
-    if (reason != nullptr) {
-      stop(LogState::damaged,
-           fmt::format("damaged: event {} ({}) at byte {}: {}; valid up to tick {} ({:.6f} s)", view.number,
-                       printable(view.channel), valid_bytes, reason, valid_until().value,
-                       header.seconds(valid_until())));
-      return false;
-    }
+    if (!decoded) return stop_in_event(decoded.error()), false;
+    hash_event(decoded->record);
+    if (const Breach wrong = proof->add(view, decoded->record, !denied.empty()))
+      return stop_in_event(*wrong), false;
     if (decoded->newer) note_newer(view.channel);
     message = std::move(decoded->record);
     if (std::holds_alternative<UnknownMessage>(message)) note_unknown(view.channel);
     valid_bytes = events.position();
     note_progress(message);
-    if (!summary) hash_event();
     return true;
   }
 
@@ -148,6 +183,14 @@ LogReadError not_kadr(EventFile::Next got, const EventFile& events, const LogEve
 }  // namespace
 
 tl::expected<LogReader, LogReadError> LogReader::open(const std::string& path) {
+  auto reader = inspect(path);
+  if (!reader) return reader;
+  if (std::string denied = reader->impl_->denial_of_file(); !denied.empty())
+    return tl::unexpected(fault(LogReadFault::altered, path, std::move(denied)));
+  return reader;
+}
+
+tl::expected<LogReader, LogReadError> LogReader::inspect(const std::string& path) {
   auto file = EventFile::open(path);
   if (!file) return tl::unexpected(fault(LogReadFault::cannot_open, path, file.error()));
   auto impl = std::make_unique<Impl>(std::move(*file));
@@ -159,7 +202,10 @@ tl::expected<LogReader, LogReadError> LogReader::open(const std::string& path) {
               "an LCM log, but not of kadr: its first channel is " + printable(impl->view.channel)));
   auto header = decode_header(impl->view.data);
   if (!header) return tl::unexpected(fault(header.error().fault, path, header.error().reason));
-  impl->header = std::move(header->record);
+  if (const Breach wrong = LogProof::of_header(header->record))
+    return tl::unexpected(
+        fault(LogReadFault::cut_in_header, path, "the log's first message is damaged: " + *wrong));
+  impl->take_header(std::move(header->record));
   if (header->newer) impl->note_newer(kRunChannel);
   return LogReader(std::move(impl));
 }
@@ -172,7 +218,11 @@ LogReader::~LogReader() = default;
 const LogHeader& LogReader::header() const { return impl_->header; }
 bool LogReader::next(LogMessage& message) { return impl_->next(message); }
 const LogEventView& LogReader::event() const { return impl_->view; }
-std::uint64_t LogReader::content_hash() const { return impl_->content.digest(); }
+std::uint64_t LogReader::content_hash() const {
+  return impl_->summary ? impl_->hashes.content : impl_->content.digest();
+}
+std::optional<std::uint64_t> LogReader::log_hash() const { return impl_->hashes.log; }
+std::uint64_t LogReader::steps_hash() const { return impl_->proof->steps_hash(); }
 const LogEnd& LogReader::end() const {
   require(impl_->finished, "a log's end is known after its last message");
   return impl_->end;

@@ -24,6 +24,7 @@ enum class LogReadFault : std::uint8_t {
   other_log,      ///< an LCM log, not of kadr
   other_format,   ///< a kadr log of another format version
   cut_in_header,  ///< a kadr log that was cut or damaged in its first message
+  altered,        ///< a whole log whose summary denies its numbers
 };
 struct LogReadError {
   LogReadFault fault;
@@ -36,7 +37,8 @@ enum class LogState : std::uint8_t {
   complete,
   interrupted,  ///< closed after a signal: valid to its end, but the program's end is missing
   cut_off,      ///< no KADR_SUMMARY: killed, or the disk was full
-  damaged,      ///< bytes that are no log
+  damaged,      ///< bytes that are no log, or messages that contradict each other
+  altered,      ///< whole, but its numbers are not those that were written: its hashes deny them
 };
 struct LogEnd {
   LogState state = LogState::cut_off;
@@ -61,10 +63,19 @@ struct LogEventView {
   }
 };
 
-/// Reads one log from its beginning.
+/// Whether a log is whole to its end and nothing denies what is in it.
+constexpr bool is_sound(LogState state) {
+  return state == LogState::complete || state == LogState::interrupted;
+}
+
+/// Reads one log from its beginning, and proves it as a sequence while it does (log_proof.h).
 class LogReader {
  public:
+  /// Reads the whole file once for its hashes, before anything of it is given.
+  /// @return altered: the summary denies what was read
   static tl::expected<LogReader, LogReadError> open(const std::string& path);
+  /// Does without that: a log that its summary denies is read as far as it can be, and end() says so.
+  static tl::expected<LogReader, LogReadError> inspect(const std::string& path);
   LogReader(LogReader&&) noexcept;
   LogReader& operator=(LogReader&&) noexcept;
   ~LogReader();
@@ -78,6 +89,10 @@ class LogReader {
   const LogEnd& end() const;
   /// Hash of the messages before KADR_SUMMARY as read; equals LogSummary::content_hash if no bit was changed.
   std::uint64_t content_hash() const;
+  /// Hash of all messages as read, of a log that holds one.
+  std::optional<std::uint64_t> log_hash() const;
+  /// Hash of the pulses as read.
+  std::uint64_t steps_hash() const;
 
  private:
   struct Impl;

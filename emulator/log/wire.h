@@ -16,6 +16,7 @@ class WireReader {
   bool ok() const { return ok_; }
   void fail() { ok_ = false; }
   bool at_end() const { return at_ == bytes_.size(); }
+  std::size_t position() const { return at_; }  ///< bytes read
 
   std::int8_t i8() { return static_cast<std::int8_t>(unsigned_of<1>()); }
   std::int32_t i32() { return static_cast<std::int32_t>(unsigned_of<4>()); }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/cli/run_kadr.h"
+#include "tests/emulator/log/log_events.h"
 
 using kadr::test::call;
 using kadr::test::contains;
@@ -16,11 +17,12 @@ namespace {
 /// The log of format 2 in tests/emulator/log/data, one of its channels with a name that no kadr knows.
 std::string newer_log() {
   std::ifstream in(KADR_SOURCE_DIR "/tests/emulator/log/data/format2.lcm", std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  const std::string known = "KADR_BLOCK_END", unknown = "KADR_SOMETHING";
-  for (auto at = bytes.find(known); at != std::string::npos; at = bytes.find(known, at))
-    bytes.replace(at, known.size(), unknown);
-  return bytes;
+  auto events = kadr::test::events_of({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+  for (auto& event : events)
+    if (event.channel == "KADR_BLOCK_END") event.channel = "KADR_SOMETHING";
+  kadr::test::seal(events);
+  const auto bytes = kadr::test::log_of(events);
+  return {bytes.begin(), bytes.end()};
 }
 
 int count(const std::string& text, const std::string& part) {

@@ -11,6 +11,8 @@ namespace kadr::log {
 struct LogSummary {
   RunSummary run;
   std::uint64_t content_hash = 0;
+  std::uint64_t log_hash = 0;   ///< of the whole log (ContentHash::add_summary)
+  std::size_t log_hash_at = 0;  ///< where it was read, in bytes from the message's beginning; 0: it has none
 };
 
 namespace field {
@@ -30,6 +32,18 @@ constexpr auto axis_real(std::string_view name, FieldUnit unit, std::string_view
 template <auto kMember>
 constexpr auto axis_i64(std::string_view name, std::string_view sentence) {
   return i64<&LogSummary::run, &RunSummary::axis, kMember>(name, sentence).by("n_axes");
+}
+
+/// The hash of the whole log: a reader has to know its place, because its own bytes are hashed as zeros.
+constexpr Field<LogSummary> log_hash() {
+  auto f = i64<&LogSummary::log_hash>(
+      "log_hash", "XXH3 of every message, these eight bytes as zeros (docs/log_format.md)");
+  f.get = [](const Reading& reading, LogSummary& summary) {
+    const std::size_t at = reading.in.position();
+    summary.log_hash = static_cast<std::uint64_t>(reading.in.i64());
+    if (reading.in.ok()) summary.log_hash_at = at;
+  };
+  return f.not_compared();
 }
 }  // namespace field
 
@@ -116,6 +130,7 @@ struct Channel<R> {
       field::run_i64<&Run::alarms>("n_alarms", ""),
       field::run_i64<&Run::warnings>("n_warnings", "of the program: its KADR_DIAG of severity 2"),
       field::i32<&R::run, &Run::exit_code>("exit_code", "of `kadr run`"),
+      field::log_hash(),
   };
 };
 

@@ -19,6 +19,7 @@ void append_tick(TickBlock& b, const TickSource& tick) {
   b.limited_by.push_back(static_cast<std::int8_t>(motion.limited_by));
   b.limiting_axis.push_back(motion.limiting_axis);
   b.block.push_back(record.block);
+  b.has_override = record.has_override;
   if (record.has_override) {
     b.override_requested.push_back(motion.override_requested);
     b.limiter.push_back(motion.limiter);
@@ -43,7 +44,8 @@ void append_tick(TickBlock& b, const TickSource& tick) {
 const char* check_message(TickBlock& b, std::string_view, const LogHeader& header) {
   if (!begins_at_its_tick(b.begin, b.first, header)) return "its control tick does not begin at its tick";
   b.has_plant = !b.axis.front().base_u.empty();
-  if (b.override_requested.empty()) {
+  b.has_override = !b.override_requested.empty();
+  if (!b.has_override) {
     b.override_requested = b.override_used;
     b.limiter.assign(b.size(), 1.0);
     b.override_note.assign(b.size(), 0);

@@ -29,6 +29,7 @@ struct TickBlock {
   std::vector<std::uint32_t> block;                    ///< [ticks]
   std::vector<AxisTicks> axis;                         ///< [axes]
   bool has_plant = false;
+  bool has_override = false;  ///< what was requested is in the log
   std::size_t size() const { return feed_u_s.size(); }
 };
 

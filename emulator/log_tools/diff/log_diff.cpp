@@ -14,9 +14,7 @@ struct FramePair {
   LogFrame a, b;
 };
 
-bool whole(const log::LogEnd& end) {
-  return end.state == log::LogState::complete || end.state == log::LogState::interrupted;
-}
+bool whole(const log::LogEnd& end) { return log::is_sound(end.state); }
 bool exact(const LogFrame& frame) { return frame.ticks || frame.steps; }
 
 /// Runs through both logs once.

@@ -36,7 +36,7 @@ bool LogFrames::next(LogFrame& frame) {
 bool LogFrames::read() {
   log::LogMessage message;
   if (!reader_.next(message)) {
-    const bool whole = end().state == log::LogState::complete || end().state == log::LogState::interrupted;
+    const bool whole = log::is_sound(end().state);
     // exact data without their other half, and events after the last whole block, are not complete
     if (whole) {
       flush_block();

@@ -10,13 +10,23 @@
 namespace kadr::log_tools {
 
 bool matches_pattern(std::string_view name, std::string_view pattern) {
-  const auto star = pattern.find('*');
-  if (star == std::string_view::npos) return name == pattern;
-  if (name.substr(0, star) != pattern.substr(0, star)) return false;
-  const std::string_view rest = pattern.substr(star + 1);
-  for (std::size_t at = star; at <= name.size(); ++at)
-    if (matches_pattern(name.substr(at), rest)) return true;
-  return false;
+  std::size_t n = 0, p = 0, star = std::string_view::npos, behind = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      behind = n;
+    } else if (p < pattern.size() && pattern[p] == name[n]) {
+      ++n;
+      ++p;
+    } else if (star != std::string_view::npos) {
+      // the last star takes one more
+      n = ++behind;
+      p = star + 1;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
 struct LogSamples::Impl {
@@ -44,6 +54,25 @@ struct LogSamples::Impl {
       return true;
     }
     return frames.next(now);
+  }
+
+  void take_window(const SampleChoice& window) {
+    from_s = window.from_s;
+    to_s = window.to_s;
+    if (!(window.rate_hz > 0)) return;
+    const double ratio = 1 / (tau_s * window.rate_hz);
+    every = ratio < 1 ? 1 : ratio > 1e12 ? std::int64_t{1'000'000'000'000} : std::llround(ratio);
+  }
+
+  void take(std::size_t signal) {
+    if (std::find(choice.begin(), choice.end(), signal) != choice.end()) return;
+    choice.push_back(signal);
+    chosen.push_back(all[signal]);
+  }
+
+  void take_none() {
+    choice.clear();
+    chosen.clear();
   }
 
   /// Rest between control ticks that the log skips.
@@ -75,8 +104,9 @@ tl::expected<LogSamples, log::LogReadError> LogSamples::open(const std::string& 
   impl->context.header = &header;
   impl->tau_s = header.seconds(Ticks{header.control_tick_ticks});
   LogFrame first;
-  if (impl->frames.next(first) && first.ticks) {
-    impl->table = signal_table(header, first);
+  // every control tick of a proved log has the columns of the first; a log of events alone has none
+  if (impl->frames.next(first)) {
+    if (first.ticks) impl->table = signal_table(header, first);
     impl->waiting = std::move(first);
   }
   for (const SignalSource& source : impl->table) impl->all.push_back(source.signal);
@@ -96,15 +126,9 @@ const std::optional<log::LogSummary>& LogSamples::summary() const { return impl_
 
 tl::expected<void, std::string> LogSamples::choose(const SampleChoice& choice) {
   Impl& m = *impl_;
-  m.from_s = choice.from_s;
-  m.to_s = choice.to_s;
-  if (choice.rate_hz > 0) {
-    const double ratio = 1 / (m.tau_s * choice.rate_hz);
-    m.every = ratio < 1 ? 1 : ratio > 1e12 ? std::int64_t{1'000'000'000'000} : std::llround(ratio);
-  }
+  m.take_window(choice);
   if (choice.signals.empty()) return {};
-  m.choice.clear();
-  m.chosen.clear();
+  m.take_none();
   std::string_view rest = choice.signals;
   while (!rest.empty()) {
     const auto comma = rest.find(',');
@@ -114,16 +138,22 @@ tl::expected<void, std::string> LogSamples::choose(const SampleChoice& choice) {
     for (std::size_t i = 0; i < m.all.size(); ++i) {
       if (!matches_pattern(m.all[i].name, pattern)) continue;
       found = true;
-      if (std::find(m.choice.begin(), m.choice.end(), i) == m.choice.end()) {
-        m.choice.push_back(i);
-        m.chosen.push_back(m.all[i]);
-      }
+      m.take(i);
     }
     if (!found)
       return tl::unexpected(
           fmt::format("the log has no signal '{}' (`kadr export LOG --list` lists them all)", pattern));
   }
   return {};
+}
+
+void LogSamples::choose(const SampleChoice& window, const std::vector<std::string>& names) {
+  Impl& m = *impl_;
+  m.take_window(window);
+  m.take_none();
+  for (const std::string& name : names)
+    for (std::size_t i = 0; i < m.all.size(); ++i)
+      if (m.all[i].name == name) m.take(i);
 }
 
 bool LogSamples::next(Sample& sample) {

@@ -46,6 +46,9 @@ class LogSamples {
   const std::vector<Signal>& signals() const;
   /// @return a sentence that names the chosen signals that the log lacks
   tl::expected<void, std::string> choose(const SampleChoice& choice);
+  /// The same with signals by their exact names, in this order; a name of a log of unknown origin may hold a
+  /// comma or a star.
+  void choose(const SampleChoice& window, const std::vector<std::string>& names);
   const std::vector<Signal>& chosen() const;
   double control_tick_s() const;
   double from_s() const;  ///< of the choice

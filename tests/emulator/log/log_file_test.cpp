@@ -180,7 +180,17 @@ TEST_CASE("header, blocks, events, diagnostics and summary come back from a log"
   CHECK(diagnostics[0]->notes == std::vector<std::string>{"one", "two"});
 
   const RunSummary& s = log.all<LogSummary>().at(0)->run;
-  const RunSummary expected = test::log_summary(machine, 500, s.pulses, s.steps_hash);
+  test::Totals totals(machine);
+  FakeRun run(machine);
+  for (int k = 0; k < 500; ++k) {
+    run.advance();
+    totals.add(run.batch());
+  }
+  for (const BlockRecord* b : blocks) totals.add(*b);
+  for (const EventRecord* e : events) totals.add(*e);
+  const RunSummary expected = test::log_summary(machine, 500, totals);
+  CHECK(s.pulses == expected.pulses);
+  CHECK(s.steps_hash == expected.steps_hash);
   CHECK(s.ticks.value == 5'000'000);
   CHECK(s.path_error_u == expected.path_error_u);
   CHECK(s.dwell_s == 0.5);
@@ -359,11 +369,14 @@ TEST_CASE("skipped control ticks begin a new block of ticks") {
   REQUIRE(log);
   REQUIRE((*log)->begin(test::log_header(machine)));
   FakeRun run(machine);
+  test::Totals totals(machine);
   for (int k = 0; k < 40; ++k) {
     const TickRecord& record = run.advance();
-    if (k < 10 || k > 15) REQUIRE((*log)->tick(record, run.batch()));
+    if (k >= 10 && k <= 15) continue;
+    totals.add(run.batch());
+    REQUIRE((*log)->tick(record, run.batch()));
   }
-  REQUIRE((*log)->end(test::log_summary(machine, 40, run.pulses(), 0)));
+  REQUIRE((*log)->end(test::log_summary(machine, 40, totals, run.nodes())));
   const auto blocks = read_log(folder / "a");
   REQUIRE(blocks.all<TickBlock>().size() == 2);
   CHECK(blocks.all<TickBlock>()[0]->size() == 10);
@@ -381,7 +394,7 @@ TEST_CASE("a program above 1 MiB is named by length and hash; zero bytes in a te
   auto log = open_lcm_log({folder / "a", ""});
   REQUIRE(log);
   REQUIRE((*log)->begin(header));
-  REQUIRE((*log)->end(test::log_summary(machine, 0, 0, 0)));
+  REQUIRE((*log)->end(test::log_summary(machine, 0, test::Totals(machine))));
   const ReadLog read = read_log(folder / "a");
   const LogHeader& h = *read.all<LogHeader>().at(0);
   CHECK(h.program_text.empty());

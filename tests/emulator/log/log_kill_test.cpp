@@ -36,12 +36,14 @@ volatile std::sig_atomic_t interrupted = 0;
   test::FakeRun run(machine);
   tl::expected<void, LogError> done = (*log)->begin(test::log_header(machine));
   std::int64_t ticks = 0;
+  test::Totals totals(machine);
   for (; done && !interrupted; ++ticks) {
     const TickRecord& record = run.advance();
+    totals.add(run.batch());
     done = (*log)->tick(record, run.batch());
   }
   if (done) {
-    RunSummary summary = test::log_summary(machine, ticks, run.pulses(), 0);
+    RunSummary summary = test::log_summary(machine, ticks, totals);
     summary.outcome = log::Outcome::interrupted;
     done = (*log)->end(summary);
     ::_exit(done ? kInterruptedExit : kWrongExit);

@@ -15,6 +15,7 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "log_support.h"
+#include "machine/machine.h"
 #include "machine/step_hash.h"
 
 /// The real lcm-logplayer plays a written log over UDP multicast that stays on this host (ttl=0), and every
@@ -144,12 +145,14 @@ Verdict publish(const std::string& path, const std::string& url) {
   auto log = open_lcm_log({path, url});
   bool good = log.has_value() && (*log)->begin(test::log_header(machine));
   test::FakeRun run(machine);
+  test::Totals totals(machine);
   for (int k = 0; k < 300 && good; ++k) {
     const TickRecord& record = run.advance();
+    totals.add(run.batch());
     good = (*log)->tick(record, run.batch()).has_value();
     if (k % 32 == 31) receiver.receive_for(std::chrono::milliseconds(1));
   }
-  if (!good || !(*log)->end(test::log_summary(machine, 300, run.pulses(), 0))) return Verdict::refused;
+  if (!good || !(*log)->end(test::log_summary(machine, 300, totals))) return Verdict::refused;
   const std::vector<Message> written = messages_of(path);
   receive_all(receiver, written.size(), [] { return true; });
   return compare(receiver.messages, written);

@@ -99,7 +99,8 @@ const log::TickRecord& FakeRun::advance() {
   motion_.limiter = 1 - 0.002 * static_cast<double>(tick_ % 7);
   motion_.note = static_cast<OverrideNote>(tick_ / 30 % 4);
   motion_.limited_by = static_cast<LimitedBy>(tick_ / 100 % 11);
-  motion_.limiting_axis = static_cast<std::int8_t>(tick_ / 100 % 4 - 1);
+  const auto axes = static_cast<std::int64_t>(machine_.axis.size());
+  motion_.limiting_axis = static_cast<std::int8_t>(tick_ / 100 % (std::min<std::int64_t>(axes, 3) + 1) - 1);
   for (std::size_t a = 0; a < batch_.axis.size(); ++a) {
     const double share = 1 - 0.07 * static_cast<double>(a), begin = position_steps_[a];
     const double end = begin + share * (before + after) / 2;
@@ -159,18 +160,15 @@ log::RunHeader log_header(const machine::MachineModel& machine) {
 }
 
 log::RunSummary log_summary(const machine::MachineModel& machine, std::int64_t control_ticks,
-                            std::int64_t pulses, std::uint64_t steps_hash) {
+                            const Totals& totals, const std::vector<Steps>& nodes) {
   log::RunSummary s;
   s.ticks = Ticks{control_ticks * machine.clock.control_tick.value};
   s.control_ticks = ControlTicks{control_ticks};
-  s.blocks = static_cast<std::uint32_t>(control_ticks / 100);
   s.path_u = 1942.113;
   s.mean_feed_u_s = 50.6;
   s.peak_feed_u_s = 109.98;
   s.motion_s = 38.25;
   s.dwell_s = 0.5;
-  s.pulses = pulses;
-  s.steps_hash = steps_hash;
   s.path_error_u = 0.0125;
   s.held_error_u = 0.0625;
   for (std::size_t a = 0; a < machine.axis.size(); ++a) {
@@ -200,10 +198,40 @@ log::RunSummary log_summary(const machine::MachineModel& machine, std::int64_t c
   s.limited_by = {{"program", 23.5}, {"axis X speed", 14.75}};
   s.planned_s = 38.25;
   s.lost_by = {{"hold", 2.5}, {"override", -0.125}};
-  s.alarms = 2;
   s.warnings = 1;
   s.exit_code = 3;
+  totals.put_into(s, nodes);
   return s;
+}
+
+Totals::Totals(const machine::MachineModel& machine) {
+  for (const machine::AxisModel& axis : machine.axis)
+    axis_.push_back({.home = lattice_node(axis.home_u, axis.step_u).value});
+}
+
+void Totals::add(const StepBatch& batch) {
+  hash_.add(batch);
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    const auto count = static_cast<std::int64_t>(batch.axis[a].count());
+    pulses_ += count;
+    axis_[a].pulses += count;
+    axis_[a].net_steps += batch.axis[a].net_steps().value;
+  }
+}
+void Totals::add(const log::EventRecord& event) { alarms_ += event.kind == log::EventKind::alarm ? 1 : 0; }
+void Totals::add(const log::BlockRecord&) { ++blocks_; }
+
+void Totals::put_into(log::RunSummary& summary, const std::vector<Steps>& nodes) const {
+  summary.pulses = pulses_;
+  summary.steps_hash = hash_.digest();
+  summary.blocks = blocks_;
+  summary.alarms = alarms_;
+  summary.axis.resize(axis_.size());
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    summary.axis[a].pulses = axis_[a].pulses;
+    summary.axis[a].net_steps = Steps{axis_[a].net_steps};
+    summary.axis[a].end_steps = nodes.empty() ? Steps{axis_[a].home + axis_[a].net_steps} : nodes[a];
+  }
 }
 
 std::int64_t write_log(const std::string& path, const machine::MachineModel& machine,
@@ -218,43 +246,51 @@ std::int64_t write_log(const std::string& path, const machine::MachineModel& mac
   warning.code = all_codes().front().code;
   check((*log)->diagnostic(warning, Ticks{-1}));
   FakeRun run(machine, options);
-  StepHash hash;
+  Totals totals(machine);
+  const auto begin = [&](const log::BlockRecord& block) {
+    totals.add(block);
+    check((*log)->block(block));
+  };
+  const auto happen = [&](const log::EventRecord& event) {
+    totals.add(event);
+    check((*log)->event(event));
+  };
   const std::int64_t tau = machine.clock.control_tick.value;
   for (std::int64_t k = 0; k < control_ticks; ++k) {
     const auto number = static_cast<std::uint32_t>(k / 100);
     const std::vector<double> peaks(machine.axis.size(), 0.001 * static_cast<double>(number));
     const std::vector<double> energies(peaks.size(), 0.25);
     if (k % 100 == 0) {
-      check((*log)->block({Ticks{k * tau + 7},
-                           number,
-                           {0, number + 1, 1, 8},
-                           "N10 G1 X10 F100",
-                           "line",
-                           10.5,
-                           100,
-                           99,
-                           0,
-                           0.105,
-                           "axis X speed"}));
+      begin({Ticks{k * tau + 7},
+             number,
+             {0, number + 1, 1, 8},
+             "N10 G1 X10 F100",
+             "line",
+             10.5,
+             100,
+             99,
+             0,
+             0.105,
+             "axis X speed"});
       if (k > 0)
         check(
             (*log)->block_end({Ticks{(k + 1) * tau}, number - 1, number, peaks, peaks, energies, energies}));
     }
     if (k % 250 == 249)
-      check((*log)->event({Ticks{k * tau + 9},
-                           number,
-                           {0, 3, 4, 5},
-                           log::EventKind::alarm,
-                           all_codes().back().code,
-                           1,
-                           2.5,
-                           2.0,
-                           "axis Y is too fast: 2.5 mm/s, allowed 2.0 mm/s"}));
+      happen({Ticks{k * tau + 9},
+              number,
+              {0, 3, 4, 5},
+              log::EventKind::alarm,
+              all_codes().back().code,
+              1,
+              2.5,
+              2.0,
+              "axis Y is too fast: 2.5 mm/s, allowed 2.0 mm/s"});
     const log::TickRecord& record = run.advance();
-    hash.add(run.batch());
+    totals.add(run.batch());
     check((*log)->tick(record, run.batch()));
   }
-  log::RunSummary summary = log_summary(machine, control_ticks, run.pulses(), hash.digest());
+  log::RunSummary summary = log_summary(machine, control_ticks, totals);
   summary.outcome = outcome;
   check((*log)->end(summary));
   return run.pulses();

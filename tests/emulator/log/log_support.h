@@ -7,6 +7,7 @@
 
 #include "emulator/log/log_reader.h"
 #include "emulator/log/run_log.h"
+#include "machine/step_hash.h"
 
 /// A made-up run for the log's tests: every number is a pure function of the control tick.
 namespace kadr::test {
@@ -72,9 +73,30 @@ class FakeRun {
 bool holds_fake_run(const std::string& path, const machine::MachineModel& machine,
                     FakeRunOptions options = {});
 
+/// What a summary says of the messages before it; a reader checks it.
+class Totals {
+ public:
+  explicit Totals(const machine::MachineModel& machine);
+  void add(const StepBatch& batch);
+  void add(const log::EventRecord& event);
+  void add(const log::BlockRecord& block);
+  /// @param nodes  lattice nodes at the end; empty: those that the pulses lead to
+  void put_into(log::RunSummary& summary, const std::vector<Steps>& nodes = {}) const;
+
+ private:
+  struct AxisTotals {
+    std::int64_t pulses = 0, net_steps = 0, home = 0;
+  };
+  std::vector<AxisTotals> axis_;
+  StepHash hash_;
+  std::int64_t pulses_ = 0;
+  std::uint32_t blocks_ = 0;
+  std::size_t alarms_ = 0;
+};
+
 log::RunHeader log_header(const machine::MachineModel& machine);
 log::RunSummary log_summary(const machine::MachineModel& machine, std::int64_t control_ticks,
-                            std::int64_t pulses, std::uint64_t steps_hash);
+                            const Totals& totals, const std::vector<Steps>& nodes = {});
 
 /// Writes a whole log: header, a block every 100 ticks with its end, an event every 250, one diagnostic, the
 /// ticks, the summary. @return the pulses written

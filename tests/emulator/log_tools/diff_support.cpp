@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "machine/machine.h"
-#include "machine/step_hash.h"
 
 namespace kadr::test {
 namespace {
@@ -39,7 +38,7 @@ void write_changed(const std::string& path, const log::RunHeader& header, std::i
   const auto log = open(path);
   check(log->begin(header));
   FakeRun run(machine);
-  StepHash hash;
+  Totals totals(machine);
   const std::int64_t tau = machine.clock.control_tick.value;
   for (std::int64_t k = 0; k < control_ticks; ++k) {
     log::TickRecord record = run.advance();
@@ -59,14 +58,20 @@ void write_changed(const std::string& path, const log::RunHeader& header, std::i
       tick.block =
           block_record(Ticks{k * tau + 7}, number, number % 2 + 1, number % 2 == 0 ? "N10 G1 X10" : "M2");
     if (change) change(tick);
-    if (tick.block) check(log->block(*tick.block));
-    for (const auto& event : tick.events) check(log->event(event));
+    if (tick.block) {
+      totals.add(*tick.block);
+      check(log->block(*tick.block));
+    }
+    for (const auto& event : tick.events) {
+      totals.add(event);
+      check(log->event(event));
+    }
     record.motion = &tick.motion;
     record.axis = &tick.states;
-    hash.add(tick.batch);
+    totals.add(tick.batch);
     check(log->tick(record, tick.batch));
   }
-  log::RunSummary summary = log_summary(machine, control_ticks, run.pulses(), hash.digest());
+  log::RunSummary summary = log_summary(machine, control_ticks, totals, run.nodes());
   summary.outcome = outcome;
   check(log->end(summary));
 }
@@ -93,6 +98,7 @@ void write_path_log(const std::string& path, const machine::MachineModel& machin
   std::vector<Steps> steps(3);
   StepBatch batch;
   batch.axis.resize(3);
+  Totals totals(machine);
   std::int64_t k = 0;
   std::uint32_t block = 0;
   const auto tick_of = [&](double from_mm, double to_mm, double at_mm) {
@@ -108,9 +114,13 @@ void write_path_log(const std::string& path, const machine::MachineModel& machin
     motion.speed_begin_u_s = speed_mm_s;
     motion.speed_end_u_s = feed_mm_s;
     motion.accel_end_u_s2 = (feed_mm_s - speed_mm_s) / tau_s;
-    for (; to_mm > s_mm && block < run.end_mm && block < to_mm; ++block)
-      check(log->block(block_record(Ticks{k * machine.clock.control_tick.value + tick_of(s_mm, to_mm, block)},
-                                    block, 1, "N10 G1 X10 F100 (скругление)")));
+    for (; to_mm > s_mm && block < run.end_mm && block < to_mm; ++block) {
+      const auto begun =
+          block_record(Ticks{k * machine.clock.control_tick.value + tick_of(s_mm, to_mm, block)}, block, 1,
+                       "N10 G1 X10 F100 (скругление)");
+      totals.add(begun);
+      check(log->block(begun));
+    }
     for (std::size_t a = 0; a < 3; ++a) {
       AxisPulses& axis = batch.axis[a];
       axis.clear();
@@ -127,6 +137,7 @@ void write_path_log(const std::string& path, const machine::MachineModel& machin
       }
     }
     log::TickRecord record{ControlTicks{k}, block == 0 ? 0 : block - 1, &motion, &steps, nullptr};
+    totals.add(batch);
     check(log->tick(record, batch));
     s_mm = to_mm;
     speed_mm_s = feed_mm_s;
@@ -134,7 +145,7 @@ void write_path_log(const std::string& path, const machine::MachineModel& machin
   log::RunSummary summary;
   summary.ticks = Ticks{k * machine.clock.control_tick.value};
   summary.control_ticks = ControlTicks{k};
-  summary.axis.resize(3);
+  totals.put_into(summary, steps);
   check(log->end(summary));
 }
 
