@@ -94,14 +94,13 @@ void StepSequence::add_pulses(Side& side, int number, const LogFrame& frame) {
 
 /// Every pulse before base tick `until` has been counted: updates the bounds of the blocks' beginnings.
 void StepSequence::settle_marks(Side& side, Ticks until) {
-  for (Mark& mark : side.marks) {
-    if (mark.known) continue;
-    if (until.value < mark.stamp.value - kStampSlack_ticks) break;
-    if (mark.low.empty()) mark.low = side.total;
-    if (until.value <= mark.stamp.value + kStampSlack_ticks) continue;
-    mark.high = side.total;
-    mark.known = true;
-  }
+  // marks ascend: each is touched twice, however many there are at one stamp
+  const auto at = [&](std::size_t n) { return side.marks[n].stamp.value; };
+  for (; side.reached < side.marks.size() && until.value >= at(side.reached) - kStampSlack_ticks;
+       ++side.reached)
+    side.marks[side.reached].low = side.total;
+  for (; side.known < side.reached && until.value > at(side.known) + kStampSlack_ticks; ++side.known)
+    side.marks[side.known].high = side.total;
 }
 
 void StepSequence::match() {
@@ -172,7 +171,7 @@ bool StepSequence::end_block() {
   auto &a = side_[0], &b = side_[1];
   if (a.marks.empty() || b.marks.empty()) return false;
   const Mark &x = a.marks.front(), &y = b.marks.front();
-  if (!x.known || !y.known) return false;
+  if (a.known == 0 || b.known == 0) return false;
   close_block(&x.low, &x.high, &y.low, &y.high);
   begin_block();
   return true;
@@ -229,6 +228,8 @@ void StepSequence::begin_block() {
     side.block = std::move(side.marks.front().block);
     side.begun = true;
     side.marks.pop_front();
+    --side.reached;
+    --side.known;
   }
 }
 

@@ -58,7 +58,6 @@ class StepSequence {
     log::BlockRecord block;
     Ticks stamp;
     Counts low, high;  // pulses before the block surely begins, and before it surely has begun
-    bool known = false;
   };
   struct Side {
     std::int64_t control_tick_ticks = 1;
@@ -68,6 +67,7 @@ class StepSequence {
     std::vector<std::deque<std::int8_t>> signs;  // [axes] not matched yet
     Counts matched;                              // signs matched since the base
     std::deque<Mark> marks;                      // beginnings of the blocks to come
+    std::size_t reached = 0, known = 0;          // how many of the marks, from the first, have `low`, `high`
     log::BlockRecord block;                      // under way
     bool begun = false;
   };

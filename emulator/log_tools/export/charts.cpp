@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t kPieces = 2048;  ///< of a line: at least one per pixel column
 constexpr std::size_t kStyles = 6;
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
-constexpr double kGap = 12;  ///< pixels between charts
+constexpr double kFarthest = 1e300;  ///< a value beyond is drawn there, so that a chart's range is finite
+constexpr double kGap = 12;          ///< pixels between charts
 
 constexpr std::string_view kStyle = R"css(
 svg { background: #ffffff; font: 12px system-ui, sans-serif; } text { fill: #1c2024; }
@@ -33,7 +34,9 @@ std::vector<text::ChartPoint> points_of(const std::vector<Envelope::Piece>& piec
   std::vector<text::ChartPoint> points;
   points.reserve(2 * pieces.size());
   double before = 0;
-  for (const Envelope::Piece& p : pieces) {
+  for (Envelope::Piece p : pieces) {
+    p.low = std::clamp(p.low, -kFarthest, kFarthest);
+    p.high = std::clamp(p.high, -kFarthest, kFarthest);
     if (p.empty) {
       if (!points.empty() && !std::isnan(points.back().y)) points.push_back({p.end_s, kNoValue});
       continue;

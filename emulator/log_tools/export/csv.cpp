@@ -10,6 +10,14 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
+/// A text as RFC 4180 has it: in quotes if it holds what would end the field.
+std::string field(const std::string& text, char separator) {
+  if (text.find_first_of(std::string("\"\r\n") + separator) == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
 }  // namespace
 
 void write_csv(LogSamples& log, CsvForm form, const Sink& sink) {
@@ -17,7 +25,7 @@ void write_csv(LogSamples& log, CsvForm form, const Sink& sink) {
   const char separator = excel ? ';' : ',';
   std::string line(excel ? kByteOrderMark : std::string_view{});
   line += "t_s";
-  for (const Signal& signal : log.chosen()) line += separator + signal.name;
+  for (const Signal& signal : log.chosen()) line += separator + field(signal.name, separator);
   line += '\n';
   sink(line);
   const auto number = [&](double value) {
@@ -30,7 +38,7 @@ void write_csv(LogSamples& log, CsvForm form, const Sink& sink) {
     number(sample.t_s);
     for (const double value : sample.value) {
       line += separator;
-      if (!std::isnan(value)) number(value);
+      if (std::isfinite(value)) number(value);
     }
     line += '\n';
     sink(line);

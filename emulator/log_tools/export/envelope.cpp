@@ -33,7 +33,7 @@ void Envelope::add(double t_s, double value) {
   }
   const auto index = static_cast<std::size_t>(at);
   if (index >= ranges_.size()) ranges_.resize(index + 1);
-  if (!std::isnan(value)) ranges_[index].take({value, value, false});
+  if (std::isfinite(value)) ranges_[index].take({value, value, false});
 }
 
 std::vector<Envelope::Piece> Envelope::pieces() const {

@@ -17,7 +17,7 @@ class Envelope {
   /// @param most  pieces, even
   Envelope(double first_s, double piece_s, std::size_t most);
 
-  /// Ascending t; a value that is not a number is left out.
+  /// Ascending t; a value that is not finite is left out.
   void add(double t_s, double value);
   /// Pieces up to the last value, at which the last one ends.
   std::vector<Piece> pieces() const;

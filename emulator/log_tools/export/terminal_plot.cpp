@@ -77,13 +77,23 @@ class Canvas {
   std::vector<int> cells_;
 };
 
+/// Half the distance from `from` to `to`. The whole one of two finite numbers need not be finite.
+double half_way(double from, double to) { return 0.5 * to - 0.5 * from; }
+
+/// Where a value lies in a range: 0 at its low end, 1 at its high one.
+double share_of(double value, const text::ChartRange& range) {
+  const double width = half_way(range.low, range.high);
+  return width > 0 ? std::clamp(half_way(range.low, value) / width, 0.0, 1.0) : 0;
+}
+
 /// Rows of a picture with numbers to the left of the first, middle and last one.
 std::string framed(const Canvas& canvas, int rows, const text::ChartRange& y) {
   std::string out;
   for (int r = 0; r < rows; ++r) {
-    const double value = r == 0          ? y.high
-                         : r == rows - 1 ? y.low
-                                         : y.low + (y.high - y.low) * (rows - 1 - r) / (rows - 1);
+    const double value = r == 0 ? y.high
+                         : r == rows - 1
+                             ? y.low
+                             : 2 * (0.5 * y.low + half_way(y.low, y.high) * (rows - 1 - r) / (rows - 1));
     const bool labelled = r == 0 || r == rows - 1 || 2 * r == rows - 1;
     out += text::pad_left(labelled ? text::significant(value) : "", kMargin - 2) + (labelled ? " ┤" : " │") +
            canvas.row(r);
@@ -101,7 +111,7 @@ std::string footing(const std::string& left, const std::string& right, int width
 
 /// An end of a range that is zero except for rounding, compared with the other end.
 text::ChartRange without_dust(text::ChartRange range) {
-  const double least = kNoDigit * (range.high - range.low);
+  const double least = 2 * kNoDigit * half_way(range.low, range.high);
   if (std::fabs(range.low) < least) range.low = 0;
   if (std::fabs(range.high) < least) range.high = 0;
   return range;
@@ -134,14 +144,13 @@ std::string picture(const Signal& signal, const std::vector<Envelope::Piece>& pi
   const int rows = form.height > 0 ? form.height : kRows;
   Canvas canvas(form.width - kMargin, rows, form.ascii);
   const auto down = [&](double value) {
-    return static_cast<int>(std::floor((value - y.low) / (y.high - y.low) * (canvas.height() - 1) + 0.5));
+    return static_cast<int>(std::floor(share_of(value, y) * (canvas.height() - 1) + 0.5));
   };
   int last_column = -1, last_low = 0, last_high = 0;
   for (const Envelope::Piece& p : pieces) {
     if (p.empty) continue;
     const double middle = 0.5 * (p.begin_s + p.end_s);
-    const int x =
-        std::min(canvas.width() - 1, static_cast<int>((middle - t.low) / (t.high - t.low) * canvas.width()));
+    const int x = std::min(canvas.width() - 1, static_cast<int>(share_of(middle, t) * canvas.width()));
     int low = down(p.low), high = down(p.high);
     // neighbours touch
     if (last_column >= 0 && x - last_column <= 1) {
@@ -208,25 +217,28 @@ std::string render_path_plot(LogSamples& log, const PlotForm& form) {
   const double tall = form.ascii ? 2 : 1;
   const int columns = form.width - kMargin, most_rows = form.height > 0 ? form.height : kPathRows;
   const Canvas room(columns, most_rows, form.ascii);
-  const double scale = std::min((room.width() - 1) / std::max(x.high - x.low, 1e-9),
-                                (room.height() - 1) * tall / std::max(y.high - y.low, 1e-9));
+  constexpr double kLeast_mm = 1e-9;
+  // dots for half a millimetre
+  const double scale =
+      std::min((room.width() - 1) / std::max(half_way(x.low, x.high), kLeast_mm / 2),
+               (room.height() - 1) * tall / std::max(half_way(y.low, y.high), kLeast_mm / 2));
   // no more rows than the path fills
-  const int dots = static_cast<int>((y.high - y.low) * scale / tall + 0.5) + 1,
+  const int dots = static_cast<int>(half_way(y.low, y.high) * scale / tall + 0.5) + 1,
             down = room.height() / most_rows;
   const int rows = std::clamp((dots + down - 1) / down, std::min(kLeastRows, most_rows), most_rows);
   Canvas canvas(columns, rows, form.ascii);
   int px = 0, py = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const int cx = static_cast<int>((points[i][0] - x.low) * scale + 0.5);
-    const int cy = static_cast<int>((points[i][1] - y.low) * scale / tall + 0.5);
+    const int cx = static_cast<int>(half_way(x.low, points[i][0]) * scale + 0.5);
+    const int cy = static_cast<int>(half_way(y.low, points[i][1]) * scale / tall + 0.5);
     canvas.line(i == 0 ? cx : px, i == 0 ? cy : py, cx, cy);
     px = cx;
     py = cy;
   }
-  const text::ChartRange shown = without_dust({y.low, y.low + (canvas.height() - 1) * tall / scale});
+  const text::ChartRange shown = without_dust({y.low, y.low + 2 * (canvas.height() - 1) * tall / scale});
   return out + framed(canvas, rows, shown) +
          footing(fmt::format("{} mm", text::fixed(x.low, 3)),
-                 fmt::format("{} mm", text::fixed(x.low + (canvas.width() - 1) / scale, 3)), form.width);
+                 fmt::format("{} mm", text::fixed(x.low + 2 * (canvas.width() - 1) / scale, 3)), form.width);
 }
 
 }  // namespace kadr::log_tools

@@ -72,8 +72,9 @@ class Dump {
   std::size_t signal_wire(std::size_t k) const { return kWires + 2 * header_.axis.size() + k; }
 
   void head() {
-    std::string out = fmt::format("$version kadr {} $end\n$comment {} on {} $end\n", header_.kadr_version,
-                                  plain(header_.program_name), plain(header_.machine_name));
+    std::string out =
+        fmt::format("$version kadr {} $end\n$comment {} on {} $end\n", plain(header_.kadr_version),
+                    plain(header_.program_name), plain(header_.machine_name));
     if (!scale_.exact) out += "$comment base ticks are rounded down to 1 ps $end\n";
     out += fmt::format("$timescale {} $end\n$scope module kadr $end\n", scale_.name);
     const auto wire = [&](std::size_t number, const std::string& name) {
@@ -83,11 +84,13 @@ class Dump {
     for (std::size_t w = 0; w < kWires; ++w) wire(w, kNames[w]);
     for (std::size_t a = 0; a < header_.axis.size(); ++a) {
       if (!header_.logs_steps) break;
-      wire(step_wire(a), header_.axis[a].name + "_step");
-      wire(dir_wire(a), header_.axis[a].name + "_dir");
+      const std::string axis = word(header_.axis[a].name);
+      wire(step_wire(a), axis + "_step");
+      wire(dir_wire(a), axis + "_dir");
     }
     for (std::size_t k = 0; k < log_.chosen().size(); ++k)
-      out += fmt::format("$var real 64 {} {} $end\n", identifier(signal_wire(k)), log_.chosen()[k].name);
+      out +=
+          fmt::format("$var real 64 {} {} $end\n", identifier(signal_wire(k)), word(log_.chosen()[k].name));
     out += "$upscope $end\n$enddefinitions $end\n";
     sink_(out);
     level_.assign(kWires + 2 * header_.axis.size(), -1);
@@ -98,8 +101,15 @@ class Dump {
   static std::string plain(std::string text) {
     std::replace(text.begin(), text.end(), '$', '_');
     for (char& c : text)
-      if (static_cast<unsigned char>(c) < ' ') c = '_';
+      if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '_';
     return text;
+  }
+
+  /// A name of a variable: white space would end it.
+  static std::string word(const std::string& text) {
+    std::string out = plain(text);
+    std::replace(out.begin(), out.end(), ' ', '_');
+    return out;
   }
 
   void add(std::int64_t time, std::string text) {
@@ -149,7 +159,7 @@ class Dump {
         set(at, alarm, true);
     for (std::size_t k = 0; k < sample.value.size(); ++k) {
       const double value = sample.value[k];
-      if (value == shown_[k] || std::isnan(value)) continue;
+      if (value == shown_[k] || !std::isfinite(value)) continue;
       shown_[k] = value;
       add(at, fmt::format("r{} {}\n", value, identifier(signal_wire(k))));
     }

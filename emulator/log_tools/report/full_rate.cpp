@@ -90,11 +90,9 @@ tl::expected<FullRate, log::LogReadError> read_full_rate(const std::string& path
                                                          const std::vector<Stretch>& stretches) {
   auto log = LogSamples::open(path);
   if (!log) return tl::unexpected(log.error());
-  SampleChoice own = choice;
-  own.signals.clear();
-  for (const Track& track : data.tracks) own.signals += (own.signals.empty() ? "" : ",") + track.signal.name;
-  if (const auto chosen = log->choose(own); !chosen)
-    return tl::unexpected(log::LogReadError{log::LogReadFault::not_a_log, path, chosen.error()});
+  std::vector<std::string> names;
+  for (const Track& track : data.tracks) names.push_back(track.signal.name);
+  log->choose(choice, names);
   FullRate out;
   out.stretches = stretches;
   out.tracks.resize(data.tracks.size());
@@ -126,8 +124,7 @@ tl::expected<FullRate, log::LogReadError> read_full_rate(const std::string& path
           sample.frame->ticks->axis[a].steps[sample.frame->tick_index], INT32_MIN, INT32_MAX));
     if (!inside) continue;
     fill_to(at + 1);
-    for (std::size_t k = 0; k < out.tracks.size(); ++k)
-      out.tracks[k][at] = static_cast<float>(sample.value[k]);
+    for (std::size_t k = 0; k < out.tracks.size(); ++k) out.tracks[k][at] = narrowed(sample.value[k]);
   }
   fill_to(total);
   return out;

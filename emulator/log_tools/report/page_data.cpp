@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "machine/machine_file.h"
 
@@ -18,15 +19,15 @@ constexpr const char* kSignals[] = {
 
 constexpr const char* kPath = "path.length*";  // the last one: not a track
 
-std::string wanted(const LogSamples& log) {
-  std::string out;
+std::vector<std::string> wanted(const LogSamples& log) {
+  std::vector<std::string> out;
   const auto add = [&](const char* pattern) {
     for (const Signal& signal : log.signals())
-      if (matches_pattern(signal.name, pattern)) out += (out.empty() ? "" : ",") + signal.name;
+      if (matches_pattern(signal.name, pattern)) out.push_back(signal.name);
   };
   for (const char* pattern : kSignals) add(pattern);
   for (const Signal& signal : log.signals())
-    if (signal.further) add(signal.name.c_str());
+    if (signal.further) out.push_back(signal.name);
   add(kPath);
   return out;
 }
@@ -79,7 +80,7 @@ class Gatherer {
     const std::size_t i = s.frame->tick_index;
     if (data_.control_ticks++ == 0) data_.first_control_tick = s.control_tick;
     const auto piece = static_cast<std::size_t>((s.control_tick - data_.first_control_tick) / data_.every);
-    if (piece >= kMostPieces) {
+    if (piece >= most_pieces()) {
       halve(data_);
       --data_.control_ticks;
       return sample(s);
@@ -87,7 +88,7 @@ class Gatherer {
     // control ticks that the log skips are at rest: their pieces hold the last node and no value
     while (data_.pieces() <= piece) grow();
     for (std::size_t k = 0; k < data_.tracks.size(); ++k) {
-      const auto value = static_cast<float>(s.value[k]);
+      const float value = narrowed(s.value[k]);
       data_.tracks[k].low[piece] = lower(data_.tracks[k].low[piece], value);
       data_.tracks[k].high[piece] = higher(data_.tracks[k].high[piece], value);
     }
@@ -102,6 +103,12 @@ class Gatherer {
   PathCorners corners() const { return corners_.corners(); }
 
  private:
+  /// Control ticks that a log skips take pieces too: a log of a few ticks that are far apart gets few.
+  std::size_t most_pieces() const {
+    constexpr std::size_t kForEachTick = 4096;
+    return std::min(kMostPieces, kForEachTick * static_cast<std::size_t>(data_.control_ticks));
+  }
+
   void grow() {
     for (Track& track : data_.tracks) {
       track.low.push_back(std::numeric_limits<float>::quiet_NaN());
@@ -130,6 +137,11 @@ class Gatherer {
 };
 
 }  // namespace
+
+float narrowed(double value) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  return static_cast<float>(std::isnan(value) ? value : std::clamp(value, -kMost, kMost));
+}
 
 std::vector<double> picture_steps_mm(const log::LogHeader& header) {
   std::vector<double> out;
@@ -161,10 +173,7 @@ tl::expected<PageData, log::LogReadError> read_page_data(const std::string& path
                                                          const SampleChoice& choice) {
   auto log = LogSamples::open(path);
   if (!log) return tl::unexpected(log.error());
-  SampleChoice own = choice;
-  own.signals = wanted(*log);
-  if (const auto chosen = log->choose(own); !chosen)
-    return tl::unexpected(log::LogReadError{log::LogReadFault::not_a_log, path, chosen.error()});
+  log->choose(choice, wanted(*log));
   PageData data;
   data.header = log->header();
   data.machine = machine_of(data.header);

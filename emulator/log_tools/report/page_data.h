@@ -88,6 +88,9 @@ tl::expected<FullRate, log::LogReadError> read_full_rate(const std::string& path
 /// then round other events, as long as all of it is at most `most` control ticks.
 std::vector<Stretch> stretches_of_interest(const PageData& data, std::int64_t most);
 
+/// A value as a page keeps it: beyond the range of a float the farthest one.
+float narrowed(double value);
+
 /// mm a lattice step of each axis; 0: not an axis of the picture.
 std::vector<double> picture_steps_mm(const log::LogHeader& header);
 
