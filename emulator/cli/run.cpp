@@ -83,7 +83,7 @@ struct RunInputs {
   /// Of the command line, or else of the scenario; an empty path: none is named.
   InputFile program_file{""}, machine{""}, tools{""};
   std::vector<log::ReadFile> files;  ///< that were read
-  std::uint32_t scenario_file = 0;  ///< in the sources
+  std::uint32_t scenario_file = 0;   ///< in the sources
   bool machine_good = false;
   bool started = false;  ///< machine, tool table and scenario could be read
 };

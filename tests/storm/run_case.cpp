@@ -76,7 +76,7 @@ FinishedRun run_case(const PreparedCase& prepared, const std::string& log_path, 
   options.exit_code = exit_code_of;
   FinishedRun run;
   run.log_path = log_path;
-  const log::RunHeader header = cli::run_header(job, options, prepared.scenario_toml);
+  const log::RunHeader header = cli::run_header(job, options, prepared.scenario_toml, {});
   auto log = log::open_lcm_log({log_path, "", 0});
   const auto fail = [&](const std::string& reason) {
     throw std::runtime_error("the log can't be written: " + reason);
