@@ -49,8 +49,8 @@ void Interpreter::coolant() {
 
 void Interpreter::overrides() {
   const int code = words_.m(MGroup::overrides);
-  if (code == kNoCode || code == code::m52 || code == code::m53)
-    return;  // adaptive feed and feed hold are the operator's
+  if (code == code::m52 || code == code::m53) return warn_without_effect();
+  if (code == kNoCode) return;
   const bool enable =
       code == code::m48 || (code != code::m49 && !(words_.has('P') && words_.value('P') == 0));
   if (code != code::m51) enable_feed_override(enable);
