@@ -61,6 +61,7 @@ bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading
   reading.block_delete = arguments.block_delete;
   reading.bounds = arguments.bounds;
   reading.sub_folders = arguments.sub_folders;
+  reading.work_offsets = arguments.offsets;
   if (arguments.tools.empty()) return true;
   const std::size_t errors = diagnostics.errors();
   reading.tools =
