@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "gcode/interpret/interpreter.h"
 
 namespace kadr::gcode {
@@ -73,6 +75,16 @@ Span Interpreter::override_span() const {
 }
 
 void Interpreter::take_dwell_words() {
+  char counts = 0;
+  for (const DwellWord& word : dwell_words(options_.dialect)) {
+    if (!words_.has(word.letter)) continue;
+    if (counts != 0) {
+      report_.warning(problem(Code::word_without_effect, words_.span(*line_, word.letter),
+                              fmt::format("{} counts alone", counts), "write one of them"));
+    } else {
+      counts = word.letter;
+    }
+  }
   const DwellWord* taken = nullptr;
   double dwell_s = 0;
   for (const DwellWord& word : dwell_words(options_.dialect)) {
