@@ -52,11 +52,11 @@ struct InterpretOptions : Reading {
   std::string axis_letters = "XYZABCUVW";  ///< axes of the machine; a word of another axis is an error
   bool inches = false;                     ///< units at start
   bool units_said = true;  ///< false: a program with lengths before its first G20 or G21 is warned of
-  std::string startup;     ///< words that hold before the first line, as of RS274NGC_STARTUP_CODE: modes alone
-  AxisValues home{};       ///< machine position at start, mm and deg
-  AxisValues g28{};                        ///< G28 reference point, machine coordinates
-  AxisValues g30{};                        ///< G30 reference point, machine coordinates
-  double arc_end_tolerance_mm = 0.01;      ///< docs: PathLimits
+  std::string startup;  ///< words that hold before the first line, as of RS274NGC_STARTUP_CODE: modes alone
+  AxisValues home{};    ///< machine position at start, mm and deg
+  AxisValues g28{};     ///< G28 reference point, machine coordinates
+  AxisValues g30{};     ///< G30 reference point, machine coordinates
+  double arc_end_tolerance_mm = 0.01;  ///< docs: PathLimits
   double arc_end_tolerance_relative = 0.001;
   std::optional<StockPlane> stock;  ///< none: a probe meets material at the end of its move
   std::function<InputReading(const InputWait&)> read_input;  ///< asked at M66; none: every input reads 0

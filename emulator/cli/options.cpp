@@ -24,7 +24,8 @@ std::vector<std::string> limit_names(bool log) {
 
 /// G54 .. G59.3 are 1 .. 9; 0 for any other word.
 int work_system(std::string_view word) {
-  constexpr std::string_view kSystems[] = {"G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
+  constexpr std::string_view kSystems[] = {"G54", "G55",   "G56",   "G57",  "G58",
+                                           "G59", "G59.1", "G59.2", "G59.3"};
   for (std::size_t i = 0; i < std::size(kSystems); ++i)
     if (word == kSystems[i]) return static_cast<int>(i) + 1;
   return 0;
@@ -35,8 +36,8 @@ gcode::WorkOffset work_offset(const std::string& text) {
   constexpr double kFarthest_u = 1e8;
   const auto refuse = [&] {
     return CLI::ValidationError(fmt::format(
-        "--offset takes a work system G54 to G59.3 and up to {} numbers, e.g. G54=10,10,-30; got '{}'", kProgramAxes,
-        text));
+        "--offset takes a work system G54 to G59.3 and up to {} numbers, e.g. G54=10,10,-30; got '{}'",
+        kProgramAxes, text));
   };
   const std::size_t equals = text.find('=');
   gcode::WorkOffset offset{work_system(std::string_view(text).substr(0, equals)), {}};

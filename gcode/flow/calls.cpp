@@ -100,9 +100,10 @@ void Flow::warn_other_file(const Target& target, std::int32_t name, Span place) 
   const bool its_own = target.unit->name.empty() || target.unit->name == state_.names[name];
   if (its_own || options_.dialect != Dialect::linuxcnc) return;
   const std::string& file = sources_[target.unit->program.file()].name();
-  report_.warning(problem(Code::sub_of_other_file, place,
-                          fmt::format("{} stands in {}, where LinuxCNC does not find it", label_text(name), file),
-                          fmt::format("move it to {}.ngc, or into the program", state_.names[name])));
+  report_.warning(
+      problem(Code::sub_of_other_file, place,
+              fmt::format("{} stands in {}, where LinuxCNC does not find it", label_text(name), file),
+              fmt::format("move it to {}.ngc, or into the program", state_.names[name])));
 }
 
 bool Flow::load(std::int32_t name, Span place) {

@@ -113,9 +113,10 @@ bool Interpreter::arc_center_words(PlanePoint& center) {
     return error(problem(
         Code::arc_offset_outside_plane, words_.span(*line_, across),
         fmt::format("{} points out of the plane {}", across, plane_name(state_.plane)),
-        zero ? fmt::format("{0}0 comes from a postprocessor for another controller: --dialect grbl or marlin ignores "
-                           "it; or remove {0}",
-                           across)
+        zero ? fmt::format(
+                   "{0}0 comes from a postprocessor for another controller: --dialect grbl or marlin ignores "
+                   "it; or remove {0}",
+                   across)
              : "choose the plane with G17, G18 or G19 before the arc"));
   }
   if (words_.has(across) && words_.value(across) != 0) {
@@ -235,10 +236,10 @@ void Interpreter::warn_nearly_full_circle(PlanePoint from, PlanePoint to, double
   const double dx_mm = to.first_mm - from.first_mm, dy_mm = to.second_mm - from.second_mm;
   const double apart_mm = std::sqrt(dx_mm * dx_mm + dy_mm * dy_mm);
   if (turns != 1 || !(apart_mm > 0) || apart_mm > options_.arc_end_tolerance_mm || sweep_rad < kPi) return;
-  report_.warning(problem(
-      Code::arc_full_circle, action_span(),
-      fmt::format("the end is {} mm behind the start: {:.3f} mm of arc", figure(apart_mm, 6), sweep_rad * radius_mm),
-      "for a whole circle leave the end out, as in G3 I-10; else correct it"));
+  report_.warning(problem(Code::arc_full_circle, action_span(),
+                          fmt::format("the end is {} mm behind the start: {:.3f} mm of arc",
+                                      figure(apart_mm, 6), sweep_rad * radius_mm),
+                          "for a whole circle leave the end out, as in G3 I-10; else correct it"));
 }
 
 /// How far the last digit of a word as written may be off, mm; 0 if its value is computed.

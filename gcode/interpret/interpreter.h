@@ -343,12 +343,12 @@ class Interpreter {
   bool started_ = false;          ///< some line with words has been run, or the opening % was seen
   bool ended_ = false;
   bool ended_by_percent_ = false;
-  bool worded_ = false;         ///< some line with words has been run
-  Span opened_;                 ///< the % that opens the program; line 0: none
-  bool units_pending_ = false;  ///< neither G20 nor G21 so far, and no length
-  Span length_;                 ///< the first length without units; line 0: none
-  std::string length_text_;     ///< "X5 is taken as 5 mm"
-  std::string units_later_;     ///< "G20 follows on line 7"
+  bool worded_ = false;            ///< some line with words has been run
+  Span opened_;                    ///< the % that opens the program; line 0: none
+  bool units_pending_ = false;     ///< neither G20 nor G21 so far, and no length
+  Span length_;                    ///< the first length without units; line 0: none
+  std::string length_text_;        ///< "X5 is taken as 5 mm"
+  std::string units_later_;        ///< "G20 follows on line 7"
   bool diameters_begin_ = false;   ///< G7 on this line has ended G8
   bool threading_ = false;         ///< feed moves follow the spindle's angle, by thread_pitch_u_rev_
   double thread_pitch_u_rev_ = 0;  ///< as written

@@ -48,7 +48,8 @@ void Interpreter::comment() {
 
 /// (ABORT, text): nothing behind it is run.
 void Interpreter::abort_program(std::string text, Span span) {
-  error(problem(Code::program_aborts, span, "the program comes here and stops: " + std::string(without_blanks(text))));
+  error(problem(Code::program_aborts, span,
+                "the program comes here and stops: " + std::string(without_blanks(text))));
   ended_ = true;
 }
 

@@ -45,7 +45,8 @@ bool Interpreter::startup_allowed(const Line& line) {
   };
   if (!words_.read(line, state_, &report_)) return false;
   for (const Item& item : line.items) {
-    const bool word = item.kind == ItemKind::word && kStartupLetters.find(item.letter) != std::string_view::npos;
+    const bool word =
+        item.kind == ItemKind::word && kStartupLetters.find(item.letter) != std::string_view::npos;
     if (!word) refuse(item);
   }
   for (const GGroup group : kActing) {
@@ -74,15 +75,17 @@ void Interpreter::note_length() {
 
 void Interpreter::tell_units() {
   if (length_.line == 0 || report_.errors() > 0) return;
-  Diagnostic d = problem(Code::units_unsaid, length_, length_text_,
-                         "write G20 (inches) or G21 (mm) before it; or say units = \"inch\" or \"mm\" in the machine file");
+  Diagnostic d = problem(
+      Code::units_unsaid, length_, length_text_,
+      "write G20 (inches) or G21 (mm) before it; or say units = \"inch\" or \"mm\" in the machine file");
   if (!units_later_.empty()) d.notes.push_back(units_later_);
   report_.warning(std::move(d));
 }
 
 /// G28.1, G92.1 and G4 read no axis words: those of their line belong to the motion in force.
 void Interpreter::warn_axis_words_move() {
-  if (!words_.has_axis() || words_.g(GGroup::motion) != kNoCode || !moves() || state_.uncertain.motion) return;
+  if (!words_.has_axis() || words_.g(GGroup::motion) != kNoCode || !moves() || state_.uncertain.motion)
+    return;
   const int code = words_.g(GGroup::nonmodal);
   const bool beside = code == code::g28_1 || code == code::g30_1 || code == code::g4;
   const GGroup group = beside ? GGroup::nonmodal : GGroup::g92_state;
@@ -100,7 +103,8 @@ void Interpreter::warn_without_effect() {
   if (words_.g(GGroup::path) == code::g64 && words_.has('Q') && words_.value('Q') > 0) {
     Diagnostic d = problem(Code::word_without_effect, words_.span(*line_, 'Q'),
                            "kadr joins no moves: the tolerance of Q changes nothing");
-    const std::string most = fmt::format("the largest is {}, on line {}", figure(words_.value('Q')), d.span.line);
+    const std::string most =
+        fmt::format("the largest is {}, on line {}", figure(words_.value('Q')), d.span.line);
     report_.repeated_warning(std::move(d), words_.value('Q'), most);
   }
   const int code = words_.m(MGroup::overrides);

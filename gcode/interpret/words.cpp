@@ -49,7 +49,8 @@ ActiveComment active_comment(std::string_view comment) {
     return {tech, comment.substr(5)};
   if (comma == std::string_view::npos) return {};
   const std::string_view command = comment.substr(0, comma);
-  for (const std::string_view known : {"MSG", "DEBUG", "PRINT", "ABORT", "LOG", "LOGOPEN", "LOGAPPEND", "PY"}) {
+  for (const std::string_view known :
+       {"MSG", "DEBUG", "PRINT", "ABORT", "LOG", "LOGOPEN", "LOGAPPEND", "PY"}) {
     if (same_letters(command, known)) return {command, comment.substr(comma + 1)};
   }
   return {};
@@ -241,12 +242,13 @@ bool Words::read_setting(const Line& line, const Item& item, const State& state,
                               parameter::kLast));
   }
   if (parameter::is_read_only(parameter_number)) {
-    return refuse(report, Code::parameter_read_only, span,
-                  fmt::format("parameters {}, {} to {}, {} to {}, {} to {} and {} to {} hold work system, tool "
-                              "and position",
-                              parameter::kWorkSystem, parameter::kToolNumber, parameter::kToolLast,
-                              parameter::kPosition, parameter::kPositionLast, parameter::kMachine,
-                              parameter::kMachineLast, parameter::kApplied, parameter::kAppliedLast));
+    return refuse(
+        report, Code::parameter_read_only, span,
+        fmt::format("parameters {}, {} to {}, {} to {}, {} to {} and {} to {} hold work system, tool "
+                    "and position",
+                    parameter::kWorkSystem, parameter::kToolNumber, parameter::kToolLast,
+                    parameter::kPosition, parameter::kPositionLast, parameter::kMachine,
+                    parameter::kMachineLast, parameter::kApplied, parameter::kAppliedLast));
   }
   settings.push_back({parameter_number, -1, value});
   return true;

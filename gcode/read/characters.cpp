@@ -46,9 +46,10 @@ struct Twin {
   char latin;
 };
 /// Letters that look like Latin ones and come from another keyboard layout.
-constexpr Twin kTwins[] = {{U'А', 'A'}, {U'В', 'B'}, {U'С', 'C'}, {U'Е', 'E'}, {U'Н', 'H'}, {U'К', 'K'}, {U'М', 'M'},
-                           {U'О', 'O'}, {U'Р', 'P'}, {U'Т', 'T'}, {U'Х', 'X'}, {U'У', 'Y'}, {U'а', 'A'}, {U'с', 'C'},
-                           {U'е', 'E'}, {U'к', 'K'}, {U'м', 'M'}, {U'р', 'P'}, {U'х', 'X'}, {U'у', 'Y'}};
+constexpr Twin kTwins[] = {{U'А', 'A'}, {U'В', 'B'}, {U'С', 'C'}, {U'Е', 'E'}, {U'Н', 'H'},
+                           {U'К', 'K'}, {U'М', 'M'}, {U'О', 'O'}, {U'Р', 'P'}, {U'Т', 'T'},
+                           {U'Х', 'X'}, {U'У', 'Y'}, {U'а', 'A'}, {U'с', 'C'}, {U'е', 'E'},
+                           {U'к', 'K'}, {U'м', 'M'}, {U'р', 'P'}, {U'х', 'X'}, {U'у', 'Y'}};
 
 Diagnostic foreign_character(const Line& line, std::uint32_t at) {
   const CodePoint point = decode_utf8(line.text, at);

@@ -52,8 +52,8 @@ bool is_slicer(std::string_view line) {
 }
 
 bool is_sinumerik(std::string_view line) {
-  constexpr std::array<std::string_view, 9> kHeads = {"DEFREAL",   "DEFINT",     "DEFBOOL", "DEFSTRING", "DEFAXIS",
-                                                      "EXTERNPROC", "WORKPIECE(", "MSG(",    "PROC"};
+  constexpr std::array<std::string_view, 9> kHeads = {
+      "DEFREAL", "DEFINT", "DEFBOOL", "DEFSTRING", "DEFAXIS", "EXTERNPROC", "WORKPIECE(", "MSG(", "PROC"};
   const auto at_head = [&](std::string_view head) { return begins(line, head); };
   const bool assigns = begins(line, "G") && (has(line, "X=") || has(line, "Y=") || has(line, "Z="));
   return std::any_of(kHeads.begin(), kHeads.end(), at_head) || begins_number(line, "CYCLE") ||
@@ -80,13 +80,15 @@ std::optional<OtherKind> other_kind(std::string_view text) {
     text.remove_prefix(std::min(written.size() + 1, text.size()));
     const std::string line = plain(written);
     if (is_slicer(line))
-      return OtherKind{"a slicer's file for a 3D printer: E moves the filament",
-                       "kadr has no extruder; take the E words and the heater's M codes out to see the motion"};
+      return OtherKind{
+          "a slicer's file for a 3D printer: E moves the filament",
+          "kadr has no extruder; take the E words and the heater's M codes out to see the motion"};
     if (is_sinumerik(line))
       return OtherKind{"a program in Sinumerik's language (Siemens)",
                        "let the postprocessor write ISO code (G291 mode), or use one for LinuxCNC"};
     if (is_heidenhain(line))
-      return OtherKind{"a program in Heidenhain's language", "let the postprocessor write ISO code (DIN/ISO)"};
+      return OtherKind{"a program in Heidenhain's language",
+                       "let the postprocessor write ISO code (DIN/ISO)"};
     if (is_macro(line))
       return OtherKind{"a Fanuc or Haas macro (macro B: IF .. GOTO, WHILE .. DO)",
                        "kadr runs the O words of LinuxCNC: O1 if [#1 LT 5] ... O1 endif"};

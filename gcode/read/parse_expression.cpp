@@ -151,8 +151,9 @@ std::int32_t ExpressionParser::name(std::uint32_t sign) {
   for (const char c : written) {
     const bool control = !is_blank(c) && (static_cast<unsigned char>(c) < 0x20 || c == 0x7F);
     if (c == '(' || control) {
-      return fail(Code::name_bad, {sign, end},
-                  control ? "a control character in a name" : "( is not allowed in a name: a comment begins with it");
+      return fail(
+          Code::name_bad, {sign, end},
+          control ? "a control character in a name" : "( is not allowed in a name: a comment begins with it");
     }
   }
   cursor_.go_to(end);

@@ -72,9 +72,9 @@ bool Parser::carriage_return_inside(Line& line) {
   const auto place = static_cast<std::uint32_t>(at);
   leave_unread(line);
   if (muted_) return true;
-  Diagnostic d = problem(Code::carriage_return, line.span({place, place + 1}),
-                         "it ends no line, and more follows",
-                         "save the file with line feeds: tr '\\r' '\\n' < part.ngc > part_lf.ngc");
+  Diagnostic d =
+      problem(Code::carriage_return, line.span({place, place + 1}), "it ends no line, and more follows",
+              "save the file with line feeds: tr '\\r' '\\n' < part.ngc > part_lf.ngc");
   d.notes.push_back(fmt::format("carriage returns within this line: {}", returns));
   report_.last_error(std::move(d));
   return true;
@@ -258,7 +258,8 @@ bool Parser::bad_character() {
   if (line_->text[at] == ',') return corner_or_comma(at);
   if (line_->text[at] == '*' && cursor_ends_in_digits(cursor_)) {
     return fail(Code::bad_character, {at, static_cast<std::uint32_t>(line_->text.size())},
-                "a checksum, as hosts of printers send it", "remove * and the digits behind it from every line");
+                "a checksum, as hosts of printers send it",
+                "remove * and the digits behind it from every line");
   }
   if (!muted_) report_.error(character_problem(*line_, at));
   return false;
@@ -269,11 +270,13 @@ bool Parser::corner_or_comma(std::uint32_t at) {
   Cursor ahead(line_->text, at + 1);
   const char letter = upper(ahead.peek());
   if (letter != 'C' && letter != 'R' && letter != 'A')
-    return fail(Code::bad_character, {at, at + 1}, ", is not allowed here", "blanks or nothing stand between words");
+    return fail(Code::bad_character, {at, at + 1}, ", is not allowed here",
+                "blanks or nothing stand between words");
   const std::string_view name = letter == 'C'   ? "a chamfer at the corner"
                                 : letter == 'R' ? "a rounding of the corner"
                                                 : "the angle of the line";
-  return fail(Code::word_not_run, {at, ahead.at() + 1}, fmt::format("kadr does not run ,{}: {}", letter, name),
+  return fail(Code::word_not_run, {at, ahead.at() + 1},
+              fmt::format("kadr does not run ,{}: {}", letter, name),
               letter == 'A' ? "write the end point of the move" : "write the corner as a move of its own");
 }
 

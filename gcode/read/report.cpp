@@ -29,8 +29,8 @@ bool Report::tell_kind(const Diagnostic& d) {
   watched_.reset();
   if (!kind) return false;
   Diagnostic told = problem(Code::kind_other, d.span, "this looks like " + kind->name, kind->help);
-  told.notes.push_back(fmt::format("the first mistake here: {}{}{} [{}]", d.message, d.label.empty() ? "" : ": ",
-                                   d.label, code_name(d.code)));
+  told.notes.push_back(fmt::format("the first mistake here: {}{}{} [{}]", d.message,
+                                   d.label.empty() ? "" : ": ", d.label, code_name(d.code)));
   ++told_errors_;
   add(std::move(told));
   stopped_ = true;

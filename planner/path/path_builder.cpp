@@ -298,12 +298,13 @@ void PathBuilder::append(const PathSegment& segment, const Point& end, SegmentSh
 bool PathBuilder::thread_reachable(const PathSegment& segment, const Point& end) {
   constexpr double kRounding = 1e-9;
   constexpr double kSecondsPerMinute = 60.0;
-  const double rpm = segment.feed_u_s * (segment.feed_length_u / segment.length_u) / pitch_u_rev_ * kSecondsPerMinute;
+  const double rpm =
+      segment.feed_u_s * (segment.feed_length_u / segment.length_u) / pitch_u_rev_ * kSecondsPerMinute;
   const auto refuse = [&](const std::string& who, double needed_u_s, double most_u_s, const char* unit) {
     if (needed_u_s <= most_u_s * (1 + kRounding)) return false;
     fault(Code::thread_too_fast, segment.span,
-          fmt::format("{:.4g} {} per turn at {:.0f} rpm need {:.4g} {}/s; {} reaches {:.4g}", pitch_u_rev_, unit, rpm,
-                      needed_u_s, unit, who, most_u_s),
+          fmt::format("{:.4g} {} per turn at {:.0f} rpm need {:.4g} {}/s; {} reaches {:.4g}", pitch_u_rev_,
+                      unit, rpm, needed_u_s, unit, who, most_u_s),
           fmt::format("write at most S{:.0f}", std::floor(rpm * most_u_s / needed_u_s)));
     return true;
   };
@@ -316,7 +317,8 @@ bool PathBuilder::thread_reachable(const PathSegment& segment, const Point& end)
     if (refuse(fmt::format("axis {}", axis.letter), needed_u_s, axis.max_feed_u_s, unit)) return false;
   }
   const double path_u_s = segment.feed_u_s * (segment.feed_length_u / segment.length_u);
-  return !segment.path_limits || !refuse("the path (feed.max_mm_s)", path_u_s, machine_.path.max_feed_mm_s, "mm");
+  return !segment.path_limits ||
+         !refuse("the path (feed.max_mm_s)", path_u_s, machine_.path.max_feed_mm_s, "mm");
 }
 
 void PathBuilder::set_shape(PathSegment& segment, SegmentShape shape) {

@@ -44,7 +44,8 @@ TEST_CASE("a program that gives a length before G20 and G21 is told once, what s
     CHECK(codes_of(text) == kNothing);
   }
   // 0 is the same in both, angles have no such unit, and a line may say it
-  for (const char* text : {"G28 Z0\nG0 X0 Y0\nM2\n", "G0 A90\nM2\n", "G0 X1 G20\nM2\n", "G21\nG0 X1\nM2\n", "M3 S9000\nM2\n"}) {
+  for (const char* text :
+       {"G28 Z0\nG0 X0 Y0\nM2\n", "G0 A90\nM2\n", "G0 X1 G20\nM2\n", "G21\nG0 X1\nM2\n", "M3 S9000\nM2\n"}) {
     CAPTURE(text);
     CHECK(codes_of(text, unsaid()) == kNothing);
   }
@@ -77,7 +78,8 @@ TEST_CASE("startup holds before the first line and leaves no block") {
 }
 
 TEST_CASE("what startup can't say is refused at its place") {
-  for (const char* text : {"X5", "M3", "G28", "G4 P1", "T1", "#1=2", "O1 sub", "(MSG, a)", "G41.1 D5", "G43", "G33", "%"}) {
+  for (const char* text :
+       {"X5", "M3", "G28", "G4 P1", "T1", "#1=2", "O1 sub", "(MSG, a)", "G41.1 D5", "G43", "G33", "%"}) {
     InterpretOptions options;
     options.startup = text;
     const Outcome outcome = run("M2\n", options);
@@ -119,13 +121,14 @@ TEST_CASE("a program that aborts itself ends there with an error, one that does 
 }
 
 TEST_CASE("nothing behind a % is dropped in silence") {
-  for (const char* text : {"G0 X1\n%\nG0 X2\nM2\n", "%\nG0 X1\n%\nG0 X2\nM2\n", "o1 if [1]\nG0 X1\no1 endif\n%\nG0 X2\n",
-                           "G0 X1\nM2\n%\nG0 X3\n", "G0 X1\nM2 (100%)\nG0 X3\n", "G0 X1\n%\n%\n\n(a)\nX3\n"}) {
+  for (const char* text :
+       {"G0 X1\n%\nG0 X2\nM2\n", "%\nG0 X1\n%\nG0 X2\nM2\n", "o1 if [1]\nG0 X1\no1 endif\n%\nG0 X2\n",
+        "G0 X1\nM2\n%\nG0 X3\n", "G0 X1\nM2 (100%)\nG0 X3\n", "G0 X1\n%\n%\n\n(a)\nX3\n"}) {
     CAPTURE(text);
     CHECK(codes_of(text) == std::vector<Code>{Code::words_behind_end});
   }
-  for (const char* text : {"G0 X1\nM2\n%\n\n", "G0 X1\n%\n(list of tools)\n; end\n%\n", "%\nG0 X1\nM2\n", "%\nG0 X1\n%\n\x1A",
-                           "o1 if [1]\nG0 X1\no1 endif\nM2\nsome text\n%\n"}) {
+  for (const char* text : {"G0 X1\nM2\n%\n\n", "G0 X1\n%\n(list of tools)\n; end\n%\n", "%\nG0 X1\nM2\n",
+                           "%\nG0 X1\n%\n\x1A", "o1 if [1]\nG0 X1\no1 endif\nM2\nsome text\n%\n"}) {
     CAPTURE(text);
     CHECK(codes_of(text) == kNothing);
   }
@@ -147,7 +150,11 @@ TEST_CASE("a carriage return ends lines with a line feed only, and joins none") 
 }
 
 TEST_CASE("a file of another kind gives one error that says what it is") {
-  const std::string wide("G\0" "0\0 \0X\0" "5\0\n\0", 12);
+  const std::string wide(
+      "G\0"
+      "0\0 \0X\0"
+      "5\0\n\0",
+      12);
   CHECK(codes_of(wide) == std::vector<Code>{Code::encoding_other});
   CHECK(codes_of("\xFF\xFE" + wide) == std::vector<Code>{Code::encoding_other});
   CHECK(codes_of("M104 S200\nG28\nG1 X1 E0.5\nX2 E1\n") == std::vector<Code>{Code::kind_other});
@@ -160,7 +167,8 @@ TEST_CASE("a file of another kind gives one error that says what it is") {
 }
 
 TEST_CASE("names are made of what LinuxCNC takes") {
-  for (const char* name : {"_:pass", "in+out", "x/2", "deep?", "a*b", "a[b]", "a,b", "a#b", "a;b", "a!b", "a=b", "<a"}) {
+  for (const char* name :
+       {"_:pass", "in+out", "x/2", "deep?", "a*b", "a[b]", "a,b", "a#b", "a;b", "a!b", "a=b", "<a"}) {
     CAPTURE(name);
     const std::string parameter = std::string("#<") + name + ">";
     CHECK(last_point(parameter + " = 7\nG0 X" + parameter + "\n")[0] == 7);
@@ -195,10 +203,14 @@ TEST_CASE("fmt keeps as it is what check takes as a remark behind M2") {
 
 TEST_CASE("nothing follows from a loop, a branch or a call that was not run as written") {
   // the loop would have led to X30
-  CHECK(only_code("F100\nG42 D1\n#1=0\no1 do\nG1 X[#1*10]\n#1=[#1+1]\no1 while [#1 LE 3]\nG2 X40 Y0 I5 J0\nG40\n") ==
-        Code::compensation_tool_unknown);
-  CHECK(only_code("G87\nF100 G91\no1 repeat [3]\nG1 X10\no1 endrepeat\nG90 G2 X40 Y0 I5 J0\n") == Code::word_not_run);
-  CHECK(only_code("G87\nF100 G91 #1=0\no1 while [#1 LT 3]\nG1 X10\n#1=[#1+1]\no1 endwhile\nG90 G2 X40 Y0 I5\n") ==
+  CHECK(
+      only_code(
+          "F100\nG42 D1\n#1=0\no1 do\nG1 X[#1*10]\n#1=[#1+1]\no1 while [#1 LE 3]\nG2 X40 Y0 I5 J0\nG40\n") ==
+      Code::compensation_tool_unknown);
+  CHECK(only_code("G87\nF100 G91\no1 repeat [3]\nG1 X10\no1 endrepeat\nG90 G2 X40 Y0 I5 J0\n") ==
+        Code::word_not_run);
+  CHECK(only_code(
+            "G87\nF100 G91 #1=0\no1 while [#1 LT 3]\nG1 X10\n#1=[#1+1]\no1 endwhile\nG90 G2 X40 Y0 I5\n") ==
         Code::word_not_run);
   CHECK(only_code("F100 G1 X0\no1 if [#<a> GT 1]\nX30\no1 endif\nG2 X40 Y0 I5\n") == Code::name_not_set);
   CHECK(only_code("o<missing> call [5]\nX5 I3\nG1 X5\nG2 X40 Y0 I5\n") == Code::sub_not_found);
@@ -230,7 +242,8 @@ TEST_CASE("an arc that ends a hair behind its start is told, one that means its 
 }
 
 TEST_CASE("axis words beside a code that reads none are told where they move the machine") {
-  for (const char* text : {"G0 X1\nG28.1 X5\nM2\n", "G0 X1\nG30.1 X5\nM2\n", "G0 X1\nG92.1 X5\nM2\n", "G0 X1\nG4 P1 X5\nM2\n"}) {
+  for (const char* text :
+       {"G0 X1\nG28.1 X5\nM2\n", "G0 X1\nG30.1 X5\nM2\n", "G0 X1\nG92.1 X5\nM2\n", "G0 X1\nG4 P1 X5\nM2\n"}) {
     CAPTURE(text);
     CHECK(codes_of(text) == std::vector<Code>{Code::axis_words_move});
   }
