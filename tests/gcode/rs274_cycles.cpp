@@ -83,7 +83,7 @@ class CyclePrograms {
         "G95 F0.2",
         "G94 F300",
         "G30 Z1",
-        "G10 L20 P2 X5 Y1",
+        "G10 L20 P2 X5 Y1.0003",
         "G0 A30 C-5",
         "G90 G53 G0 Z20",
         "G59.1",

@@ -67,6 +67,9 @@ class FlowPrograms {
     current_ = sub.name;
     block(5, 1, true);
     current_.clear();
+    // rs274 works out this value where it passes over the definition, too, and reads memory that nobody wrote for a name
+    // that no line has set yet
+    w_.named.clear();
     const bool returns = w_.random.chance(0.5);
     o_line(sub.name, "endsub", returns ? "[" + w_.expression(1) + "]" : "");
     subs_.push_back(sub);

@@ -83,13 +83,14 @@ std::string Writer::operand(int depth) {
     case 4:
       return fmt::format("{}[[{}] MOD 5]", respelled("EXP"), inner);
     case 5:
-      return fmt::format("{}[COS[{}]]", random.chance(0.5) ? "ACOS" : "ASIN", inner);
+      // not a round number up to its last bit, where MOD, FIX or EQ would jump
+      return fmt::format("[{}[COS[{}]]+0.0137]", random.chance(0.5) ? "ACOS" : "ASIN", inner);
     case 6:
       return fmt::format("{}[[{}] MOD 80]", respelled("TAN"), inner);
     case 7:
       return fmt::format("{}[{}]", random.chance(0.5) ? "SIN" : "cos", inner);
     case 8:
-      return fmt::format("ATAN[{}]/[{}]", inner, spelled_number(-9, 9));
+      return fmt::format("[ATAN[{}]/[{}]+0.0137]", inner, spelled_number(-9, 9));
     case 9:
       return fmt::format("{}[{}]", pick({"ROUND", "FIX", "FUP", "ABS", "round", "fix"}), inner);
     case 10:
