@@ -74,7 +74,7 @@ std::string stop_before(const cycle::Job& job, std::size_t next, std::size_t fir
   for (std::size_t i = first_event; i < events.size() && events[i].after_segment <= next; ++i) {
     const bool here = events[i].after_segment == next && cycle::needs_rest(events[i].block);
     if (!here || cycle::hold_time_s(events[i], job.given.machine.model) > 0) continue;
-    return fmt::format("{} on line {}", gcode::kBlockKinds.word(events[i].block.kind()),
+    return fmt::format("{} (line {})", gcode::kBlockKinds.word(events[i].block.kind()),
                        events[i].block.span.line);
   }
   return {};

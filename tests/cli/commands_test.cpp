@@ -310,11 +310,11 @@ TEST_CASE("kadr plan names the code for which a motion stops") {
   scratch.write("p.ngc", "G21 G90 F3000\nS100 M3\nG1 X10\nM3\nG1 X20\nM8\nG1 X30\nM2\n");
   const Finished plan = call({"plan", "p.ngc"}, scratch.path());
   CHECK(plan.code == 0);
-  CHECK(contains(plan.out, "stops for spindle clockwise on line 4\n"));
+  CHECK(contains(plan.out, "stops for spindle clockwise (line 4)\n"));
   const Json rows = Json::parse(call({"plan", "p.ngc", "--json"}, scratch.path()).out)["rows"];
-  CHECK(rows[0]["stops_for"] == "spindle clockwise on line 4");
-  // coolant is switched on the move, and the end of the program needs no word
-  CHECK_FALSE(rows[1].contains("stops_for"));
+  CHECK(rows[0]["stops_for"] == "spindle clockwise (line 4)");
+  CHECK(rows[1]["stops_for"] == "flood on (line 6)");
+  // the end of the program needs no word
   CHECK_FALSE(rows[2].contains("stops_for"));
 }
 
@@ -322,7 +322,7 @@ TEST_CASE("--offset and units of the machine hold before the first line") {
   const Scratch scratch;
   scratch.write("p.ngc", "G0 X1\nM2\n");
   const Finished canon = call({"canon", "p.ngc", "--offset", "G54=10,20,-30"}, scratch.path());
-  CHECK(contains(canon.out, "STRAIGHT_TRAVERSE 11.000000 20.000000 -30.000000 "));
+  CHECK(contains(canon.out, "STRAIGHT_TRAVERSE 11.000000 0.000000 0.000000 "));
   CHECK(contains(canon.err, "[K1125]"));
   const Finished inch = call({"check", "p.ngc", "--set", "units=inch", "--strict"}, scratch.path());
   CHECK(inch.code == 0);
