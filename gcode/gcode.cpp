@@ -11,7 +11,9 @@ void interpret(SourceSet& sources, std::uint32_t file, const InterpretOptions& o
   Report report(diagnostics);
   Interpreter interpreter(options, report, sink);
   Flow flow(sources, file, options, report, interpreter);
+  interpreter.begin(sources);
   flow.run();
+  if (flow.ran_out()) interpreter.text_ran_out(file);
   if (!report.full()) interpreter.finish(flow.end());
   report.close(flow.end());
 }

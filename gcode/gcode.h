@@ -30,6 +30,12 @@ struct InputReading {
   double value = 0;
 };
 
+/// Zero point of a work system before the first line.
+struct WorkOffset {
+  int system = 1;  ///< 1 .. 9: G54 .. G59.3
+  AxisValues zero_u{};
+};
+
 /// The user's options for reading a program, whatever the machine.
 struct Reading {
   Dialect dialect = Dialect::linuxcnc;
@@ -40,14 +46,18 @@ struct Reading {
   /// Where called files come from instead, while the program is read; null: from the folders.
   const TextResolver* called_files = nullptr;
   std::optional<ToolTable> tools;  ///< none: tools have no length and no radius
+  std::vector<WorkOffset> work_offsets;
 };
 
 struct InterpretOptions : Reading {
   std::string axis_letters = "XYZABCUVW";  ///< axes of the machine; a word of another axis is an error
-  AxisValues home{};                       ///< machine position at start, mm and deg
-  AxisValues g28{};                        ///< G28 reference point, machine coordinates
-  AxisValues g30{};                        ///< G30 reference point, machine coordinates
-  double arc_end_tolerance_mm = 0.01;      ///< docs: PathLimits
+  bool inches = false;                     ///< units at start
+  bool units_said = true;  ///< false: a program with lengths before its first G20 or G21 is warned of
+  std::string startup;  ///< words that hold before the first line, as of RS274NGC_STARTUP_CODE: modes alone
+  AxisValues home{};    ///< machine position at start, mm and deg
+  AxisValues g28{};     ///< G28 reference point, machine coordinates
+  AxisValues g30{};     ///< G30 reference point, machine coordinates
+  double arc_end_tolerance_mm = 0.01;  ///< docs: PathLimits
   double arc_end_tolerance_relative = 0.001;
   std::optional<StockPlane> stock;  ///< none: a probe meets material at the end of its move
   std::function<InputReading(const InputWait&)> read_input;  ///< asked at M66; none: every input reads 0

@@ -4,6 +4,8 @@
 /// The choices that a machine file makes. (Motors: two_masses.h; methods of interpolation: step_method.h.)
 namespace kadr::machine {
 
+/// What lengths of a program mean until it says G20 or G21.
+enum class StartUnits : std::uint8_t { mm, inch };
 enum class AxisKind : std::uint8_t { linear, rotary };
 enum class IntegratorKind : std::uint8_t { smooth, reference, oracle };
 enum class TickFeed : std::uint8_t { linear, constant };

@@ -16,6 +16,8 @@ namespace kadr::machine {
 
 struct MachineModel {
   std::string name;
+  std::optional<StartUnits> units;  ///< none: mm, and a program that does not say its units is warned of
+  std::string startup;              ///< G codes in force before a program's first line; may be empty
   ClockModel clock;
   std::vector<AxisModel> axis;  ///< [machine axes], 1..9, in the order of the file
   PathLimits path;

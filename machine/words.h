@@ -6,6 +6,12 @@
 /// (Methods of interpolation: machine/step_method.h.)
 namespace kadr::machine {
 
+inline constexpr Vocabulary<StartUnits, 2> kStartUnits{{
+    {StartUnits::mm, "mm", "millimetres"},
+    {StartUnits::inch, "inch", "inches"},
+}};
+static_assert(kStartUnits.complete());
+
 inline constexpr Vocabulary<AxisKind, 2> kAxisKinds{{
     {AxisKind::linear, "linear", "moves in mm"},
     {AxisKind::rotary, "rotary", "turns in degrees"},

@@ -163,6 +163,7 @@ Json json_of(const PlanRow& row) {
   j["peak_u_s"] = row.peak_u_s;
   j["end_u_s"] = row.end_u_s;
   j["limited_by"] = row.limited_by.empty() ? Json(nullptr) : Json(row.limited_by);
+  if (!row.stops_for.empty()) j["stops_for"] = row.stops_for;
   if (row.blockwise) {
     j["rule"] = row.rule.empty() ? Json(nullptr) : Json(row.rule);
     j["kl"] = row.kl;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "emulator/answers/travel.h"
+#include "emulator/cycle/program_event.h"
 #include "emulator/text/text.h"
 #include "machine/base/numbers.h"
 #include "machine/words.h"
@@ -66,6 +67,19 @@ std::string rapid_text(const PlanRow& row) {
   return out;
 }
 
+/// What of the program makes the motion stop before segment `next`, other than a pause, which has a row of its own.
+std::string stop_before(const cycle::Job& job, std::size_t next, std::size_t first_event) {
+  if (next >= job.read.path.size()) return {};
+  const std::vector<cycle::ProgramEvent>& events = job.read.events;
+  for (std::size_t i = first_event; i < events.size() && events[i].after_segment <= next; ++i) {
+    const bool here = events[i].after_segment == next && cycle::needs_rest(events[i].block);
+    if (!here || cycle::hold_time_s(events[i], job.given.machine.model) > 0) continue;
+    return fmt::format("{} (line {})", gcode::kBlockKinds.word(events[i].block.kind()),
+                       events[i].block.span.line);
+  }
+  return {};
+}
+
 }  // namespace
 
 void for_each_plan_row(const cycle::Job& job, const std::function<void(const PlanRow&)>& sink) {
@@ -106,6 +120,7 @@ void for_each_plan_row(const cycle::Job& job, const std::function<void(const Pla
     row.peak_u_s = block.peak_u_s;
     row.end_u_s = block.end_u_s;
     row.limited_by = cycle::limited_by_text(block.limited_by, block.limiting_axis, machine);
+    row.stops_for = stop_before(job, block.end_segment, next_event);
     if (is_blockwise(job)) add_ticks(job, i, block.end_segment, row);
     if (rapid != job.planned.plan.positioned.end() && rapid->segment == i)
       add_rapid(job, *rapid++, rapids, row);
@@ -162,6 +177,7 @@ std::string PlanTable::row(const PlanRow& r) const {
                        number(r.end_jump_u_s, speed_width_));
   if (mixed()) out += pause ? "          " : fmt::format("  {:<8}", fmt::format("{0} {0}/s", r.unit));
   out += "  " + (pause ? r.motion : r.limited_by);
+  if (!r.stops_for.empty()) out += "; stops for " + r.stops_for;
   if (r.positioned) out += rapid_text(r);
   return out + '\n';
 }

@@ -23,6 +23,8 @@ struct PlanRow {
   double peak_u_s = 0;        ///< highest speed reached
   double end_u_s = 0;         ///< speed at the block's end
   std::string limited_by;     ///< what limited the peak; empty for a pause
+  std::string
+      stops_for;  ///< the code that makes the motion stop at its end, "spindle clockwise (line 4)"; or empty
   // of a plan made block by block
   bool blockwise = false;
   std::string rule;         ///< how the block came to whole control ticks: "a" to "d", or ""

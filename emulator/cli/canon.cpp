@@ -61,6 +61,7 @@ int canon_program(const Arguments& arguments, Console& console) {
   const bool json = console.options().json;
   Diagnostics diagnostics;
   gcode::InterpretOptions options;
+  options.units_said = false;
   if (!load_reading(arguments, sources, options, diagnostics)) {
     console.diagnostics(diagnostics, sources, arguments.tools, Console::Where::errors);
     return kNotStarted;

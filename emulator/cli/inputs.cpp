@@ -68,6 +68,7 @@ bool load_reading(const Arguments& arguments, const InputFile& tools, SourceSet&
   reading.bounds = arguments.bounds;
   reading.sub_folders = arguments.sub_folders;
   reading.allowed_folders = arguments.allowed_folders;
+  reading.work_offsets = arguments.offsets;
   if (tools.path.empty()) return true;
   const std::size_t errors = diagnostics.errors();
   reading.tools =

@@ -1,5 +1,9 @@
 #include "emulator/cli/options.h"
 
+#include <cmath>
+
+#include "machine/base/parse_number.h"
+
 namespace kadr::cli {
 namespace {
 
@@ -16,6 +20,37 @@ std::vector<std::string> limit_names(bool log) {
   std::vector<std::string> names = gcode::bound_names();
   if (log) names.emplace_back(kLogBytes);
   return names;
+}
+
+/// G54 .. G59.3 are 1 .. 9; 0 for any other word.
+int work_system(std::string_view word) {
+  constexpr std::string_view kSystems[] = {"G54", "G55",   "G56",   "G57",  "G58",
+                                           "G59", "G59.1", "G59.2", "G59.3"};
+  for (std::size_t i = 0; i < std::size(kSystems); ++i)
+    if (word == kSystems[i]) return static_cast<int>(i) + 1;
+  return 0;
+}
+
+/// "G54=10,10,-30"
+gcode::WorkOffset work_offset(const std::string& text) {
+  constexpr double kFarthest_u = 1e8;
+  const auto refuse = [&] {
+    return CLI::ValidationError(fmt::format(
+        "--offset takes a work system G54 to G59.3 and up to {} numbers, e.g. G54=10,10,-30; got '{}'",
+        kProgramAxes, text));
+  };
+  const std::size_t equals = text.find('=');
+  gcode::WorkOffset offset{work_system(std::string_view(text).substr(0, equals)), {}};
+  if (equals == std::string::npos || offset.system == 0) throw refuse();
+  std::size_t axis = 0;
+  for (std::size_t at = equals + 1; at <= text.size(); ++axis) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const std::optional<double> value = parse_number(std::string_view(text).substr(at, end - at));
+    if (!value || axis >= kProgramAxes || !(std::fabs(*value) <= kFarthest_u)) throw refuse();
+    offset.zero_u[axis] = *value;
+    at = end + 1;
+  }
+  return offset;
 }
 
 }  // namespace
@@ -80,6 +115,16 @@ void Options::reading(CLI::App* sub, Writes writes) {
   sub->add_option("--tools", arguments.tools,
                   "Tool table: LinuxCNC's .tbl text, lengths in mm (default: every tool has length 0)")
       ->type_name("TABLE");
+  sub->add_option_function<std::vector<std::string>>(
+         "--offset",
+         [this](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) arguments.offsets.push_back(work_offset(text));
+         },
+         "Zero point of a work system before the first line, mm and deg in the order X Y Z A B C U V W, e.g. "
+         "G54=10,10,-30; repeatable")
+      ->type_name("SYSTEM=LIST")
+      ->allow_extra_args(false)
+      ->take_all();
   sub->add_option_function<std::string>(
          "--dialect",
          [this](const std::string& text) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "machine/base/hash.h"
+#include "machine/base/parse_number.h"
 
 namespace kadr::cli {
 namespace {
@@ -28,6 +29,13 @@ std::string without_comments(std::string_view toml) {
     out += line;
     out += '\n';
   }
+  return out;
+}
+
+/// "10, 10, -30, 0, ..."
+std::string numbers(const AxisValues& values) {
+  std::string out;
+  for (const double value : values) out += (out.empty() ? "" : ", ") + number_text(value);
   return out;
 }
 
@@ -55,6 +63,9 @@ log::RunHeader run_header(const cycle::Job& job, const cycle::RunOptions& option
   if (job.given.reading.dialect != gcode::Dialect::linuxcnc)
     header.settings_toml +=
         fmt::format("dialect = \"{}\"\n", gcode::kDialects.word(job.given.reading.dialect));
+  for (const gcode::WorkOffset& offset : job.given.reading.work_offsets)
+    header.settings_toml +=
+        fmt::format("[[offset]]\nsystem = {}\nzero_u = [{}]\n", offset.system, numbers(offset.zero_u));
   if (job.given.reading.tools)
     header.settings_toml +=
         fmt::format("tools = \"\"\"\n{}\"\"\"\n", gcode::render_tool_table(*job.given.reading.tools));

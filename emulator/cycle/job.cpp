@@ -19,6 +19,9 @@ gcode::InterpretOptions interpret_options(const JobInputs& given) {
   const machine::MachineModel& machine = given.machine.model;
   gcode::InterpretOptions options;
   static_cast<gcode::Reading&>(options) = given.reading;
+  options.inches = machine.units == machine::StartUnits::inch;
+  options.units_said = machine.units.has_value();
+  options.startup = machine.startup;
   options.axis_letters.clear();
   for (const machine::AxisModel& axis : machine.axis) {
     options.axis_letters += axis.letter;

@@ -40,6 +40,18 @@ std::span<const DwellWord> dwell_words(Dialect dialect) {
   return kSeconds;
 }
 
+bool offset_outside_plane_is_ignored(Dialect dialect) {
+  switch (dialect) {
+    case Dialect::grbl:
+    case Dialect::marlin:
+      return true;
+    case Dialect::linuxcnc:
+    case Dialect::fanuc:
+      break;
+  }
+  return false;
+}
+
 int meant_code(Dialect dialect, char letter, int number) {
   for (const Meaning& meaning : kMeanings)
     if (meaning.dialect == dialect && meaning.letter == letter && meaning.written == number)

@@ -27,6 +27,9 @@ struct DwellWord {
 /// If a line has several words, the first of these counts.
 std::span<const DwellWord> dwell_words(Dialect dialect);
 
+/// Whether an arc's offset along the axis across its plane is read and not used, as K on an arc of the XY plane.
+bool offset_outside_plane_is_ignored(Dialect dialect);
+
 /// The meaning of a code of the dialect in RS-274/NGC: G70 and G71 of fanuc are G20 and G21.
 /// @param letter  G or M
 /// @param number  of G ten times the number

@@ -26,8 +26,9 @@ void Flow::call_statement(const Line& line) {
   if (name < 0) {
     double label = 0;
     int number = 0;
-    if (!value(line, flow.label_first, flow.label_root, label)) return;
+    if (!value(line, flow.label_first, flow.label_root, label)) return interpreter_.lose_track();
     if (!near_integer(label, number) || number < 0) {
+      interpreter_.lose_track();
       return error(problem(Code::o_label_missing, place, fmt::format("the label is {}", figure(label)),
                            "a label is a whole number, 0 or above"));
     }
@@ -38,19 +39,19 @@ void Flow::call_statement(const Line& line) {
   for (const std::int32_t root : flow.arguments) {
     double argument = 0;
     const bool doubtful = !value(line, first, root, argument);
-    if (doubtful) return;
+    if (doubtful) return interpreter_.lose_track();
     arguments.push_back(argument);
     first = root + 1;
   }
   const Target target = find(name, false, place);
-  if (target.unit != nullptr) enter(target, false, place, arguments);
+  if (target.unit == nullptr || !enter(target, false, place, arguments)) interpreter_.lose_track();
 }
 
 void Flow::call_code(const CallRequest& request) {
   if (request.returns) return return_code(request);
   if (request.repeats == 0) return;
   const Target target = find(state_.names.number(std::to_string(request.number)), true, request.place);
-  if (target.unit == nullptr || !enter(target, true, request.place, {})) return;
+  if (target.unit == nullptr || !enter(target, true, request.place, {})) return interpreter_.lose_track();
   calls_.back().repeats_left = request.repeats - 1;
 }
 
@@ -72,7 +73,10 @@ Flow::Target Flow::find_known(std::int32_t name, bool by_code) const {
 
 Flow::Target Flow::find(std::int32_t name, bool by_code, Span place) {
   Target target = find_known(name, by_code);
-  if (target.unit != nullptr) return target;
+  if (target.unit != nullptr) {
+    warn_other_file(target, name, place);
+    return target;
+  }
   if (find_known(name, !by_code).unit != nullptr) {
     error(problem(Code::sub_kind, place,
                   by_code ? fmt::format("{} is a sub ... endsub", label_text(name))
@@ -89,6 +93,17 @@ Flow::Target Flow::find(std::int32_t name, bool by_code, Span place) {
                             label_text(name), by_code ? " for M98" : " sub"),
                 "a called file must contain the subroutine of its own name"));
   return {};
+}
+
+/// LinuxCNC finds a subroutine in the main program or in the file of its own name.
+void Flow::warn_other_file(const Target& target, std::int32_t name, Span place) {
+  const bool its_own = target.unit->name.empty() || target.unit->name == state_.names[name];
+  if (its_own || options_.dialect != Dialect::linuxcnc) return;
+  const std::string& file = sources_[target.unit->program.file()].name();
+  report_.warning(
+      problem(Code::sub_of_other_file, place,
+              fmt::format("{} stands in {}, where LinuxCNC does not find it", label_text(name), file),
+              fmt::format("move it to {}.ngc, or into the program", state_.names[name])));
 }
 
 bool Flow::load(std::int32_t name, Span place) {
@@ -108,12 +123,13 @@ bool Flow::load(std::int32_t name, Span place) {
   if (!found.text) {
     Diagnostic d = problem(Code::sub_not_found, place, fmt::format("there is no {}", label_text(name)));
     d.notes.push_back(found.looked);
+    d.help = "name the folder that holds it: --subs FOLDER";
     error(std::move(d));
     return false;
   }
   const std::uint32_t index = sources_.add(std::move(*found.text));
   unusable_.erase(known);
-  return size_allowed(index) && add_unit(index, text);
+  return readable(index) && add_unit(index, text);
 }
 
 bool Flow::enter(Target target, bool by_code, Span place, const std::vector<double>& arguments) {
@@ -175,6 +191,7 @@ void Flow::return_code(const CallRequest& request) {
     unit_->program.go_to(unit_->structure[call.target.statement].after);
     return;
   }
+  if (call.repeats_left > 0) interpreter_.lose_track();
   leave_call();
 }
 

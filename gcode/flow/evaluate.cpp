@@ -96,7 +96,9 @@ bool Evaluator::read(const Line& line, const ExpressionNode& node, const State& 
                 fmt::format("parameter {}, allowed: whole numbers from {} to {}", index, parameter::kFirst,
                             parameter::kLast));
   }
-  if (number >= parameter::kPosition && number <= parameter::kPositionLast && state.compensating()) {
+  const bool position = (number >= parameter::kPosition && number <= parameter::kPositionLast) ||
+                        (number >= parameter::kMachine && number <= parameter::kMachineLast);
+  if (position && state.compensating()) {
     return fail(Code::compensation_conflict, line.span(node.own),
                 fmt::format("#{} tells where the tool is, which the next move decides", number));
   }

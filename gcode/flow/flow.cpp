@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gcode/read/other_kind.h"
 #include "machine/base/require.h"
 
 namespace kadr::gcode {
@@ -33,7 +34,8 @@ Flow::Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& optio
 }
 
 void Flow::run() {
-  if (!size_allowed(file_) || !add_unit(file_, {})) return;
+  report_.watch_kind(file_, sources_[file_].text());
+  if (!readable(file_) || !add_unit(file_, {})) return;
   unit_ = units_.front().get();
   while (!interpreter_.ended() && !report_.full() && !stopped_) {
     const Line* line = unit_->program.next();
@@ -42,29 +44,31 @@ void Flow::run() {
       if (count_line(*line)) step(*line);
       continue;
     }
-    if (calls_.empty()) return;
+    ran_out_ = calls_.empty();
+    if (ran_out_) return;
     const Statement& head = calls_.back().target.unit->structure[calls_.back().target.statement];
     return error(problem(Code::sub_without_end, head.span, "no M99 follows",
                          "end the subroutine with M99, or the program with M2 or M30"));
   }
-  if (interpreter_.ended() && straight_ && report_.errors() == 0) tell_words_behind_end();
+  const bool ends_all = straight_ || interpreter_.ended_by_percent();
+  if (interpreter_.ended() && ends_all && report_.errors() == 0) tell_words_behind_end();
 }
 
-/// The end of a program without O words ends everything.
+/// The end of a program without O words ends everything, and so does a closing %.
 void Flow::tell_words_behind_end() {
+  // fillers of punched tapes, and the end of a file under DOS
+  constexpr std::string_view kNothing(" \t\r%\0\x1A", 6);
+  const std::uint32_t file = unit_->program.file();
   Program::Position at = unit_->program.position();
-  std::string_view rest = sources_[file_].text().substr(at.offset);
-  const std::string_view end = sources_[file_].line(end_.line);
-  // a closing % ends reading: anything may follow it
-  if (end.find('%') != std::string_view::npos) return;
+  std::string_view rest = sources_[file].text();
+  rest.remove_prefix(std::min(at.offset, rest.size()));
   for (; !rest.empty(); ++at.line) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    const std::size_t first = line.find_first_not_of(" \t\r");
+    const std::size_t first = line.find_first_not_of(kNothing);
     if (first == std::string_view::npos || line[first] == '(' || line[first] == ';') continue;
-    if (line[first] == '%') return;
     const auto column = static_cast<std::uint32_t>(first) + 1;
-    Diagnostic d = problem(Code::words_behind_end, {file_, at.line, column, 1}, "never reached");
+    Diagnostic d = problem(Code::words_behind_end, {file, at.line, column, 1}, "never reached");
     d.notes.push_back(fmt::format("the program ends on line {}", end_.line));
     return report_.warning(std::move(d));
   }
@@ -95,10 +99,15 @@ void Flow::step(const Line& line) {
   if (const std::optional<CallRequest> request = interpreter_.take_call()) call_code(*request);
 }
 
-bool Flow::size_allowed(std::uint32_t file) {
+/// Whether the text is small enough, and one of bytes that stand for letters.
+bool Flow::readable(std::uint32_t file) {
   const std::uint64_t bytes = sources_[file].text().size();
   const std::uint64_t most = options_.bounds.file_bytes;
-  if (most == 0 || bytes <= most) return true;
+  if (most == 0 || bytes <= most) {
+    std::optional<Diagnostic> encoding = encoding_problem(file, sources_[file].text());
+    if (encoding) report_.last_error(std::move(*encoding));
+    return !encoding;
+  }
   Diagnostic d = problem(Code::file_too_large, {file, 1, 1, 1}, fmt::format("{} bytes", bytes));
   d.notes.push_back(fmt::format("allowed: {} (--limit file_bytes=N)", most));
   error(std::move(d));
@@ -200,7 +209,6 @@ bool Flow::value(const Line& line, std::int32_t first, std::int32_t root, double
 
 void Flow::branch(const Line& line, int index) {
   double condition = 0;
-  // without a value no branch is right: all are skipped
   bool known = argument(line, condition);
   int at_branch = index;
   while (known && condition == 0) {
@@ -211,7 +219,10 @@ void Flow::branch(const Line& line, int index) {
     const Line& next = *unit_->program.next();
     known = count_line(next) && argument(next, condition);
   }
-  unit_->program.go_to(known ? at(at_branch).after : at(at(index).end).after);
+  if (known) return unit_->program.go_to(at(at_branch).after);
+  // without a value no branch is right: all are skipped
+  interpreter_.lose_track();
+  unit_->program.go_to(at(at(index).end).after);
 }
 
 }  // namespace kadr::gcode

@@ -19,6 +19,8 @@ class Flow {
   void run();
   /// Where the run ended.
   Span end() const { return end_; }
+  /// Whether all of the text was read and no M2, M30 or % has ended the program.
+  bool ran_out() const { return ran_out_; }
 
  private:
   struct Unit {
@@ -44,8 +46,9 @@ class Flow {
   bool add_unit(std::uint32_t file, std::string name);
   void make_known(Unit& unit);
   bool count_line(const Line& line);
-  bool size_allowed(std::uint32_t file);
+  bool readable(std::uint32_t file);
   void tell_words_behind_end();
+  void warn_other_file(const Target& target, std::int32_t name, Span place);
   void step(const Line& line);
   void statement(const Line& line);
   void branch(const Line& line, int index);
@@ -106,6 +109,7 @@ class Flow {
   Span end_;
   bool straight_ = false;  ///< no O words: nothing leads past the program's end
   bool stopped_ = false;
+  bool ran_out_ = false;
 };
 
 }  // namespace kadr::gcode

@@ -41,6 +41,7 @@ void Flow::while_head(const Line& line, int index) {
     count_pass(index);
     return;
   }
+  if (!known) interpreter_.lose_track();
   pass_over_breaks(index, index);
   continue_kept_ = false;
   leave_loop(index);
@@ -48,7 +49,9 @@ void Flow::while_head(const Line& line, int index) {
 
 void Flow::do_foot(const Line& line, int index) {
   double condition = 0;
-  const bool again = argument(line, condition) && condition != 0 && report_.errors() == 0;
+  const bool known = argument(line, condition);
+  if (!known || (condition != 0 && report_.errors() > 0)) interpreter_.lose_track();
+  const bool again = known && condition != 0 && report_.errors() == 0;
   if (again && !break_kept_) return unit_->program.go_to(at(at(index).begin).at);
   if (again) {
     warn_kept(index, "the loop ends here although its condition holds",
@@ -77,8 +80,11 @@ void Flow::continue_loop(int index) {
 }
 
 void Flow::next_pass(int loop) {
-  // after an error nothing moves: one pass reports everything
-  if (report_.errors() > 0) return leave_loop(loop);
+  // after an error nothing moves: one pass reports everything, and what follows the loop begins elsewhere
+  if (report_.errors() > 0) {
+    interpreter_.lose_track();
+    return leave_loop(loop);
+  }
   const Statement& s = at(loop);
   unit_->program.go_to(s.word == FlowWord::do_once ? at(s.end).at : s.at);
 }
@@ -95,7 +101,10 @@ void Flow::repeat(const Line& line, int index) {
   }
   if (left == kNoPasses) {
     double wanted = 0;
-    if (!argument(line, wanted)) return leave_loop(index);
+    if (!argument(line, wanted)) {
+      interpreter_.lose_track();
+      return leave_loop(index);
+    }
     const double most = 9e18;
     // 0.5 is no pass, 1.5 is two: rounded to even
     left = static_cast<std::int64_t>(std::clamp(std::nearbyint(wanted), 0.0, most));
@@ -116,7 +125,9 @@ void Flow::repeat(const Line& line, int index) {
 void Flow::repeat_end(int index) {
   const int first = at(index).begin;
   if (report_.errors() > 0) {
-    unit_->passes_left[static_cast<std::size_t>(first)] = kNoPasses;
+    std::int64_t& left = unit_->passes_left[static_cast<std::size_t>(first)];
+    if (left > 0) interpreter_.lose_track();
+    left = kNoPasses;
     return;
   }
   repeat_gone_back_to_ = first;

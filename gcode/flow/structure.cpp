@@ -317,8 +317,6 @@ struct Structure::Reader {
   }
 };
 
-namespace {
-
 bool begins_subroutine(const Line& line) {
   return line.has_flow && (line.flow.word == FlowWord::sub || line.flow.word == FlowWord::label);
 }
@@ -329,8 +327,6 @@ bool ends_program(const Line& line) {
            (item.number == code::m2 || item.number == code::m30);
   });
 }
-
-}  // namespace
 
 bool Structure::read(Program& program, bool block_delete, Names& names, Report& report) {
   Reader reader{*this, names};
@@ -363,7 +359,7 @@ bool Structure::read(Program& program, bool block_delete, Names& names, Report& 
   reader.end_of_file();
   program.rewind();
   // an unreadable O word leaves others without a partner: only it is reported
-  if (unread) return false;
+  if (unread || report.full()) return false;
   for (Diagnostic& problem : reader.problems) report.error(std::move(problem));
   return reader.problems.empty();
 }

@@ -7,6 +7,11 @@
 
 namespace kadr::gcode {
 
+/// A `sub`, or an O number alone: behind the end of the program a subroutine begins here.
+bool begins_subroutine(const Line& line);
+/// M2 or M30 stands on the line.
+bool ends_program(const Line& line);
+
 /// An O word with the words that belong to it, as indices in Structure.
 struct Statement {
   FlowWord word = FlowWord::label;

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "gcode/dialect/codes.h"
+#include "gcode/flow/structure.h"
 #include "gcode/gcode.h"
 #include "gcode/read/names.h"
+#include "gcode/read/other_kind.h"
 #include "gcode/read/program.h"
 #include "gcode/read/scanner.h"
 #include "machine/base/utf8.h"
@@ -371,10 +374,18 @@ bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& d
   Names names;
   Program program(sources, file, bounds, names, report);
   Formatter formatter(out);
+  std::optional<Diagnostic> encoding = encoding_problem(file, sources[file].text());
+  if (encoding) report.last_error(std::move(*encoding));
+  bool behind_end = false;  // where check takes unreadable lines as remarks
   while (!formatter.ended()) {
+    program.mute(behind_end);
     const Line* line = program.next();
     if (line == nullptr) break;
     formatter.add(*line);
+    if (behind_end)
+      behind_end = line->failed || !begins_subroutine(*line);
+    else
+      behind_end = !formatter.inside() && ends_program(*line);
   }
   formatter.finish();
   const SourceText& source = sources[file];

@@ -21,7 +21,7 @@
 /// - two blanks of indentation per level of O words, of 40 levels at most; comments of neighbouring lines are aligned
 /// - lines end in LF, the last one too
 ///
-/// A line that could not be read stays as it is, and so does everything after the % that ends the program.
+/// A line that could not be read stays as it is, without a message behind M2 or M30; and so does everything after the % that ends the program.
 namespace kadr::gcode {
 
 /// Puts lines into normal form one after another.
@@ -36,6 +36,8 @@ class Formatter {
   void finish() { flush(); }
   /// True once a % has ended the program: the rest means nothing.
   bool ended() const { return ended_; }
+  /// True between the beginning and the end of an O word.
+  bool inside() const { return !open_.empty(); }
 
  private:
   struct Open {

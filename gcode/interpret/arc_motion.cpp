@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "gcode/interpret/interpreter.h"
 #include "gcode/measure.h"
+#include "gcode/read/scanner.h"
+#include "machine/base/numbers.h"
 
 namespace kadr::gcode {
 namespace {
@@ -65,6 +68,7 @@ void Interpreter::arc(Motion motion) {
   const double sweep =
       arc_sweep_rad(in_plane(from, axes), in_plane(to, axes), found.center, clockwise, turns);
   const auto normal = static_cast<std::size_t>(axes.normal);
+  warn_nearly_full_circle(in_plane(from, axes), in_plane(to, axes), sweep, found.radius_start_mm, turns);
   measure_arc(sweep, (found.radius_start_mm + found.radius_end_mm) / 2, to[normal] - from[normal], arc);
   set_feed(arc);
   last_move_end_ = end;
@@ -104,25 +108,52 @@ bool Interpreter::find_arc(const AxisValues& start, const AxisValues& end, bool 
 bool Interpreter::arc_center_words(PlanePoint& center) {
   const PlaneAxes axes = plane_axes(state_.plane);
   const char across = offset_letter(axes.normal);
-  if (words_.has(across)) {
-    return error(problem(Code::arc_offset_outside_plane, words_.span(*line_, across),
-                         fmt::format("{} points out of the plane {}", across, plane_name(state_.plane)),
-                         "choose the plane with G17, G18 or G19 before the arc"));
+  if (words_.has(across) && !offset_outside_plane_is_ignored(options_.dialect)) {
+    const bool zero = words_.value(across) == 0;
+    return error(problem(
+        Code::arc_offset_outside_plane, words_.span(*line_, across),
+        fmt::format("{} points out of the plane {}", across, plane_name(state_.plane)),
+        zero ? fmt::format(
+                   "{0}0 comes from a postprocessor for another controller: --dialect grbl or marlin ignores "
+                   "it; or remove {0}",
+                   across)
+             : "choose the plane with G17, G18 or G19 before the arc"));
   }
-  // the centre in program coordinates, from there to the machine's as every end point
-  AxisValues program = state_.to_program(state_.position);
+  if (words_.has(across) && words_.value(across) != 0) {
+    report_.warning(problem(Code::word_without_effect, words_.span(*line_, across),
+                            fmt::format("{} points out of the plane {}", across, plane_name(state_.plane)),
+                            "choose the plane with G17, G18 or G19 before the arc"));
+  }
   for (const int axis : {axes.first, axes.second}) {
     const char letter = offset_letter(axis);
     if (state_.arc_centers_absolute && !words_.has(letter)) {
       return error(problem(Code::arc_center_missing, action_span(), fmt::format("{} is missing", letter),
                            "under G90.1 both coordinates of the centre must be given"));
     }
+  }
+  center = written_center(state_.arc_centers_absolute);
+  return true;
+}
+
+/// The centre of I J K in the plane, machine coordinates.
+PlanePoint Interpreter::written_center(bool absolute) const {
+  const PlaneAxes axes = plane_axes(state_.plane);
+  // in program coordinates, from there to the machine's as every end point
+  AxisValues program = state_.to_program(state_.position);
+  for (const int axis : {axes.first, axes.second}) {
+    const char letter = offset_letter(axis);
     const double value = words_.has(letter) ? words_.value(letter) * state_.length_factor() : 0;
     double& along = program[static_cast<std::size_t>(axis)];
-    along = state_.arc_centers_absolute ? value : along + value;
+    along = absolute ? value : along + value;
   }
-  center = in_plane(arc_frame(state_.to_machine(program)), axes);
-  return true;
+  return in_plane(arc_frame(state_.to_machine(program)), axes);
+}
+
+/// Whether I J K describe this arc if they are absolute where they are relative now, or the other way round.
+bool Interpreter::fits_with_other_centers(PlanePoint end) const {
+  const PlanePoint start = in_plane(arc_frame(state_.position), plane_axes(state_.plane));
+  const PlanePoint center = written_center(!state_.arc_centers_absolute);
+  return arc_about(start, end, center, limits_of_arc()).fault == ArcFault::none;
 }
 
 ArcLimits Interpreter::limits_of_arc() const {
@@ -154,6 +185,11 @@ void Interpreter::explain_off_circle(const ArcGeometry& arc, PlanePoint end, Dia
   // the second coordinate that would lie on the circle, on the side where the end is
   const double across = end.first_mm - arc.center.first_mm;
   const double square = (arc.radius_start_mm - across) * (arc.radius_start_mm + across);
+  if (fits_with_other_centers(end)) {
+    d.help = state_.arc_centers_absolute ? "it fits if I J K count from the start: write G91.1 before it"
+                                         : "it fits if I J K are absolute: write G90.1 before it";
+    return;
+  }
   d.help = "give R instead of I J K, or check the centre";
   if (square < 0) return;
   const double up = end.second_mm >= arc.center.second_mm ? 1 : -1;
@@ -194,14 +230,45 @@ bool Interpreter::refuse_arc(const ArcGeometry& arc, PlanePoint end) {
   return error(std::move(d));
 }
 
+/// An end just behind the start makes a whole turn of what was perhaps no arc at all.
+void Interpreter::warn_nearly_full_circle(PlanePoint from, PlanePoint to, double sweep_rad, double radius_mm,
+                                          int turns) {
+  const double dx_mm = to.first_mm - from.first_mm, dy_mm = to.second_mm - from.second_mm;
+  const double apart_mm = std::sqrt(dx_mm * dx_mm + dy_mm * dy_mm);
+  if (turns != 1 || !(apart_mm > 0) || apart_mm > options_.arc_end_tolerance_mm || sweep_rad < kPi) return;
+  report_.warning(problem(Code::arc_full_circle, action_span(),
+                          fmt::format("the end is {} mm behind the start: {:.3f} mm of arc",
+                                      figure(apart_mm, 6), sweep_rad * radius_mm),
+                          "for a whole circle leave the end out, as in G3 I-10; else correct it"));
+}
+
+/// How far the last digit of a word as written may be off, mm; 0 if its value is computed.
+double Interpreter::rounding_of(char letter) const {
+  const Item& item = words_.item(*line_, letter);
+  if (item.value >= 0) return 0;
+  const std::string_view text = line_->slice(item.bytes);
+  const std::size_t point = text.find('.');
+  const auto decimals =
+      point == std::string_view::npos
+          ? 0
+          : std::count_if(text.begin() + static_cast<std::ptrdiff_t>(point), text.end(), is_digit);
+  double half_digit = 0.5;
+  for (std::ptrdiff_t i = 0; i < decimals; ++i) half_digit /= 10;
+  return half_digit * state_.length_factor();
+}
+
 void Interpreter::warn_arc(const ArcGeometry& arc) {
   const double apart = std::fabs(arc.radius_start_mm - arc.radius_end_mm);
-  if (arc.half_circle_taken &&
-      arc.half_chord_mm - std::fabs(words_.value('R')) * state_.length_factor() > kHalfCircleNoise_mm) {
+  const double short_mm =
+      arc.half_circle_taken ? arc.half_chord_mm - std::fabs(words_.value('R')) * state_.length_factor() : 0;
+  if (arc.half_circle_taken) {
+    // a radius as exact as it is written is no fault
+    if (short_mm <= std::max(kHalfCircleNoise_mm, rounding_of('R'))) return;
     Diagnostic d = problem(Code::arc_by_tolerance, words_.span(*line_, 'R'),
                            fmt::format("radius below {:.5f} mm: the half circle is used", arc.half_chord_mm));
     d.notes.push_back(fmt::format("accepted up to {} mm short", figure(kRadiusTolerance_mm, 5)));
-    report_.warning(std::move(d));
+    const std::string most = fmt::format("at most {:.5f} mm short, on line {}", short_mm, d.span.line);
+    report_.repeated_warning(std::move(d), short_mm, most);
   } else if (apart > options_.arc_end_tolerance_mm) {
     Diagnostic d = problem(Code::arc_by_tolerance, action_span(),
                            fmt::format("radius at start {:.3f} mm, at end {:.3f} mm: a spiral",
@@ -209,7 +276,8 @@ void Interpreter::warn_arc(const ArcGeometry& arc) {
     d.notes.push_back(
         fmt::format("accepted up to {:.3f} mm; reported above {} mm (path.arc_end_tolerance_mm)",
                     arc.allowed_mm, figure(options_.arc_end_tolerance_mm)));
-    report_.warning(std::move(d));
+    const std::string most = fmt::format("at most {:.3f} mm off the circle, on line {}", apart, d.span.line);
+    report_.repeated_warning(std::move(d), apart, most);
   }
 }
 

@@ -24,6 +24,7 @@ bool Interpreter::check() {
   check_tools();
   check_functions();
   check_shared_p();
+  warn_axis_words_move();
   if (state_.compensating() || words_.g(GGroup::compensation) != kNoCode) check_compensation();
   return report_.errors() == errors;
 }
@@ -33,8 +34,12 @@ void Interpreter::check_axes() {
   if (missing == 0) return;
   for (const char letter : kAxisLetters) {
     if ((missing & letter_bit(letter)) == 0) continue;
+    // an axis that is not there stands at 0
+    const bool stands = words_.value(letter) == 0;
     Diagnostic d = problem(Code::axis_not_on_machine, words_.span(*line_, letter),
-                           fmt::format("this machine has no axis {}", letter));
+                           fmt::format("this machine has no axis {}{}", letter,
+                                       stands ? fmt::format(", and {}0 moves nothing", letter) : ""),
+                           stands ? "remove the word; the motion stays the same" : "");
     d.notes.push_back(fmt::format("axes of the machine: {}", options_.axis_letters));
     error(std::move(d));
   }

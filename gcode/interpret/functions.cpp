@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "gcode/interpret/interpreter.h"
 
 namespace kadr::gcode {
@@ -49,8 +51,8 @@ void Interpreter::coolant() {
 
 void Interpreter::overrides() {
   const int code = words_.m(MGroup::overrides);
-  if (code == kNoCode || code == code::m52 || code == code::m53)
-    return;  // adaptive feed and feed hold are the operator's
+  if (code == code::m52 || code == code::m53) return warn_without_effect();
+  if (code == kNoCode) return;
   const bool enable =
       code == code::m48 || (code != code::m49 && !(words_.has('P') && words_.value('P') == 0));
   if (code != code::m51) enable_feed_override(enable);
@@ -73,6 +75,16 @@ Span Interpreter::override_span() const {
 }
 
 void Interpreter::take_dwell_words() {
+  char counts = 0;
+  for (const DwellWord& word : dwell_words(options_.dialect)) {
+    if (!words_.has(word.letter)) continue;
+    if (counts != 0) {
+      report_.warning(problem(Code::word_without_effect, words_.span(*line_, word.letter),
+                              fmt::format("{} counts alone", counts), "write one of them"));
+    } else {
+      counts = word.letter;
+    }
+  }
   const DwellWord* taken = nullptr;
   double dwell_s = 0;
   for (const DwellWord& word : dwell_words(options_.dialect)) {

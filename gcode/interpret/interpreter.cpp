@@ -14,11 +14,16 @@ Interpreter::Interpreter(const InterpretOptions& options, Report& report, const 
       words_(options.dialect),
       compensation_([this](Block& block) { hand_out_compensated(block); }) {
   state_.position = options.home;
+  state_.inches = options.inches;
+  units_pending_ = !options.units_said;
   state_.parameters[parameter::kDebug] = 1;
   write_axis_parameters(state_, parameter::kG28, options.g28);
   write_axis_parameters(state_, parameter::kG30, options.g30);
   if (options.tools) state_.tools = *options.tools;
   for (const char letter : options.axis_letters) axes_on_machine_ |= letter_bit(letter);
+  for (const WorkOffset& given : options.work_offsets)
+    write_axis_parameters(state_, work_offset_parameter(given.system), given.zero_u);
+  state_.use_work_system(1);
 }
 
 void Interpreter::run(const Line& line) {
@@ -29,13 +34,16 @@ void Interpreter::run(const Line& line) {
   if (words_.percent) {
     // the first % opens the program, the next one ends it; only comments may precede the first
     if (started_) finish(line_span(), true);
+    if (!started_) opened_ = line_span();
     started_ = true;
     return;
   }
   started_ = started_ || words_.any;
+  worded_ = worded_ || words_.any;
   if (line.failed) return recover(true);
   if (state_.diameter_mode || words_.g(GGroup::diameter) != kNoCode) take_diameters();
   if (words_.g(GGroup::nonmodal) == code::g4 && options_.dialect != Dialect::linuxcnc) take_dwell_words();
+  if (units_pending_) note_length();
   if (readable && plain_move()) return motion();
   if (!readable || !polar_words() || !check()) return recover(false);
   if (calls_only()) return call();
@@ -56,7 +64,7 @@ bool Interpreter::plain_move() const {
 void Interpreter::execute() {
   parameters();
   if (words_.comment >= 0) comment();
-  if (!words_.any) return;
+  if (!words_.any || ended_) return;
   spindle_mode();
   feed_mode();
   feed_rate();
@@ -127,11 +135,31 @@ void Interpreter::recover(bool syntax) {
   }
 }
 
+void Interpreter::lose_track() {
+  Uncertain& uncertain = state_.uncertain;
+  uncertain.axes = (1U << kProgramAxes) - 1;
+  uncertain.feed = uncertain.motion = uncertain.parameters = uncertain.cycle = true;
+  if (nurbs_.open) nurbs_.faulty = true;
+  compensation_.lose();
+}
+
+void Interpreter::text_ran_out(std::uint32_t file) {
+  if (ended_ || report_.errors() > 0) return;
+  if (!worded_) {
+    report_.warning(problem(Code::program_empty, {file, 1, 1, 1}, "no word stands in this program"));
+  } else if (opened_.line > 0) {
+    report_.warning(problem(Code::program_cut, opened_, "no second % and no M2 or M30 follows",
+                            "end the program with M2 and %, or check that the file is whole"));
+  }
+}
+
 void Interpreter::finish(Span end, bool by_percent) {
   if (ended_) return;
   if (nurbs_.open) drop_nurbs(end);
   emit(end, ProgramEnd{by_percent});
   ended_ = true;
+  ended_by_percent_ = by_percent;
+  tell_units();
 }
 
 void Interpreter::emit(Span span, Action action) {

@@ -1,6 +1,8 @@
 #pragma once
 #include <functional>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -52,7 +54,13 @@ class Interpreter {
  public:
   Interpreter(const InterpretOptions& options, Report& report, const Sink& sink);
 
+  /// Takes the modes of `startup`. Its text joins the sources if something is wrong with it.
+  void begin(SourceSet& sources);
   void run(const Line& line);
+  /// What was not run as written may have set anything: what depends on it is not judged.
+  void lose_track();
+  /// The text has ended without M2, M30 or a closing %.
+  void text_ran_out(std::uint32_t file);
   /// The program's end if no M2 or M30 gave it.
   void finish(Span end, bool by_percent = false);
   /// The end by M2, M30, or M99 in the main program: modes are reset first.
@@ -62,13 +70,14 @@ class Interpreter {
   /// The end of a call: restores its modes if M73 asked for it, and removes its level.
   void leave_level(Span place);
   /// A flow line has been read: the program has begun.
-  void start() { started_ = true; }
+  void start() { started_ = worded_ = true; }
   /// A text joins the program: its lines raise the default bound on blocks.
   /// @param runs_once  nothing repeats or calls any of the texts
   void add_text(std::uint64_t lines, bool runs_once) { text_lines_ += lines, runs_once_ = runs_once; }
   State& state() { return state_; }
   /// True after M2, M30, the closing % or the bound on blocks.
   bool ended() const { return ended_; }
+  bool ended_by_percent() const { return ended_by_percent_; }
 
  private:
   // check.cpp: do these words fit together?
@@ -85,9 +94,17 @@ class Interpreter {
   bool check_whole(char letter, double least, double most);
   void check_shared_p();
 
+  // startup.cpp: before the first line, and what the program does not say
+  bool startup_allowed(const Line& line);
+  void note_length();
+  void tell_units();
+  void warn_axis_words_move();
+  void warn_without_effect();
+
   // settings.cpp: modes
   void comment();
   void technology(std::string_view text, Span span);
+  void abort_program(std::string text, Span span);
   void feed_mode();
   void feed_rate();
   void plane();
@@ -160,12 +177,16 @@ class Interpreter {
   AxisValues arc_frame_to_machine(const AxisValues& point) const;
   bool find_arc(const AxisValues& start, const AxisValues& end, bool clockwise, ArcGeometry& result);
   bool arc_center_words(PlanePoint& center);
+  PlanePoint written_center(bool absolute) const;
   ArcLimits limits_of_arc() const;
   bool refuse_arc(const ArcGeometry& arc, PlanePoint end);
   void explain_off_circle(const ArcGeometry& arc, PlanePoint end, Diagnostic& d) const;
+  bool fits_with_other_centers(PlanePoint end) const;
+  void warn_nearly_full_circle(PlanePoint from, PlanePoint to, double sweep_rad, double radius_mm, int turns);
   /// "X30 Y12.5" of a point of the arc's plane, as the program would write it.
   std::string arc_point(PlanePoint point) const;
   void warn_arc(const ArcGeometry& arc);
+  double rounding_of(char letter) const;
   bool feed_ready();
   void set_feed(Move& move);
   void move_to(const AxisValues& end);
@@ -305,6 +326,7 @@ class Interpreter {
   Span compensation_span_;               ///< the G41 or G42 in force
   std::size_t compensation_faults_ = 0;  ///< reported on this line
   const Line* line_ = nullptr;
+  std::set<int> unknown_lengths_;  ///< tools whose length was taken as 0
   Nurbs nurbs_;
   double spline_i_mm_ = 0;  ///< from the start to the first control point of a G5 without I and J
   double spline_j_mm_ = 0;
@@ -320,6 +342,14 @@ class Interpreter {
   bool runs_once_ = false;        ///< each line at most once: its messages need no bound
   bool started_ = false;          ///< some line with words has been run, or the opening % was seen
   bool ended_ = false;
+  bool ended_by_percent_ = false;
+  bool worded_ = false;            ///< some line with words has been run
+  Span opened_;                    ///< the % that opens the program; line 0: none
+  bool units_pending_ = false;     ///< neither G20 nor G21 so far, and no length
+  Span length_;                    ///< the first length without units; line 0: none
+  std::string length_text_;        ///< "X5 is taken as 5 mm"
+  std::string units_later_;        ///< "G20 follows on line 7"
+  bool diameters_begin_ = false;   ///< G7 on this line has ended G8
   bool threading_ = false;         ///< feed moves follow the spindle's angle, by thread_pitch_u_rev_
   double thread_pitch_u_rev_ = 0;  ///< as written
   bool standing_told_ = false;     ///< the warning of a feed that follows a stopped spindle

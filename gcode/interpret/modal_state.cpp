@@ -167,6 +167,7 @@ void Interpreter::leave_level(Span place) {
 
 void Interpreter::diameter_mode() {
   const int code = words_.g(GGroup::diameter);
+  diameters_begin_ = code == code::g7 && !state_.diameter_mode;
   if (code != kNoCode) state_.diameter_mode = code == code::g7;
 }
 

@@ -30,7 +30,10 @@ void Interpreter::parameters() {
 void Interpreter::comment() {
   const Item& item = line_->items[static_cast<std::size_t>(words_.comment)];
   const ActiveComment active = active_comment(line_->slice(item.bytes));
+  worded_ = worded_ || !active.command.empty();
   if (same_letters(active.command, "TECH")) return technology(active.text, line_->span(item.bytes));
+  if (same_letters(active.command, "ABORT"))
+    return abort_program(expanded_text(active.text, state_, line_->number), line_->span(item.bytes));
   const bool message = same_letters(active.command, "MSG");
   const bool debug = same_letters(active.command, "DEBUG");
   if (!message && !debug && !same_letters(active.command, "PRINT")) return;
@@ -41,6 +44,13 @@ void Interpreter::comment() {
   if (message) return emit(span, Message{std::move(text)});
   if (debug) return emit(span, Message{text});
   emit(span, Comment{text});
+}
+
+/// (ABORT, text): nothing behind it is run.
+void Interpreter::abort_program(std::string text, Span span) {
+  error(problem(Code::program_aborts, span,
+                "the program comes here and stops: " + std::string(without_blanks(text))));
+  ended_ = true;
 }
 
 /// (TECH s_max=200): a technological limit of speed at this position.
@@ -117,7 +127,11 @@ void Interpreter::plane() { state_.plane = plane_of_line(); }
 
 void Interpreter::units() {
   const int code = words_.g(GGroup::units);
-  if (code != kNoCode) state_.inches = code == code::g20;
+  if (code == kNoCode) return;
+  state_.inches = code == code::g20;
+  units_pending_ = false;
+  if (length_.line > 0 && units_later_.empty())
+    units_later_ = fmt::format("{} follows on line {}", g_name(code), g_span(GGroup::units).line);
 }
 
 void Interpreter::work_system() {
@@ -132,6 +146,7 @@ void Interpreter::work_system() {
 void Interpreter::path_control() {
   const int code = words_.g(GGroup::path);
   if (code == kNoCode) return;
+  warn_without_effect();
   const double tolerance = code == code::g64 && words_.has('P') ? words_.value('P') : 0;
   set_path_mode(code == code::g61     ? PathMode::exact_path
                 : code == code::g61_1 ? PathMode::exact_stop

@@ -132,6 +132,14 @@ double tool_parameter(const State& state, int index) {
 double read_parameter(const State& state, int index) {
   if (parameter::is_read_only(index)) {
     if (index == parameter::kWorkSystem) return state.work_system;
+    if (index <= parameter::kMachineLast) {
+      const int axis = index - parameter::kMachine;
+      return state.to_program_units(axis, state.tool_point()[static_cast<std::size_t>(axis)]);
+    }
+    if (index <= parameter::kAppliedLast) {
+      const int axis = index - parameter::kApplied;
+      return state.to_program_units(axis, state.tool_offset[static_cast<std::size_t>(axis)]);
+    }
     if (index <= parameter::kToolLast) return tool_parameter(state, index);
     return state.program_position(index - parameter::kPosition);
   }

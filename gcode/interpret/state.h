@@ -43,6 +43,12 @@ inline constexpr int kFirst = 1;
 inline constexpr int kLast = 5601;
 inline constexpr int kOwnFirst = 31;  ///< .. kOwnLast: mean what the program makes of them, in every call
 inline constexpr int kOwnLast = 5000;
+/// .. kMachineLast, where the machine stands, machine coordinates in the units in force; read-only
+inline constexpr int kMachine = 5021;
+inline constexpr int kMachineLast = 5029;
+/// .. kAppliedLast, the tool offset in force, in the units in force; read-only
+inline constexpr int kApplied = 5081;
+inline constexpr int kAppliedLast = 5089;
 inline constexpr int kG28 = 5161;  ///< .. 5169
 inline constexpr int kG30 = 5181;  ///< .. 5189
 /// .. 5069, where the last probing tripped, program coordinates and units of then
@@ -71,7 +77,8 @@ inline constexpr int kPositionLast = 5428;
 /// True for parameters that are part of the interpreter's state and can't be set.
 constexpr bool is_read_only(int index) {
   return index == kWorkSystem || (index >= kToolNumber && index <= kToolLast) ||
-         (index >= kPosition && index <= kPositionLast);
+         (index >= kPosition && index <= kPositionLast) || (index >= kMachine && index <= kMachineLast) ||
+         (index >= kApplied && index <= kAppliedLast);
 }
 }  // namespace parameter
 

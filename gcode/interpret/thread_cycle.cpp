@@ -115,7 +115,9 @@ bool Interpreter::thread_shape(ThreadShape& shape, const AxisValues& end) {
   shape.start_x = shape.start[kX] / unit;
   shape.start_z = shape.start[kZ] / unit;
   shape.end_z = shape.end[kZ] / unit;
-  const double per_radius = state_.diameter_mode ? 0.5 : 1.0;
+  double per_radius = state_.diameter_mode ? 0.5 : 1.0;
+  // as LinuxCNC: G7 on the line of G76 halves the words of a line that began with radii once more
+  if (diameters_begin_) per_radius /= 2;
   shape.inside = words_.value('I') > 0;
   shape.crest = std::fabs(words_.value('I')) * per_radius;
   shape.first_cut = words_.value('J') * per_radius;

@@ -5,6 +5,21 @@
 
 /// Tools: T, M6, M61, G43 G43.1 G43.2 G49, and G10 L1 L10 L11, which write the tool table.
 namespace kadr::gcode {
+namespace {
+
+/// "tools 1, 2, 5"
+std::string listed(const std::set<int>& tools) {
+  constexpr std::size_t kMost = 20;
+  std::string list = tools.size() == 1 ? "tool" : "tools";
+  std::size_t count = 0;
+  for (const int tool : tools) {
+    if (count == kMost) return list + fmt::format(" and {} more", tools.size() - kMost);
+    list += fmt::format("{} {}", count++ == 0 ? "" : ",", tool);
+  }
+  return list;
+}
+
+}  // namespace
 
 void Interpreter::select_tool() {
   if (!words_.has('T')) return;
@@ -71,7 +86,9 @@ const Tool* Interpreter::length_of_tool(int number) {
       fmt::format("length of tool {} taken as 0", wanted),
       "name a tool table, --tools TABLE.tbl, or give the length itself: G43.1 Z and the length");
   d.notes.emplace_back("no tool table has been given; positions are those of a tool without length");
-  report_.warning(std::move(d));
+  unknown_lengths_.insert(wanted);
+  report_.repeated_warning(std::move(d), static_cast<double>(unknown_lengths_.size()),
+                           listed(unknown_lengths_));
   return nullptr;
 }
 

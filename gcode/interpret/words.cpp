@@ -49,7 +49,8 @@ ActiveComment active_comment(std::string_view comment) {
     return {tech, comment.substr(5)};
   if (comma == std::string_view::npos) return {};
   const std::string_view command = comment.substr(0, comma);
-  for (const std::string_view known : {"MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND"}) {
+  for (const std::string_view known :
+       {"MSG", "DEBUG", "PRINT", "ABORT", "LOG", "LOGOPEN", "LOGAPPEND", "PY"}) {
     if (same_letters(command, known)) return {command, comment.substr(comma + 1)};
   }
   return {};
@@ -84,8 +85,13 @@ bool Words::read(const Line& line, const State& state, Report* report) {
       case ItemKind::percent:
         percent = true;
         break;
-      case ItemKind::o_word:
       case ItemKind::line_comment:
+        // Python after a semicolon is the only remark of this form that LinuxCNC runs
+        if (report != nullptr && same_letters(line.slice(item.bytes).substr(0, 4), ";PY,"))
+          report->warning(
+              problem(Code::comment_not_run, line.span(item.bytes), "kadr does not run ;py, statements"));
+        break;
+      case ItemKind::o_word:
       case ItemKind::block_delete:
       case ItemKind::byte_order_mark:
       case ItemKind::unread:
@@ -236,10 +242,13 @@ bool Words::read_setting(const Line& line, const Item& item, const State& state,
                               parameter::kLast));
   }
   if (parameter::is_read_only(parameter_number)) {
-    return refuse(report, Code::parameter_read_only, span,
-                  fmt::format("parameters {}, {} to {} and {} to {} hold work system, tool and position",
-                              parameter::kWorkSystem, parameter::kToolNumber, parameter::kToolLast,
-                              parameter::kPosition, parameter::kPositionLast));
+    return refuse(
+        report, Code::parameter_read_only, span,
+        fmt::format("parameters {}, {} to {}, {} to {}, {} to {} and {} to {} hold work system, tool "
+                    "and position",
+                    parameter::kWorkSystem, parameter::kToolNumber, parameter::kToolLast,
+                    parameter::kPosition, parameter::kPositionLast, parameter::kMachine,
+                    parameter::kMachineLast, parameter::kApplied, parameter::kAppliedLast));
   }
   settings.push_back({parameter_number, -1, value});
   return true;
@@ -259,7 +268,7 @@ bool Words::read_comment(const Line& line, std::uint32_t at, Report* report) {
   comment = static_cast<int>(at);
   const std::string_view command = active_comment(line.slice(line.items[at].bytes)).command;
   if (!command.empty() && !same_letters(command, "MSG") && !same_letters(command, "DEBUG") &&
-      !same_letters(command, "PRINT") && !same_letters(command, "TECH")) {
+      !same_letters(command, "PRINT") && !same_letters(command, "ABORT") && !same_letters(command, "TECH")) {
     warn(line.items[at], fmt::format("kadr does not run ({}, ...)", command));
   }
   return true;

@@ -82,12 +82,25 @@ std::int32_t ExpressionParser::value() {
   } else if (is_letter(c)) {
     root = function();
   } else {
-    const std::uint32_t at = cursor_.at();
-    root = fail(Code::number_missing, {at, at + 1},
-                "a number, #parameter, [expression] or function is missing here");
+    root = missing();
   }
   --depth_;
   return root;
+}
+
+/// Reports that no value begins here: nothing at all, or a character that looks like the sign of one.
+std::int32_t ExpressionParser::missing() {
+  const std::uint32_t at = cursor_.at();
+  if (!foreign_here()) {
+    return fail(Code::number_missing, {at, at + 1},
+                "a number, #parameter, [expression] or function is missing here");
+  }
+  if (report_ != nullptr) report_->error(character_problem(line_, at));
+  return -1;
+}
+
+bool ExpressionParser::foreign_here() {
+  return !cursor_.at_end() && static_cast<unsigned char>(line_.text[cursor_.at()]) >= 0x80;
 }
 
 std::int32_t ExpressionParser::number() {
@@ -130,17 +143,17 @@ std::int32_t ExpressionParser::name(std::uint32_t sign) {
   }
   const std::string_view written = line_.text.substr(open + 1, close - open - 1);
   const auto end = static_cast<std::uint32_t>(close) + 1;
+  const std::string_view head = written.substr(0, std::min<std::size_t>(written.size(), 5));
+  if (same_letters(head, "_INI[") || same_letters(head, "_HAL[")) {
+    return fail(Code::name_bad, {sign, end}, "kadr has no INI file and no HAL",
+                "set a named parameter at the beginning of the program and use it here");
+  }
   for (const char c : written) {
-    const bool good = is_letter(c) || is_digit(c) || c == '_' || c == '-' || c == '.' || is_blank(c) ||
-                      static_cast<unsigned char>(c) >= 0x80;
-    if (!good) {
-      const std::string_view head = written.substr(0, std::min<std::size_t>(written.size(), 5));
-      if (c == '[' && (same_letters(head, "_INI[") || same_letters(head, "_HAL["))) {
-        return fail(Code::name_bad, {sign, end}, "kadr has no INI file and no HAL",
-                    "set a named parameter at the beginning of the program and use it here");
-      }
-      return fail(Code::name_bad, {sign, end}, fmt::format("{} is not allowed in a name", c),
-                  "names are made of letters, digits, _ - and .");
+    const bool control = !is_blank(c) && (static_cast<unsigned char>(c) < 0x20 || c == 0x7F);
+    if (c == '(' || control) {
+      return fail(
+          Code::name_bad, {sign, end},
+          control ? "a control character in a name" : "( is not allowed in a name: a comment begins with it");
     }
   }
   cursor_.go_to(end);
@@ -260,6 +273,7 @@ bool ExpressionParser::read_operator(Operation& operation, Bytes& bytes) {
 
 std::int32_t ExpressionParser::unknown_name(const char* expected) {
   const char c = cursor_.peek();
+  if (foreign_here()) return missing();
   Bytes bytes{cursor_.at(), cursor_.at() + 1};
   if (!is_letter(c)) {
     return fail(Code::operator_expected, bytes, "an operator or ] is expected here",

@@ -51,6 +51,7 @@ Arguments arguments_of(FlowWord word) {
 
 bool Parser::parse_o_word() {
   const std::uint32_t begin = cursor_.at() - 1;
+  const std::size_t before = line_->items.size();
   bool numbered = false;
   for (const Item& item : line_->items) {
     if (item.kind == ItemKind::word && item.letter == 'N') {
@@ -94,14 +95,18 @@ bool Parser::parse_o_word() {
       return fail(Code::o_keyword_unknown, {at, end > at ? end : at + 1}, "not a keyword of an O word",
                   fmt::format("keywords: {}", kKeywordList));
     }
-    if (!parse_arguments(flow)) return false;
+    if (!parse_arguments(flow)) {
+      line_->items.resize(before);
+      return false;
+    }
   }
   Item item;
   item.kind = ItemKind::o_word;
   item.letter = 'O';
   item.bytes = {begin, cursor_.at()};
   item.first = nodes;
-  line_->items.push_back(item);
+  // comments between its values come after it
+  line_->items.insert(line_->items.begin() + static_cast<std::ptrdiff_t>(before), item);
   return true;
 }
 
@@ -144,7 +149,11 @@ bool Parser::parse_arguments(FlowStatement& flow) {
   ExpressionParser expression(*line_, cursor_, names_, muted_ ? nullptr : &report_);
   flow.first = static_cast<std::int32_t>(line_->nodes.size());
   const std::size_t most = wanted == Arguments::any ? kMostArguments : wanted == Arguments::none ? 0 : 1;
-  while (cursor_.peek() == '[') {
+  for (;;) {
+    // the controller drops comments before it reads the line
+    while (cursor_.peek() == '(')
+      if (!parse_comment()) return false;
+    if (cursor_.peek() != '[') break;
     const std::uint32_t at = cursor_.at();
     if (flow.arguments.size() == most) {
       return fail(Code::o_arguments, {at, static_cast<std::uint32_t>(line_->text.size())},

@@ -2,25 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <utility>
 
 #include "machine/base/utf8.h"
 
 namespace kadr::gcode {
 namespace {
-
-/// Letters that look like Latin ones and come from another keyboard layout.
-char latin_twin(char32_t c) {
-  constexpr std::array<std::pair<char32_t, char>, 20> kTwins = {
-      {{U'А', 'A'}, {U'В', 'B'}, {U'С', 'C'}, {U'Е', 'E'}, {U'Н', 'H'}, {U'К', 'K'}, {U'М', 'M'},
-       {U'О', 'O'}, {U'Р', 'P'}, {U'Т', 'T'}, {U'Х', 'X'}, {U'У', 'Y'}, {U'а', 'A'}, {U'с', 'C'},
-       {U'е', 'E'}, {U'к', 'K'}, {U'м', 'M'}, {U'р', 'P'}, {U'х', 'X'}, {U'у', 'Y'}}};
-  for (const auto& [twin, latin] : kTwins) {
-    if (twin == c) return latin;
-  }
-  return 0;
-}
 
 /// True if a plain number begins here: digit, point, or a sign before one.
 bool begins_number(Cursor cursor) {
@@ -32,6 +20,14 @@ bool begins_number(Cursor cursor) {
   return is_digit(c) || c == '.';
 }
 
+/// True for * and digits up to the end of the line or a remark.
+bool cursor_ends_in_digits(Cursor cursor) {
+  cursor.advance();
+  if (!is_digit(cursor.peek())) return false;
+  while (is_digit(cursor.peek())) cursor.advance();
+  return cursor.at_end() || cursor.peek() == ';';
+}
+
 }  // namespace
 
 void Parser::parse(Line& line, std::size_t begin_at) {
@@ -40,6 +36,7 @@ void Parser::parse(Line& line, std::size_t begin_at) {
   line.nodes.clear();
   line.failed = false;
   line.has_flow = false;
+  if (carriage_return_inside(line)) return;
   cursor_ = Cursor(line.text, static_cast<std::uint32_t>(begin_at));
   if (begin_at > 0) {
     line.items.emplace_back();
@@ -63,6 +60,24 @@ void Parser::parse(Line& line, std::size_t begin_at) {
       return;
     }
   }
+}
+
+/// Reports a carriage return with more behind it: lines of an old Macintosh file, which must not become one block.
+bool Parser::carriage_return_inside(Line& line) {
+  const std::size_t at = line.text.find('\r');
+  if (at == std::string_view::npos) return false;
+  const std::size_t behind = line.text.find_first_not_of(" \t\r", at);
+  if (behind == std::string_view::npos) return false;
+  const auto returns = static_cast<std::size_t>(std::count(line.text.begin(), line.text.end(), '\r'));
+  const auto place = static_cast<std::uint32_t>(at);
+  leave_unread(line);
+  if (muted_) return true;
+  Diagnostic d =
+      problem(Code::carriage_return, line.span({place, place + 1}), "it ends no line, and more follows",
+              "save the file with line feeds: tr '\\r' '\\n' < part.ngc > part_lf.ngc");
+  d.notes.push_back(fmt::format("carriage returns within this line: {}", returns));
+  report_.last_error(std::move(d));
+  return true;
 }
 
 void Parser::leave_unread(Line& line) {
@@ -240,25 +255,29 @@ void Parser::check_encoding(Bytes bytes) {
 
 bool Parser::bad_character() {
   const std::uint32_t at = cursor_.at();
-  const auto byte = static_cast<unsigned char>(line_->text[at]);
-  if (byte >= 0x80) {
-    const CodePoint point = decode_utf8(line_->text, at);
-    const Bytes bytes{at, at + static_cast<std::uint32_t>(point.bytes)};
-    if (point.bytes == 1) {
-      return fail(Code::bad_character, bytes, fmt::format("byte 0x{:02X} is not UTF-8", byte),
-                  "if the file is in cp1251, convert it with `iconv -f cp1251 -t utf-8`");
-    }
-    const std::string number = fmt::format("U+{:04X}", static_cast<std::uint32_t>(point.value));
-    if (const char twin = latin_twin(point.value)) {
-      return fail(Code::bad_character, bytes, fmt::format("this is a Cyrillic letter ({})", number),
-                  fmt::format("type a Latin {}", twin));
-    }
-    return fail(Code::bad_character, bytes, fmt::format("{} is not allowed here", number));
+  if (line_->text[at] == ',') return corner_or_comma(at);
+  if (line_->text[at] == '*' && cursor_ends_in_digits(cursor_)) {
+    return fail(Code::bad_character, {at, static_cast<std::uint32_t>(line_->text.size())},
+                "a checksum, as hosts of printers send it",
+                "remove * and the digits behind it from every line");
   }
-  if (byte < 0x20 || byte == 0x7F) {
-    return fail(Code::bad_character, {at, at + 1}, fmt::format("control character 0x{:02X}", byte));
-  }
-  return fail(Code::bad_character, {at, at + 1}, fmt::format("{} is not allowed here", line_->text[at]));
+  if (!muted_) report_.error(character_problem(*line_, at));
+  return false;
+}
+
+/// A comma outside a number: ,C and ,R put a chamfer or a rounding at the end of a Fanuc block.
+bool Parser::corner_or_comma(std::uint32_t at) {
+  Cursor ahead(line_->text, at + 1);
+  const char letter = upper(ahead.peek());
+  if (letter != 'C' && letter != 'R' && letter != 'A')
+    return fail(Code::bad_character, {at, at + 1}, ", is not allowed here",
+                "blanks or nothing stand between words");
+  const std::string_view name = letter == 'C'   ? "a chamfer at the corner"
+                                : letter == 'R' ? "a rounding of the corner"
+                                                : "the angle of the line";
+  return fail(Code::word_not_run, {at, ahead.at() + 1},
+              fmt::format("kadr does not run ,{}: {}", letter, name),
+              letter == 'A' ? "write the end point of the move" : "write the corner as a move of its own");
 }
 
 bool Parser::fail(Code code, Bytes bytes, std::string label, std::string help) {
@@ -274,6 +293,7 @@ Diagnostic number_problem(const Line& line, NumberResult result, Bytes bytes, ch
       std::string written(line.slice(bytes));
       written.back() = '.';
       std::uint32_t end = bytes.end;
+      while (end < line.text.size() && is_blank(line.text[end])) ++end;
       while (end < line.text.size() && is_digit(line.text[end])) written += line.text[end++];
       return problem(Code::decimal_comma, line.span({bytes.end - 1, bytes.end}), "a comma inside a number",
                      fmt::format("the decimal mark is a point: write {}{}",

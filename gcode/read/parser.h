@@ -33,8 +33,10 @@ class Parser {
   bool parse_line_comment();
   bool parse_percent();
   void check_encoding(Bytes bytes);
+  bool carriage_return_inside(Line& line);
 
   bool bad_character();
+  bool corner_or_comma(std::uint32_t at);
   bool fail(Code code, Bytes bytes, std::string label, std::string help = {});
 
   Names& names_;
@@ -64,6 +66,8 @@ class ExpressionParser {
 
  private:
   std::int32_t number();
+  std::int32_t missing();
+  bool foreign_here();
   std::int32_t signed_value(NodeKind kind);
   std::int32_t parameter();
   std::int32_t function();
@@ -83,6 +87,9 @@ class ExpressionParser {
 
 /// Reads `name` (capital letters) if it is here, blanks between its letters allowed.
 bool match(Cursor& cursor, std::string_view name, Bytes& bytes);
+
+/// What is wrong with a byte that begins nothing: a letter of another alphabet, a dash for a minus, a control character.
+Diagnostic character_problem(const Line& line, std::uint32_t at);
 
 /// Reports why a number could not be read.
 Diagnostic number_problem(const Line& line, NumberResult result, Bytes bytes, char letter);

@@ -4,15 +4,55 @@
 
 #include <utility>
 
+#include "gcode/read/other_kind.h"
+
 namespace kadr::gcode {
 
 void Report::error(Diagnostic d) {
   ++errors_;
   if (place_) d.span = *place_;
-  if (full() || !first_time(d)) return;
+  if (full() || tell_kind(d) || !first_time(d)) return;
   ++told_errors_;
   d.severity = Severity::error;
   add(std::move(d));
+}
+
+void Report::last_error(Diagnostic d) {
+  error(std::move(d));
+  stopped_ = true;
+}
+
+/// The first error of a text of another kind is told as that.
+bool Report::tell_kind(const Diagnostic& d) {
+  if (!watched_ || watched_->file != d.span.file) return false;
+  const std::optional<OtherKind> kind = other_kind(watched_->text);
+  watched_.reset();
+  if (!kind) return false;
+  Diagnostic told = problem(Code::kind_other, d.span, "this looks like " + kind->name, kind->help);
+  told.notes.push_back(fmt::format("the first mistake here: {}{}{} [{}]", d.message,
+                                   d.label.empty() ? "" : ": ", d.label, code_name(d.code)));
+  ++told_errors_;
+  add(std::move(told));
+  stopped_ = true;
+  return true;
+}
+
+void Report::repeated_warning(Diagnostic d, double size, std::string what) {
+  if (place_) d.span = *place_;
+  ++met_;
+  d.severity = Severity::warning;
+  const auto [it, is_new] = repeated_.try_emplace(d.code);
+  Repeated& kind = it->second;
+  // places are remembered as far as those of other warnings; more are counted at each pass
+  if (kind.count < kMaxWarnings && !first_time(d)) return;
+  if (is_new) {
+    take_calls(d);
+    kind.first = std::move(d);
+  }
+  ++kind.count;
+  if (!is_new && size <= kind.largest) return;
+  kind.largest = size;
+  kind.what = std::move(what);
 }
 
 void Report::warning(Diagnostic d) {
@@ -32,6 +72,11 @@ bool Report::first_time(const Diagnostic& d) {
 }
 
 void Report::add(Diagnostic d) {
+  take_calls(d);
+  diagnostics_.add(std::move(d));
+}
+
+void Report::take_calls(Diagnostic& d) const {
   if (chain_ != nullptr && !chain_->empty()) {
     const std::size_t depth = chain_->size();
     const std::size_t half = depth > kMaxCalls ? kMaxCalls / 2 : depth;
@@ -42,12 +87,16 @@ void Report::add(Diagnostic d) {
       d.calls_left_out = depth - kMaxCalls;
     }
   }
-  diagnostics_.add(std::move(d));
 }
 
 void Report::close(Span end) {
+  for (auto& [code, kind] : repeated_) {
+    if (kind.count > 1)
+      kind.first.notes.push_back(fmt::format("{} times in this program; {}", kind.count, kind.what));
+    diagnostics_.add(std::move(kind.first));
+  }
   if (warnings_ > kMaxWarnings) diagnostics_.leave_out(Severity::warning, warnings_ - kMaxWarnings, end);
-  if (full()) diagnostics_.stop(end);
+  if (told_errors_ >= kMaxErrors) diagnostics_.stop(end);
 }
 
 Diagnostic problem(Code code, Span span, std::string label, std::string help) {

@@ -1,9 +1,11 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -26,7 +28,18 @@ class Report {
 
   /// Adds an error; beyond kMaxErrors it is dropped.
   void error(Diagnostic d);
+  /// An error behind which nothing of the program can be read.
+  void last_error(Diagnostic d);
   void warning(Diagnostic d);
+  /// A warning of a kind that a program makes many times: close() tells it once, at its first place, with how often it
+  /// was met and where it was largest.
+  /// @param size  of what is told; @param what  said behind the count, of the largest
+  void repeated_warning(Diagnostic d, double size, std::string what);
+  /// Everything found so far, told or not.
+  std::size_t found() const { return errors_ + warnings_ + met_; }
+  /// The text whose first error may say that it is of another kind (gcode/read/other_kind.h): that is told in its place,
+  /// and reading ends.
+  void watch_kind(std::uint32_t file, std::string_view text) { watched_ = {file, text}; }
   /// The calls in force while the program runs, outermost first, as they are pushed and popped: every
   /// diagnostic from now on carries them. Null: none. The vector must outlive its use here.
   void set_call_chain(const std::vector<Span>* chain) { chain_ = chain; }
@@ -38,12 +51,24 @@ class Report {
   /// Errors found, repeated ones included: grows with every call of error().
   std::size_t errors() const { return errors_; }
   /// True once further reading is pointless.
-  bool full() const { return told_errors_ >= kMaxErrors; }
-  /// Reports how much the bounds left out.
+  bool full() const { return stopped_ || told_errors_ >= kMaxErrors; }
+  /// Tells the repeated warnings, and how much the bounds left out.
   void close(Span end);
 
  private:
+  struct Repeated {
+    Diagnostic first;
+    std::size_t count = 0;
+    double largest = 0;
+    std::string what;
+  };
+  struct Watched {
+    std::uint32_t file = 0;
+    std::string_view text;
+  };
   bool first_time(const Diagnostic& d);
+  bool tell_kind(const Diagnostic& d);
+  void take_calls(Diagnostic& d) const;
   void add(Diagnostic d);
 
   using Key = std::tuple<Code, std::uint32_t, std::uint32_t, std::uint32_t>;
@@ -54,6 +79,10 @@ class Report {
   std::size_t errors_ = 0;
   std::size_t told_errors_ = 0;
   std::size_t warnings_ = 0;
+  std::size_t met_ = 0;  ///< repeated warnings
+  bool stopped_ = false;
+  std::map<Code, Repeated> repeated_;
+  std::optional<Watched> watched_;
 };
 
 /// A diagnostic with the code's title as its headline.

@@ -86,7 +86,7 @@ NumberResult Cursor::read_number(double& value, Bytes& bytes) {
     bytes.end = end > bytes.begin ? end : bytes.begin + 1;
     return NumberResult::no_digits;
   }
-  if (c == ',') {
+  if (c == ',' && Cursor(text_, at_ + 1).begins_digit()) {
     bytes.end = at_ + 1;
     return NumberResult::decimal_comma;
   }

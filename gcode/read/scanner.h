@@ -38,6 +38,7 @@ class Cursor {
     peek();
     return at_ >= text_.size();
   }
+  bool begins_digit() { return is_digit(peek()); }
   std::uint32_t at() const { return at_; }
   void go_to(std::uint32_t at) { at_ = at; }
   std::string_view text() const { return text_; }

@@ -30,6 +30,11 @@ enum class Code : std::uint16_t {
   too_many_errors = 1017,
   comment_not_run = 1018,
   line_number_place = 1019,
+  encoding_other = 1060,
+  carriage_return = 1061,
+  kind_other = 1062,
+  program_empty = 1063,
+  program_cut = 1064,
 
   // K1020 to K1049 control flow: subroutines, loops, conditions, named parameters, files, bounds (codes/flow.inc)
   o_word_place = 1020,
@@ -56,6 +61,8 @@ enum class Code : std::uint16_t {
   file_too_large = 1042,
   line_too_long = 1043,
   too_many_lines = 1044,
+  sub_of_other_file = 1045,
+  program_aborts = 1046,
 
   // K1xxx reading a control program: words and codes (codes/reading.inc)
   word_not_run = 1101,
@@ -85,6 +92,10 @@ enum class Code : std::uint16_t {
   tool_offset_unclear = 1122,
   tool_table_busy = 1123,
   rotation_under_g92 = 1124,
+  units_unsaid = 1125,
+  axis_words_move = 1126,
+  word_without_effect = 1127,
+  startup_word = 1128,
   input_unclear = 1129,
   modal_state_missing = 1130,
   polar_and_axis = 1131,
@@ -124,6 +135,7 @@ enum class Code : std::uint16_t {
   arc_by_tolerance = 2112,
   feed_before_units = 2113,
   feed_cleared = 2114,
+  arc_full_circle = 2115,
 
   // K2120 to K2139 canned cycles (codes/cycles.inc)
   cycle_retract_below_bottom = 2120,
@@ -221,6 +233,7 @@ enum class Code : std::uint16_t {
   arc_plane_turned = 4006,
   quintic_without_jerk = 4007,
   law_not_found = 4008,
+  thread_too_fast = 4009,
   soft_limit = 4101,
   wait_timed_out = 4102,
   output_without_motion = 4103,

@@ -34,7 +34,12 @@ static_assert(sizeof(TwoMassModel) == (1 + std::tuple_size_v<decltype(kPlantKeys
 
 std::vector<TableDocument> machine_keys() {
   Documents d;
-  d.table("", "before all tables").one(kFormat).one(kName).one(kOnAlarm);
+  d.table("", "before all tables")
+      .one(kFormat)
+      .one(kName)
+      .one(kProgramUnits)
+      .one(kProgramStartup)
+      .one(kOnAlarm);
   d.table("[clock]", "the two clocks").one(kRate).one(kControlPeriod);
   d.table("[path]", "what a path may be").all(kPathKeys);
   d.table("[feed]", "limits along the path of X Y Z, on top of those of each axis").all(kFeedKeys);

@@ -30,6 +30,11 @@ inline constexpr Bounds kPercent{0, 100};
 // keys that are no plain member: they are read by hand, and documented here
 inline constexpr PlainKey kFormat{"format", "1", "required", "edition of the machine file's format"};
 inline constexpr PlainKey kName{"name", "1 to 100 bytes on one line", "required", "name of the machine"};
+inline constexpr PlainKey kProgramUnits{"units", "\"mm\" or \"inch\"", "mm, with a warning",
+                                        "what lengths mean in a program that says neither G20 nor G21"};
+inline constexpr PlainKey kProgramStartup{
+    "startup", "G codes that set modes, F, S", "\"\"",
+    "words that hold before a program's first line: \"G18 G7\" of a lathe"};
 inline constexpr PlainKey kAxisName{"name", "X Y Z A B C U V W", "required",
                                     "the letter by which programs call the axis"};
 inline constexpr PlainKey kRangeDocument{"range_{u}", "[lowest, highest]", "required by linear axes",

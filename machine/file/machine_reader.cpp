@@ -18,6 +18,8 @@ constexpr double kEdition = 1;
 constexpr double kMegahertz = 1e6;
 constexpr double kMaxControlTicks = 65536;
 
+constexpr std::size_t kMostStartup = 200;  // bytes
+
 void read_format(TableReader& root) {
   const auto format = root.number(kFormat.name, {1, 1e6, false, true});
   if (!format.valid || format.value == kEdition) return;
@@ -39,6 +41,22 @@ std::string read_name(TableReader& root) {
                       control ? "has control characters" : fmt::format("has {} bytes", name.value.size()));
   d.message = "name: value is out of range";
   d.notes.push_back(fmt::format("allowed: 1 to {} bytes on one line", kMostMachineName));
+  root.context().diagnostics.add(std::move(d));
+  return "";
+}
+
+/// Its words are read with each program: their mistakes are told there.
+std::string read_startup(TableReader& root) {
+  const auto startup = root.text(kProgramStartup.name, "");
+  if (!startup.valid) return "";
+  const bool control = std::any_of(startup.value.begin(), startup.value.end(),
+                                   [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
+  if (startup.value.size() <= kMostStartup && !control) return startup.value;
+  Diagnostic d =
+      file_diagnostic(Code::file_out_of_range, startup.span,
+                      control ? "has control characters" : fmt::format("has {} bytes", startup.value.size()));
+  d.message = "startup: value is out of range";
+  d.notes.push_back(fmt::format("allowed: up to {} bytes on one line", kMostStartup));
   root.context().diagnostics.add(std::move(d));
   return "";
 }
@@ -224,6 +242,9 @@ MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
   MachineModel model;
   read_format(root);
   model.name = read_name(root);
+  const StartUnits units = root.choice(kProgramUnits.name, kStartUnits, StartUnits::mm).value;
+  if (root.has(kProgramUnits.name)) model.units = units;
+  model.startup = read_startup(root);
   read_key(root, model, kOnAlarm);
   model.clock = read_clock(root.table("clock"), top, context);
   model.path = read_path_limits(root.table("path"), root.table("feed"), top, context);

@@ -152,6 +152,8 @@ std::string render_machine(const MachineFile& file) {
   TomlWriter w(file);
   w.line("format", "1");
   w.line("name", quoted(m.name));
+  if (m.units) w.word(kProgramUnits.name, kStartUnits.word(*m.units));
+  if (!m.startup.empty()) w.line(kProgramStartup.name, quoted(m.startup));
   write_key(w, m, kOnAlarm);
   write_settings(w, m);
   for (const AxisModel& axis : m.axis)

@@ -285,12 +285,40 @@ void PathBuilder::append(const PathSegment& segment, const Point& end, SegmentSh
           "start the spindle before this move: S and M3 or M4");
     return;
   }
+  if (segment.lock == FeedLock::thread && pitch_u_rev_ > 0.0 && !thread_reachable(segment, end)) return;
   path_.nodes_u.insert(path_.nodes_u.end(), end.begin(), end.begin() + static_cast<int>(axes));
   path_.start_s_u.push_back(s + segment.length_u);
   path_.segments.push_back(segment);
   path_.segments.back().begin_limit_u_s = speed_limit_u_s_ * (segment.length_u / segment.feed_length_u);
   speed_limit_u_s_ = machine::kInfinity;
   set_shape(path_.segments.back(), std::move(shape));
+}
+
+/// Whether every axis can follow the spindle along a straight thread: slower, it would cut another pitch.
+bool PathBuilder::thread_reachable(const PathSegment& segment, const Point& end) {
+  constexpr double kRounding = 1e-9;
+  constexpr double kSecondsPerMinute = 60.0;
+  const double rpm =
+      segment.feed_u_s * (segment.feed_length_u / segment.length_u) / pitch_u_rev_ * kSecondsPerMinute;
+  const auto refuse = [&](const std::string& who, double needed_u_s, double most_u_s, const char* unit) {
+    if (needed_u_s <= most_u_s * (1 + kRounding)) return false;
+    fault(Code::thread_too_fast, segment.span,
+          fmt::format("{:.4g} {} per turn at {:.0f} rpm need {:.4g} {}/s; {} reaches {:.4g}", pitch_u_rev_,
+                      unit, rpm, needed_u_s, unit, who, most_u_s),
+          fmt::format("write at most S{:.0f}", std::floor(rpm * most_u_s / needed_u_s)));
+    return true;
+  };
+  const auto from = last_node();
+  for (std::size_t j = 0; j < program_axis_.size(); ++j) {
+    const machine::AxisModel& axis = machine_.axis[j];
+    if (machine_.planner.axis_limits == machine::AxisLimitRule::report) break;
+    const double needed_u_s = std::abs(end[j] - from[j]) / segment.length_u * segment.feed_u_s;
+    const char* unit = axis.kind == machine::AxisKind::rotary ? "deg" : "mm";
+    if (refuse(fmt::format("axis {}", axis.letter), needed_u_s, axis.max_feed_u_s, unit)) return false;
+  }
+  const double path_u_s = segment.feed_u_s * (segment.feed_length_u / segment.length_u);
+  return !segment.path_limits ||
+         !refuse("the path (feed.max_mm_s)", path_u_s, machine_.path.max_feed_mm_s, "mm");
 }
 
 void PathBuilder::set_shape(PathSegment& segment, SegmentShape shape) {
@@ -353,6 +381,8 @@ ArcShape PathBuilder::circle(ArcShape arc, double center_first_u, double center_
 }
 
 void PathBuilder::fault(Code code, Span span, std::string label, std::string help) {
+  // the passes of a thread and the halves of a tap have one place
+  if (!path_.faults.empty() && path_.faults.back().code == code && path_.faults.back().span == span) return;
   Diagnostic d{};
   d.code = code;
   d.span = span;

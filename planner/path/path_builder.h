@@ -75,6 +75,7 @@ class PathBuilder {
   Point machine_point(const AxisValues& program) const;
   std::span<const double> last_node() const { return path_.node(path_.size()); }
   Point last_point() const;
+  bool thread_reachable(const PathSegment& segment, const Point& end);
   void fault(Code code, Span span, std::string label, std::string help);
 
   // path_smoothing.cpp

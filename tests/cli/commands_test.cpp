@@ -346,6 +346,48 @@ TEST_CASE("kadr plan prints a row a block, as table, CSV and JSON with the same 
   CHECK(Json::parse(call({"plan", "-", "--json"}, scratch.path(), "").out)["rows"].empty());
 }
 
+TEST_CASE("kadr plan names the code for which a motion stops") {
+  const Scratch scratch;
+  scratch.write("p.ngc", "G21 G90 F3000\nS100 M3\nG1 X10\nM3\nG1 X20\nM8\nG1 X30\nM2\n");
+  const Finished plan = call({"plan", "p.ngc"}, scratch.path());
+  CHECK(plan.code == 0);
+  CHECK(contains(plan.out, "stops for spindle clockwise (line 4)\n"));
+  const Json rows = Json::parse(call({"plan", "p.ngc", "--json"}, scratch.path()).out)["rows"];
+  CHECK(rows[0]["stops_for"] == "spindle clockwise (line 4)");
+  CHECK(rows[1]["stops_for"] == "flood on (line 6)");
+  // the end of the program needs no word
+  CHECK_FALSE(rows[2].contains("stops_for"));
+}
+
+TEST_CASE("--offset and units of the machine hold before the first line") {
+  const Scratch scratch;
+  scratch.write("p.ngc", "G0 X1\nM2\n");
+  const Finished canon = call({"canon", "p.ngc", "--offset", "G54=10,20,-30"}, scratch.path());
+  CHECK(contains(canon.out, "STRAIGHT_TRAVERSE 11.000000 0.000000 0.000000 "));
+  CHECK(contains(canon.err, "[K1125]"));
+  const Finished inch = call({"check", "p.ngc", "--set", "units=inch", "--strict"}, scratch.path());
+  CHECK(inch.code == 0);
+  CHECK(contains(inch.out, "X   0.000  25.400"));
+  CHECK(call({"check", "p.ngc", "--strict"}, scratch.path()).code == 1);
+  CHECK(call({"run", "p.ngc", "--no-plant", "--offset", "G55=1", "-o", "a.lcmlog"}, scratch.path()).code ==
+        0);
+  CHECK(call({"run", "p.ngc", "--no-plant", "-o", "b.lcmlog"}, scratch.path()).code == 0);
+  // the offset is an input, even of a work system that moves nothing
+  const auto inputs = [&](const char* log) {
+    const std::string out = call({"info", log}, scratch.path()).out;
+    const std::size_t at = out.find("inputs");
+    return out.substr(at, out.find('\n', at) - at);
+  };
+  CHECK(inputs("a.lcmlog") != inputs("b.lcmlog"));
+  for (const char* bad :
+       {"G53=1", "G54", "G54=", "G54=1,", "G54=1;2", "G54=1e300", "G54=0,0,0,0,0,0,0,0,0,0", "54=1"}) {
+    CAPTURE(bad);
+    const Finished refused = call({"canon", "p.ngc", "--offset", bad}, scratch.path());
+    CHECK(refused.code == 2);
+    CHECK(contains(refused.err, "G54=10,10,-30"));
+  }
+}
+
 TEST_CASE("kadr canon prints one call a line, in mm, and leaves out / lines on demand") {
   const Scratch scratch;
   scratch.write("part.ngc", "G20 G90\n/G0 X2\nG1 X1 F10 (MSG, hi)\nM2\n");

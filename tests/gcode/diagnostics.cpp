@@ -54,6 +54,14 @@ InterpretOptions machine_for(const std::string& program) {
   if (program.rfind("K1043", 0) == 0) options.bounds.line_bytes = 64;
   if (program.rfind("K1044", 0) == 0) options.bounds.lines = 50;
   if (program.rfind("K1302", 0) == 0) options.bounds.messages = 10;
+  if (program.rfind("K1125", 0) == 0) options.units_said = false;
+  if (program.rfind("K1128", 0) == 0) options.startup = "G18 G64 P0.1 X5 M3 G28";
+  static const MemoryTexts two_subs = [] {
+    MemoryTexts texts;
+    texts.put("a", "o<a> sub\no<a> endsub\no<b> sub\no<b> endsub\n");
+    return texts;
+  }();
+  if (program.rfind("K1045", 0) == 0) options.called_files = &two_subs;
   return options;
 }
 
@@ -156,8 +164,8 @@ TEST_CASE("a file of nothing but mistakes stops after 1000 errors with a note") 
 }
 
 TEST_CASE("any number of warnings is counted, a thousand shown") {
-  std::string text = "F1\n";
-  for (int i = 0; i < 3000; ++i) text += "G0 X0\nG2 X10.02 I5\n";
+  std::string text;
+  for (int i = 0; i < 3000; ++i) text += "G4 P200\n";
   const Outcome outcome = run(text);
   CHECK_FALSE(outcome.diagnostics.has_errors());
   CHECK(outcome.diagnostics.warnings() == 3000);

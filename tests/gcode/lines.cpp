@@ -49,8 +49,8 @@ TEST_CASE("a NUL byte is a control character and has its place") {
 }
 
 TEST_CASE("line ends of CR alone make one line, which is refused") {
-  CHECK(run("G0 X1\rG1 Y2 F3\rM2\r").diagnostics.has_errors());
-  CHECK(run("G0 X1\rX2\r").codes() == std::vector<Code>{Code::word_repeated});
+  CHECK(run("G0 X1\rG1 Y2 F3\rM2\r").codes() == std::vector<Code>{Code::carriage_return});
+  CHECK(run("G0 X1\rX2\r").codes() == std::vector<Code>{Code::carriage_return});
 }
 
 TEST_CASE("bytes that are not UTF-8 are refused outside comments and told once inside them") {

@@ -159,6 +159,8 @@ class MachineMaker {
     MachineModel m;
     m.name = pick(4) == 0 ? "quo\"ted\\ станок" : "m" + std::to_string(random_());
     m.on_alarm = static_cast<OnAlarm>(pick(2));
+    if (pick(2) == 0) m.units = static_cast<StartUnits>(pick(2));
+    if (pick(2) == 0) m.startup = "G18 G7";
     m.clock.base_hz = static_cast<std::int64_t>(1 + pick(200)) * 1'000'000;
     m.clock.control_tick = Ticks{static_cast<std::int64_t>(1 + pick(65536))};
     m.path = {or_inf(1e3), or_inf(1e4), or_inf(1e6), or_inf(1e4), positive(1), positive(1) / 2};
@@ -233,6 +235,19 @@ TEST_CASE("any machine, shown and read back, is the same machine to the last bit
     REQUIRE(back);
     CHECK(back->model == file.model);
   }
+}
+
+TEST_CASE("a machine file says units and startup, and what they may be") {
+  const std::string mill(shipped_machine("mill3"));
+  const auto with = [&](const std::string& keys) { return read("units = \"inch\"\n" + keys + mill); };
+  const auto good = with("startup = \"G18 G7\"\n");
+  REQUIRE(good);
+  CHECK(good->model.units == StartUnits::inch);
+  CHECK(good->model.startup == "G18 G7");
+  CHECK_FALSE(read(mill)->model.units.has_value());
+  CHECK_FALSE(with("startup = \"" + std::string(201, 'G') + "\"\n"));
+  CHECK_FALSE(with("startup = \"G18\\nG7\"\n"));
+  CHECK_FALSE(read("units = \"feet\"\n" + mill));
 }
 
 TEST_CASE("a machine file with random damage is refused with places inside the file, or read; never more") {

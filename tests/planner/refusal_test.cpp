@@ -121,4 +121,30 @@ TEST_CASE("a move that follows a standing spindle is K4005") {
   check_text(plan.error().diagnostic);
 }
 
+TEST_CASE("a thread whose pitch is beyond an axis is K4009, with the highest speed of the spindle") {
+  // K2 at 4000 rpm: 2 * 4000 / 60 = 133.3 mm/s; at 100 mm/s the spindle may turn 3000 times a minute
+  auto machine = plain_machine("XYZ");
+  machine.axis[2].max_feed_u_s = 100;
+  machine.path.max_feed_mm_s = kInfinity;
+  const auto plan_at = [&](double rpm) {
+    planner::PathBuilder builder(machine, {});
+    builder.follow_spindle(true);
+    gcode::Feed b;
+    b.end = xyz(0, 0, -10);
+    b.length_u = 10;
+    b.pitch_u_rev = 2;
+    b.feed_u_s = b.pitch_u_rev * rpm / 60;
+    builder.add({{0, 3, 5, 9}, b});
+    return planner::plan(builder.path(), machine);
+  };
+  const auto plan = plan_at(4000);
+  REQUIRE_FALSE(plan);
+  CHECK(plan.error().diagnostic.code == Code::thread_too_fast);
+  CHECK(plan.error().diagnostic.help == "write at most S3000");
+  check_text(plan.error().diagnostic);
+  CHECK(plan_at(3000));
+  machine.path.max_feed_mm_s = 50;
+  CHECK_FALSE(plan_at(3000));
+}
+
 }  // namespace kadr::test

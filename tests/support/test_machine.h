@@ -9,6 +9,7 @@ namespace kadr::test {
 inline machine::MachineModel test_machine(int axes = 3) {
   machine::MachineModel m;
   m.name = "test";
+  m.units = machine::StartUnits::mm;  // programs of tests need not say G21
   for (int i = 0; i < axes; ++i) {
     machine::AxisModel a;
     a.letter = kAxisLetters[static_cast<std::size_t>(i)];
