@@ -291,8 +291,14 @@ bool OverrideSource::advance_limited(TickMotion& m, const Percent& percent) {
   demand_ = towards(demand_, wanted, l, tau);
   const double mean = 0.5 * (before + demand_.speed_u_s);
   if (predictive) limit_ = limiter_at(s_u_ + limit_.factor * mean * tau, demand_.speed_u_s);
-  m.s_end_u = s_u_ + limit_.factor * mean * tau;
-  m.speed_end_u_s = limit_.factor * demand_.speed_u_s;
+  const double end_u = s_u_ + limit_.factor * mean * tau;
+  const double end_speed_u_s = limit_.factor * demand_.speed_u_s;
+  if (!brakes_from(end_u, end_speed_u_s, percent)) {
+    take_back(percent);
+    return false;
+  }
+  m.s_end_u = end_u;
+  m.speed_end_u_s = end_speed_u_s;
   m.accel_end_u_s2 = (m.speed_end_u_s - m.speed_begin_u_s) / tau;
   m.override_used = percent.feed;
   m.limiter = limit_.factor;
@@ -308,6 +314,15 @@ bool OverrideSource::advance_limited(TickMotion& m, const Percent& percent) {
       take_back(percent);
   }
   return true;
+}
+
+/// Whether a feed that still rises while it is limited can be braked from where it leads. Multiplying the diagram
+/// guarantees nothing.
+bool OverrideSource::brakes_from(double s_u, double speed_u_s, const Percent& percent) {
+  if (terrain_.proportional()) return true;
+  if (s_u >= path_.start_s_u[terrain_.run_end(segment_) + 1]) return false;
+  return probe_.start(terrain_.segment_at(s_u, segment_), {s_u, speed_u_s, 0.0, 0.0}, percent,
+                      machine::kInfinity, std::max(speed_u_s, 1e-6));
 }
 
 LimitedFeed OverrideSource::limiter_at(double s_u, double feed_u_s) {

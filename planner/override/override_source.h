@@ -49,6 +49,7 @@ class OverrideSource final : public MotionSource {
   void advance_tracker(TickMotion& motion, const Percent& percent, bool emergency);
   /// A tick in which the axis limiter lowers the feed; false: it does not, or the motion has to brake.
   bool advance_limited(TickMotion& motion, const Percent& percent);
+  bool brakes_from(double s_u, double speed_u_s, const Percent& percent);
   LimitedFeed limiter_at(double s_u, double feed_u_s);
   void finish_tick(TickMotion& motion);
   void take_back(const Percent& percent);
