@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string_view>
@@ -23,6 +25,29 @@ int report_fault(const char* what, int argc, const char* const* argv) {
                   "  reproduce: {}\n",
                   what, KADR_VERSION, shell_line(argc, argv)));
   return kInternal;
+}
+
+std::atomic<bool> memory_ran_out = false;
+std::terminate_handler terminate_before = std::abort;
+
+/// What fails here may be swallowed by a stream, which then writes less than it was given: guarded() asks.
+void note_failed_allocation() {
+  memory_ran_out = true;
+  throw std::bad_alloc();
+}
+
+/// Memory that ran out where nothing may be thrown, as in functions of libraries that promise so.
+void end_without_memory() {
+  if (memory_ran_out) {
+    tell("kadr: out of memory\n");
+    std::_Exit(kNotStarted);
+  }
+  terminate_before();
+}
+
+int out_of_memory() {
+  tell("kadr: out of memory\n");
+  return kNotStarted;
 }
 
 std::string quoted(std::string_view word) {
@@ -57,8 +82,11 @@ std::string shell_line(int argc, const char* const* argv) {
 }
 
 int guarded(int argc, const char* const* argv, const std::function<int()>& work) {
+  std::set_new_handler(note_failed_allocation);
+  terminate_before = std::set_terminate(end_without_memory);
   try {
-    return work();
+    const int code = work();
+    return memory_ran_out ? out_of_memory() : code;
   } catch (const WorldError& e) {
     tell_line(e.what());
     return kNotStarted;
@@ -68,8 +96,7 @@ int guarded(int argc, const char* const* argv, const std::function<int()>& work)
     tell_line(e.what());
     return kNotStarted;
   } catch (const std::bad_alloc&) {
-    tell("kadr: out of memory\n");
-    return kNotStarted;
+    return out_of_memory();
   } catch (const std::exception& e) {
     return report_fault(e.what(), argc, argv);
   }

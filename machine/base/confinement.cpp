@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -19,6 +20,14 @@ namespace fs = std::filesystem;
 
 constexpr int kReadFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
 
+/// A lookup that failed for want of memory or descriptors says nothing about where a file lies.
+void refuse_fault(const std::error_code& error, const fs::path& path) {
+  if (error == std::errc::not_enough_memory) throw std::bad_alloc();
+  for (const std::errc fault :
+       {std::errc::too_many_files_open, std::errc::too_many_files_open_in_system, std::errc::io_error})
+    if (error == fault) throw std::system_error(error, path.string());
+}
+
 /// True if `path` is below `folder`, both without links.
 bool lies_below(const fs::path& path, const fs::path& folder) {
   const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
@@ -29,6 +38,7 @@ bool lies_within(const fs::path& real, const InputFolders& folders) {
   const auto holds = [&](const std::string& folder) {
     std::error_code error;
     const fs::path root = fs::canonical(folder.empty() ? "." : folder, error);
+    refuse_fault(error, folder);
     return !error && lies_below(real, root);
   };
   return holds(folders.own) || std::any_of(folders.allowed.begin(), folders.allowed.end(), holds);
@@ -55,9 +65,12 @@ InputPlace place_of(const InputFile& file) {
   std::error_code error;
   const fs::path absolute = fs::absolute(file.path, error);
   const fs::path real = error ? fs::path() : fs::weakly_canonical(absolute, error);
+  refuse_fault(error, file.path);
   if (error) return InputPlace::missing;
   if (file.folders && !lies_within(real, *file.folders)) return InputPlace::outside;
-  return fs::is_regular_file(real, error) ? InputPlace::inside : InputPlace::missing;
+  const bool regular = fs::is_regular_file(real, error);
+  refuse_fault(error, file.path);
+  return regular ? InputPlace::inside : InputPlace::missing;
 }
 
 int open_without_links(const std::string& path) {

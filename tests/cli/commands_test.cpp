@@ -150,7 +150,7 @@ TEST_CASE("how many diagnostics are not shown is said in every form, and no more
   std::string axes, mistakes, warnings = "F1\n";
   for (int i = 0; i < 3000; ++i) axes += "[[axis]]\nname = \"Q\"\n";
   for (int i = 0; i < 3000; ++i) mistakes += "G1 X\n";
-  for (int i = 0; i < 3000; ++i) warnings += "G0 X0\nG2 X10.02 I5\n";
+  for (int i = 0; i < 3000; ++i) warnings += "G4 P200\n";
   scratch.write("m.toml", axes);
   scratch.write("e.ngc", mistakes);
   scratch.write("w.ngc", warnings + "M2\n");

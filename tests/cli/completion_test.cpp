@@ -193,7 +193,7 @@ TEST_CASE("bash completes commands, values of vocabularies, and files of the rig
   CHECK(at("kadr check --format = s") == "sarif");
   CHECK(at("kadr canon --dialect ''") == "fanuc grbl linuxcnc marlin");
   CHECK(at("kadr run --limit ''") ==
-        "blocks= call_depth= file_bytes= line_bytes= lines= log_bytes= loop_passes= messages=");
+        "blocks= call_depth= file_bytes= line_bytes= lines= log_bytes= loop_passes= messages= nurbs_order=");
   CHECK(at("kadr run --limit blocks = ''") == "");
   CHECK(at("kadr run --threads ''") == "1 2");
   CHECK(at("kadr diff --tolerance l") == "link= link_rate= load=");

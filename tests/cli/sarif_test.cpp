@@ -155,7 +155,12 @@ TEST_CASE("SARIF shows all diagnostics unless --max-errors says a number") {
   for (const Json& result : all)
     fingerprints.insert(result["partialFingerprints"]["primaryLocationLineHash"].get<std::string>());
   CHECK(fingerprints.size() == 50);
-  CHECK(results({"--max-errors", "7"}).size() == 7);
+  // and how many are not shown
+  const Json seven = results({"--max-errors", "7"});
+  REQUIRE(seven.size() == 8);
+  CHECK(seven[7]["level"] == "note");
+  CHECK(
+      kadr::test::contains(seven[7]["message"]["text"].get<std::string>(), "43 more diagnostics not shown"));
 }
 
 TEST_CASE("the fingerprint of a mistake stays when lines are put before it") {

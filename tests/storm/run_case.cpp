@@ -24,6 +24,20 @@ class Tape final : public log::ForwardingLog {
   std::vector<TapeTick>& ticks_;
 };
 
+/// What `kadr run -s` lists in its log.
+std::vector<log::ReadFile> read_files(const scenario::Scenario& scenario, const PreparedCase& p) {
+  std::vector<log::ReadFile> files = {
+      cli::read_file("scenario", scenario.file, scenario.text),
+      cli::read_file("machine", scenario.input(scenario.machine), p.given.machine.text),
+      cli::read_file("program", scenario.input(scenario.program_file), p.sources[p.given.program].text())};
+  if (scenario.tools_file.empty()) return files;
+  const InputFile tools = scenario.input(scenario.tools_file);
+  for (std::uint32_t file = 0; file < p.sources.size(); ++file)
+    if (p.sources[file].name() == tools.path)
+      files.push_back(cli::read_file("tools", tools, p.sources[file].text()));
+  return files;
+}
+
 std::string first_error(const Diagnostics& diagnostics) {
   for (const Diagnostic& d : diagnostics.list())
     if (d.severity == Severity::error) return code_name(d.code);
@@ -45,6 +59,7 @@ std::unique_ptr<PreparedCase> prepare_case(const std::string& folder, const std:
     p->refusal = "machine " + first_error(p->diagnostics);
     return p;
   }
+  p->files = read_files(*scenario, *p);
   auto read = cycle::lay_out(p->given, p->sources, p->diagnostics, cycle::SoftLimitRule::warning);
   if (!read || p->diagnostics.has_errors()) {
     p->refusal = "program " + first_error(p->diagnostics);
@@ -76,7 +91,7 @@ FinishedRun run_case(const PreparedCase& prepared, const std::string& log_path, 
   options.exit_code = exit_code_of;
   FinishedRun run;
   run.log_path = log_path;
-  const log::RunHeader header = cli::run_header(job, options, prepared.scenario_toml, {});
+  const log::RunHeader header = cli::run_header(job, options, prepared.scenario_toml, prepared.files);
   auto log = log::open_lcm_log({log_path, "", 0});
   const auto fail = [&](const std::string& reason) {
     throw std::runtime_error("the log can't be written: " + reason);

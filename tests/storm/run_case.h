@@ -20,6 +20,7 @@ struct PreparedCase {
   Diagnostics diagnostics;
   cycle::JobInputs given;
   std::string scenario_toml;
+  std::vector<log::ReadFile> files;  ///< that were read, as kadr lists them
   std::string program_name;
   std::optional<cycle::Job> job;        ///< nothing: refused
   double until_s = machine::kInfinity;  ///< of runs that would take too long
