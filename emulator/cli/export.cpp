@@ -52,8 +52,12 @@ tl::expected<LogSamples, int> open_log(const Arguments& arguments, const char* w
 }
 
 /// Yes if everything requested was there. Reports a log that breaks off, and what of it was passed over.
-int end_of(const LogSamples& log, const std::string& path, Console& console) {
-  const log::LogEnd* end = log.end();
+int end_of(const LogSamples& log, const std::string& path, Console& console, bool all_read = true) {
+  const log::LogEnd* end = all_read ? log.end() : nullptr;
+  if (end == nullptr && !log.remainder().empty()) {
+    console.error(fmt::format("{}: {}, behind what was read", path, log.remainder()));
+    return kNo;
+  }
   if (end != nullptr) note_passed_over(path, *end, console);
   if (end == nullptr || log::is_sound(end->state)) return kYes;
   console.error(fmt::format("{}: {}; what was written ends at {} s", path, end->detail,
@@ -109,7 +113,7 @@ int export_log(const Arguments& arguments, Console& console) {
   if (!log) return log.error();
   if (arguments.list) {
     console.data(signal_list(*log));
-    return kYes;
+    return end_of(*log, arguments.files.front(), console, false);
   }
   std::optional<ResultFile> file;
   if (!out.output_path.empty() && out.output_path != "-") file.emplace(out.output_path);

@@ -118,7 +118,14 @@ void Options::reading(CLI::App* sub, Writes writes) {
   sub->add_option_function<std::vector<std::string>>(
          "--offset",
          [this](const std::vector<std::string>& texts) {
-           for (const std::string& text : texts) arguments.offsets.push_back(work_offset(text));
+           for (const std::string& text : texts) {
+             const gcode::WorkOffset offset = work_offset(text);
+             for (const gcode::WorkOffset& other : arguments.offsets)
+               if (other.system == offset.system)
+                 throw CLI::ValidationError(
+                     fmt::format("--offset gives {} twice", text.substr(0, text.find('='))));
+             arguments.offsets.push_back(offset);
+           }
          },
          "Zero point of a work system before the first line, mm and deg in the order X Y Z A B C U V W, e.g. "
          "G54=10,10,-30; repeatable")

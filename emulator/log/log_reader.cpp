@@ -99,7 +99,10 @@ struct LogReader::Impl {
     ContentHash hash;
     std::string sentence;
     events.rewind();
-    for (LogEventView event; sentence.empty() && events.next(event) == EventFile::Next::event;) {
+    bool summed_up = false;
+    LogEventView event;
+    EventFile::Next got = events.next(event);
+    for (; !summed_up && got == EventFile::Next::event; got = events.next(event)) {
       if (event.channel != Channel<LogSummary>::info.name) {
         hash.add(event.time_us, event.channel, event.data);
         continue;
@@ -108,11 +111,22 @@ struct LogReader::Impl {
       if (read)
         sentence = denial(hashes_at_summary(hash, event.time_us, event.channel, event.data, read->record),
                           read->record);
-      break;
+      summed_up = true;
     }
+    note_remainder(got, summed_up);
     events.rewind();
     events.next(view);
     return sentence;
+  }
+
+  /// Keeps why the events of the whole file break off, for those who read a part of them.
+  void note_remainder(EventFile::Next got, bool summed_up) {
+    if (got == EventFile::Next::damaged)
+      remainder = "damaged: " + events.detail();
+    else if (got == EventFile::Next::event)
+      remainder = "damaged: an event follows the summary";
+    else if (got == EventFile::Next::cut || !summed_up)
+      remainder = "cut off: " + (got == EventFile::Next::end ? "no KADR_SUMMARY" : events.detail());
   }
 
   void stop_at(EventFile::Next why) {
@@ -162,6 +176,7 @@ struct LogReader::Impl {
   }
 
   std::int64_t valid_bytes = 0;
+  std::string remainder;  ///< empty: the events go on to a summary and end there
 };
 
 namespace {
@@ -223,6 +238,7 @@ std::uint64_t LogReader::content_hash() const {
 }
 std::optional<std::uint64_t> LogReader::log_hash() const { return impl_->hashes.log; }
 std::uint64_t LogReader::steps_hash() const { return impl_->proof->steps_hash(); }
+const std::string& LogReader::remainder() const { return impl_->remainder; }
 std::uint64_t LogReader::file_hash() const { return impl_->events.hash(); }
 const LogEnd& LogReader::end() const {
   require(impl_->finished, "a log's end is known after its last message");

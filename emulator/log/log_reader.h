@@ -91,6 +91,9 @@ class LogReader {
   std::uint64_t content_hash() const;
   /// Hash of the whole file that was opened, every byte of it.
   std::uint64_t file_hash() const;
+  /// Of a reader by open(): why the file's events break off anywhere, a sentence; empty if they go on to a summary and end
+  /// there. It is known before they are read, for whoever reads a part of them.
+  const std::string& remainder() const;
   /// Hash of all messages as read, of a log that holds one.
   std::optional<std::uint64_t> log_hash() const;
   /// Hash of the pulses as read.

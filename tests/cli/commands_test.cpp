@@ -362,6 +362,9 @@ TEST_CASE("kadr plan names the code for which a motion stops") {
 TEST_CASE("--offset and units of the machine hold before the first line") {
   const Scratch scratch;
   scratch.write("p.ngc", "G0 X1\nM2\n");
+  const Finished twice = call({"canon", "p.ngc", "--offset", "G54=1", "--offset", "G54=5"}, scratch.path());
+  CHECK(twice.code == 2);
+  CHECK(contains(twice.err, "--offset gives G54 twice"));
   const Finished canon = call({"canon", "p.ngc", "--offset", "G54=10,20,-30"}, scratch.path());
   CHECK(contains(canon.out, "STRAIGHT_TRAVERSE 11.000000 0.000000 0.000000 "));
   CHECK(contains(canon.err, "[K1125]"));

@@ -88,6 +88,43 @@ LogEvent& nth(Events& events, const std::string& channel, std::size_t n) {
 
 }  // namespace
 
+TEST_CASE("a log that is broken behind what is read of it is not read without a word") {
+  const Logs logs;
+  Bytes broken = logs.bytes;
+  broken[broken.size() * 4 / 5] ^= 0xFF;
+  // the mark with which an event begins
+  const std::string log(broken.begin(), broken.end());
+  const std::size_t mark = log.find("\xED\xA1\xDA\x01", broken.size() * 4 / 5);
+  REQUIRE(mark != std::string::npos);
+  broken[mark] ^= 1;
+  Bytes cut = logs.bytes;
+  cut.resize(cut.size() * 4 / 5);
+  logs.save("broken.lcmlog", broken);
+  logs.save("cut.lcmlog", cut);
+  logs.save("true.lcmlog", logs.bytes);
+  for (const std::vector<std::string>& part :
+       std::vector<std::vector<std::string>>{{"export", "--csv", "--to", "0.01"},
+                                             {"export", "--excel", "--to", "0.01"},
+                                             {"export", "--vcd", "--to", "0.01"},
+                                             {"export", "--svg", "--to", "0.01"},
+                                             {"export", "--list"},
+                                             {"plot", "--to", "0.01"},
+                                             {"plot", "--path", "--to", "0.01"}}) {
+    CAPTURE(part);
+    const auto on = [&](const std::string& name) {
+      std::vector<std::string> arguments = part;
+      arguments.insert(arguments.begin() + 1, name);
+      return logs.kadr(arguments);
+    };
+    CHECK(on("true.lcmlog").code == 0);
+    CHECK(on("true.lcmlog").err.empty());
+    CHECK(on("broken.lcmlog").code == 1);
+    CHECK(contains(on("broken.lcmlog").err, "kadr: broken.lcmlog: damaged: "));
+    CHECK(on("cut.lcmlog").code == 1);
+    CHECK(contains(on("cut.lcmlog").err, "kadr: cut.lcmlog: cut off: "));
+  }
+}
+
 TEST_CASE("no command says yes to a log with a flipped bit, and none leaves an output") {
   const Logs logs;
   // in a number of each channel, and at the end of the summary

@@ -42,6 +42,7 @@ class LogFrames {
   bool next(LogFrame& frame);
   /// How the log ends, and its summary; only after next() said no.
   const log::LogEnd& end() const { return reader_.end(); }
+  const std::string& remainder() const { return reader_.remainder(); }
   const std::optional<log::LogSummary>& summary() const { return summary_; }
 
  private:

@@ -100,8 +100,10 @@ std::string render_feed_span(const FeedSpan& span, const PathDiff& d) {
 }
 
 std::string render_path_diff(const PathDiff& d) {
-  std::string text =
-      d.differ() ? "logs differ, aligned by path length\n" : "no difference, aligned by path length\n";
+  const bool whole = log::is_sound(d.a.end.state) && log::is_sound(d.b.end.state);
+  std::string text = d.differ() ? "logs differ, aligned by path length\n"
+                     : whole    ? "no difference, aligned by path length\n"
+                                : "no difference before a log breaks off, aligned by path length\n";
   text += steps_text(d) + events_text(d) + feed_text(d);
   text += fmt::format("path: {}\n",
                       d.paths_differ()

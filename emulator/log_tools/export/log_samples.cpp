@@ -121,6 +121,7 @@ double LogSamples::control_tick_s() const { return impl_->tau_s; }
 double LogSamples::from_s() const { return impl_->from_s; }
 std::int64_t LogSamples::every() const { return impl_->every; }
 void LogSamples::watch(std::function<void(const LogFrame&)> each) { impl_->each = std::move(each); }
+const std::string& LogSamples::remainder() const { return impl_->frames.remainder(); }
 const log::LogEnd* LogSamples::end() const { return impl_->stopped ? nullptr : &impl_->frames.end(); }
 const std::optional<log::LogSummary>& LogSamples::summary() const { return impl_->frames.summary(); }
 

@@ -59,6 +59,8 @@ class LogSamples {
   bool next(Sample& sample);
   /// Is called for every control tick that is read, also for those that the choice leaves out.
   void watch(std::function<void(const LogFrame&)> each);
+  /// Why the log breaks off anywhere, also where it is not read; empty if it does not.
+  const std::string& remainder() const;
   /// How the log ends, once next() said no; null: it stopped at the window's end, the rest was not read.
   const log::LogEnd* end() const;
   const std::optional<log::LogSummary>& summary() const;
