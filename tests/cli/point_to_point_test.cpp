@@ -8,6 +8,8 @@
 
 #include "tests/cli/run_kadr.h"
 
+using Json = nlohmann::json;
+
 // `kadr law`. Reference figures are those of 40-digit calculations and of the tables in docs/motion_laws.md.
 namespace {
 
@@ -15,7 +17,6 @@ using kadr::test::call;
 using kadr::test::contains;
 using kadr::test::Finished;
 using kadr::test::Scratch;
-using Json = nlohmann::json;
 
 Finished law(std::vector<std::string> arguments, const std::string& folder = ".") {
   arguments.insert(arguments.begin(), "law");

@@ -16,10 +16,9 @@ using kadr::test::contains;
 using kadr::test::Finished;
 using kadr::test::kSquare;
 using kadr::test::Scratch;
+using Json = nlohmann::json;
 
 namespace {
-
-using Json = nlohmann::json;
 
 /// A run of a program with markup in its comments that leaves mill3's travel, and the page of its log.
 struct HostilePage {
