@@ -92,6 +92,7 @@ int open_input(const InputFile& file) {
   if (!file.folders) return ::open(file.path.c_str(), kReadFlags);
   std::error_code error;
   const fs::path real = fs::canonical(file.path, error);
+  refuse_fault(error, file.path);
   if (error) {
     errno = error.value();
     return -1;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "emulator/log_tools/report/encode.h"
 #include "machine/base/require.h"
@@ -16,7 +17,9 @@ constexpr double kSteps = 65534;
 
 std::string deflated(std::string_view bytes) {
   z_stream z{};
-  require(deflateInit2(&z, kLevel, Z_DEFLATED, kRawWindow, 9, Z_DEFAULT_STRATEGY) == Z_OK, "zlib starts");
+  const int begin = deflateInit2(&z, kLevel, Z_DEFLATED, kRawWindow, 9, Z_DEFAULT_STRATEGY);
+  if (begin == Z_MEM_ERROR) throw std::bad_alloc();
+  require(begin == Z_OK, "zlib starts");
   std::string out(deflateBound(&z, static_cast<uLong>(bytes.size())), '\0');
   z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
   z.avail_in = static_cast<uInt>(bytes.size());
