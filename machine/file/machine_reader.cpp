@@ -30,35 +30,30 @@ void read_format(TableReader& root) {
   root.context().diagnostics.add(std::move(d));
 }
 
-std::string read_name(TableReader& root) {
-  const auto name = root.text(kName.name);
-  if (!name.valid) return "";
-  const bool control = std::any_of(name.value.begin(), name.value.end(),
+/// A text of `least` to `most` bytes without control characters. @return "" if it is not, and told
+std::string one_line(TableReader& root, std::string_view key, const machine::Reading<std::string>& text,
+                     std::size_t least, std::size_t most) {
+  if (!text.valid) return "";
+  const bool control = std::any_of(text.value.begin(), text.value.end(),
                                    [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
-  if (!name.value.empty() && name.value.size() <= kMostMachineName && !control) return name.value;
+  if (text.value.size() >= least && text.value.size() <= most && !control) return text.value;
   Diagnostic d =
-      file_diagnostic(Code::file_out_of_range, name.span,
-                      control ? "has control characters" : fmt::format("has {} bytes", name.value.size()));
-  d.message = "name: value is out of range";
-  d.notes.push_back(fmt::format("allowed: 1 to {} bytes on one line", kMostMachineName));
+      file_diagnostic(Code::file_out_of_range, text.span,
+                      control ? "has control characters" : fmt::format("has {} bytes", text.value.size()));
+  d.message = fmt::format("{}: value is out of range", key);
+  d.notes.push_back(fmt::format("allowed: {}{} bytes on one line",
+                                least == 0 ? "up to " : fmt::format("{} to ", least), most));
   root.context().diagnostics.add(std::move(d));
   return "";
 }
 
+std::string read_name(TableReader& root) {
+  return one_line(root, kName.name, root.text(kName.name), 1, kMostMachineName);
+}
+
 /// Its words are read with each program: their mistakes are told there.
 std::string read_startup(TableReader& root) {
-  const auto startup = root.text(kProgramStartup.name, "");
-  if (!startup.valid) return "";
-  const bool control = std::any_of(startup.value.begin(), startup.value.end(),
-                                   [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
-  if (startup.value.size() <= kMostStartup && !control) return startup.value;
-  Diagnostic d =
-      file_diagnostic(Code::file_out_of_range, startup.span,
-                      control ? "has control characters" : fmt::format("has {} bytes", startup.value.size()));
-  d.message = "startup: value is out of range";
-  d.notes.push_back(fmt::format("allowed: up to {} bytes on one line", kMostStartup));
-  root.context().diagnostics.add(std::move(d));
-  return "";
+  return one_line(root, kProgramStartup.name, root.text(kProgramStartup.name, ""), 0, kMostStartup);
 }
 
 ClockModel read_clock(const Node* table, const Span& place, ReadContext& context) {
