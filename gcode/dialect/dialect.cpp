@@ -9,8 +9,19 @@ namespace {
 
 constexpr double kMillisecond_s = 1e-3;
 constexpr std::array<DwellWord, 1> kSeconds = {{{'P', 1}}};
-constexpr std::array<DwellWord, 2> kMarlin = {{{'S', 1}, {'P', kMillisecond_s}}};
-constexpr std::array<DwellWord, 3> kFanuc = {{{'X', 1}, {'U', 1}, {'P', kMillisecond_s}}};
+constexpr std::array<DwellWord, 1> kMilliseconds = {{{'P', kMillisecond_s}}};
+constexpr std::array<DwellWord, 2> kMarlinDwell = {{{'S', 1}, {'P', kMillisecond_s}}};
+constexpr std::array<DwellWord, 3> kFanucDwell = {{{'X', 1}, {'U', 1}, {'P', kMillisecond_s}}};
+
+constexpr DialectRules kLinuxCnc{.dwell_words = kSeconds, .finds_subs_of_other_files = false};
+constexpr DialectRules kGrbl{.dwell_words = kSeconds, .offset_outside_plane_ignored = true};
+constexpr DialectRules kMach3{
+    .dwell_words = kMilliseconds, .offset_outside_plane_ignored = true, .call_shares_line = true};
+constexpr DialectRules kMarlin{
+    .dwell_words = kMarlinDwell, .offset_outside_plane_ignored = true, .cubic_g5_from_zero = true};
+constexpr DialectRules kFanuc{.dwell_words = kFanucDwell, .repeats_in_p = true, .call_shares_line = true};
+constexpr DialectRules kHaas{.dwell_words = kMilliseconds, .call_shares_line = true};
+
 constexpr std::int64_t kProgramNumbers = 10'000;  // four digits
 
 /// A code of a dialect that RS-274/NGC writes differently; G codes in tenths.
@@ -27,29 +38,22 @@ constexpr Meaning kMeanings[] = {
 
 }  // namespace
 
-std::span<const DwellWord> dwell_words(Dialect dialect) {
+const DialectRules& rules_of(Dialect dialect) {
   switch (dialect) {
+    case Dialect::linuxcnc:
+      return kLinuxCnc;
+    case Dialect::grbl:
+      return kGrbl;
+    case Dialect::mach3:
+      return kMach3;
     case Dialect::marlin:
       return kMarlin;
     case Dialect::fanuc:
       return kFanuc;
-    case Dialect::linuxcnc:
-    case Dialect::grbl:
-      break;
+    case Dialect::haas:
+      return kHaas;
   }
-  return kSeconds;
-}
-
-bool offset_outside_plane_is_ignored(Dialect dialect) {
-  switch (dialect) {
-    case Dialect::grbl:
-    case Dialect::marlin:
-      return true;
-    case Dialect::linuxcnc:
-    case Dialect::fanuc:
-      break;
-  }
-  return false;
+  return kLinuxCnc;
 }
 
 int meant_code(Dialect dialect, char letter, int number) {
@@ -60,7 +64,7 @@ int meant_code(Dialect dialect, char letter, int number) {
 }
 
 SubprogramCall subprogram_call(Dialect dialect, std::int64_t p) {
-  const std::int64_t repeats = dialect == Dialect::fanuc ? p / kProgramNumbers : 0;
+  const std::int64_t repeats = rules_of(dialect).repeats_in_p ? p / kProgramNumbers : 0;
   if (repeats == 0) return {p, 1};
   return {p % kProgramNumbers, static_cast<std::uint64_t>(repeats)};
 }

@@ -98,7 +98,7 @@ Flow::Target Flow::find(std::int32_t name, bool by_code, Span place) {
 /// LinuxCNC finds a subroutine in the main program or in the file of its own name.
 void Flow::warn_other_file(const Target& target, std::int32_t name, Span place) {
   const bool its_own = target.unit->name.empty() || target.unit->name == state_.names[name];
-  if (its_own || options_.dialect != Dialect::linuxcnc) return;
+  if (its_own || rules_of(options_.dialect).finds_subs_of_other_files) return;
   const std::string& file = sources_[target.unit->program.file()].name();
   report_.warning(
       problem(Code::sub_of_other_file, place,
@@ -182,7 +182,7 @@ void Flow::return_code(const CallRequest& request) {
                   "end it with return or endsub"));
     return leave_call();
   }
-  if (!request.alone && options_.dialect != Dialect::fanuc) {
+  if (!request.alone && !rules_of(options_.dialect).call_shares_line) {
     error(problem(Code::o_word_place, place, "M99 shares its line with other words",
                   "write M99 on a line of its own"));
   }

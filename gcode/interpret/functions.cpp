@@ -76,7 +76,7 @@ Span Interpreter::override_span() const {
 
 void Interpreter::take_dwell_words() {
   char counts = 0;
-  for (const DwellWord& word : dwell_words(options_.dialect)) {
+  for (const DwellWord& word : rules_of(options_.dialect).dwell_words) {
     if (!words_.has(word.letter)) continue;
     if (counts != 0) {
       report_.warning(problem(Code::word_without_effect, words_.span(*line_, word.letter),
@@ -87,7 +87,7 @@ void Interpreter::take_dwell_words() {
   }
   const DwellWord* taken = nullptr;
   double dwell_s = 0;
-  for (const DwellWord& word : dwell_words(options_.dialect)) {
+  for (const DwellWord& word : rules_of(options_.dialect).dwell_words) {
     if (!words_.has(word.letter)) continue;
     if (taken == nullptr) {
       taken = &word;
@@ -117,7 +117,7 @@ const Item* Interpreter::words_beside_call() const {
 
 /// LinuxCNC runs only the call of a line that begins with M98.
 bool Interpreter::calls_only() const {
-  return words_.m(MGroup::call) == code::m98 && options_.dialect != Dialect::fanuc;
+  return words_.m(MGroup::call) == code::m98 && !rules_of(options_.dialect).call_shares_line;
 }
 
 void Interpreter::call() {

@@ -37,7 +37,7 @@ void Interpreter::spline(Motion motion) {
   if (motion == Motion::quadratic_spline) {
     add_control(spline, from, spline_offset('I'), spline_offset('J'), 1);
   } else {
-    const bool given = words_.has('I') || options_.dialect == Dialect::marlin;
+    const bool given = words_.has('I') || rules_of(options_.dialect).cubic_g5_from_zero;
     if (!given) warn_direction_kept();
     const double i_mm = given ? spline_offset('I') : spline_i_mm_;
     const double j_mm = given ? spline_offset('J') : spline_j_mm_;
@@ -69,7 +69,7 @@ void Interpreter::add_control(Spline& spline, AxisValues program, double x_mm, d
 bool Interpreter::spline_allowed(Motion motion) {
   const std::string name = g_name(words_.g(GGroup::motion));
   if (!spline_place_allowed(name)) return false;
-  if (options_.dialect == Dialect::marlin) return true;
+  if (rules_of(options_.dialect).cubic_g5_from_zero) return true;
   const auto missing = [&](char letter, std::string_view meaning) {
     return error(
         problem(Code::word_missing, action_span(), fmt::format("{} needs {}: {}", name, letter, meaning)));

@@ -21,7 +21,7 @@ struct Choices {
   explicit Choices(std::string_view text) {
     if (text.size() < 3 || text.substr(0, 2) != ";!") return;
     const auto bits = static_cast<unsigned char>(text[2]);
-    dialect = static_cast<Dialect>(bits & 3U);
+    dialect = kDialects.at((bits & 3U) | (bits >> 5U << 2U)).value_or(Dialect::linuxcnc);
     block_delete = (bits & 4U) != 0;
     stock = (bits & 8U) != 0;
     few_axes = (bits & 16U) != 0;

@@ -25,7 +25,7 @@ double dwell_s(const std::string& text, Dialect dialect) {
 
 TEST_CASE("each dialect has its name") {
   for (const auto& dialect : kDialects) CHECK(kDialects.find(dialect.word) == dialect.value);
-  CHECK(kDialects.list() == "linuxcnc, grbl, marlin, fanuc");
+  CHECK(kDialects.list() == "linuxcnc, grbl, mach3, marlin, fanuc, haas");
   CHECK_FALSE(kDialects.find("heidenhain"));
 }
 
