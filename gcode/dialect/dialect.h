@@ -27,12 +27,12 @@ struct DwellWord {
 
 /// What a dialect reads otherwise than LinuxCNC, whose rules the defaults are. A field is one difference.
 struct DialectRules {
-  std::span<const DwellWord> dwell_words;      ///< of G4; if a line has several words, the first of these counts
-  bool offset_outside_plane_ignored = false;   ///< of an arc: K on an arc of the XY plane is read and not used
-  bool cubic_g5_from_zero = false;             ///< an omitted word of G5 is 0
-  bool repeats_in_p = false;                   ///< the digits of M98 P before the last four are repeats
-  bool call_shares_line = false;               ///< M98 and M99 beside other words
-  bool finds_subs_of_other_files = true;       ///< a subroutine in any file that was read can be called
+  std::span<const DwellWord> dwell_words;  ///< of G4; if a line has several words, the first of these counts
+  bool offset_outside_plane_ignored = false;  ///< of an arc: K on an arc of the XY plane is read and not used
+  bool cubic_g5_from_zero = false;            ///< an omitted word of G5 is 0
+  bool repeats_in_p = false;                  ///< the digits of M98 P before the last four are repeats
+  bool call_shares_line = false;              ///< M98 and M99 beside other words
+  bool finds_subs_of_other_files = true;      ///< a subroutine in any file that was read can be called
 };
 const DialectRules& rules_of(Dialect dialect);
 
