@@ -79,6 +79,6 @@ void append_canon(std::string& out, const Block& block, std::string_view called_
 /// A line that can't be read stays as it is, and its mistake is reported.
 /// @return false if there was a mistake
 bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics, std::string& out,
-                    const ReadingBounds& bounds = {});
+                    const ReadingBounds& bounds = {}, Dialect dialect = Dialect::linuxcnc);
 
 }  // namespace kadr::gcode

@@ -50,7 +50,8 @@ int format_one(const std::string& path, const Arguments& arguments, Console& con
     if (path == "-" && arguments.in_place) throw WorldError("standard input can't be rewritten in place");
     const std::uint32_t program = load_program(path, arguments.bounds, sources);
     formatted.readable =
-        gcode::format_program(sources, program, diagnostics, formatted.text, arguments.bounds);
+        gcode::format_program(sources, program, diagnostics, formatted.text, arguments.bounds,
+                              arguments.dialect.value_or(gcode::Dialect::linuxcnc));
     formatted.differs = formatted.text != sources[program].text();
     const int code = act(formatted, path, arguments, console);
     if (!console.options().json) {

@@ -19,8 +19,14 @@ constexpr DialectRules kMach3{
     .dwell_words = kMilliseconds, .offset_outside_plane_ignored = true, .call_shares_line = true};
 constexpr DialectRules kMarlin{
     .dwell_words = kMarlinDwell, .offset_outside_plane_ignored = true, .cubic_g5_from_zero = true};
-constexpr DialectRules kFanuc{.dwell_words = kFanucDwell, .repeats_in_p = true, .call_shares_line = true};
-constexpr DialectRules kHaas{.dwell_words = kMilliseconds, .call_shares_line = true};
+constexpr DialectRules kFanuc{.dwell_words = kFanucDwell,
+                              .repeats_in_p = true,
+                              .call_shares_line = true,
+                              .macros = {.on = true, .angles_to_360 = true, .returns_to_number = true}};
+constexpr DialectRules kHaas{
+    .dwell_words = kMilliseconds,
+    .call_shares_line = true,
+    .macros = {.on = true, .local_subs = true, .then_runs_words = true, .diameters_in_offsets = true}};
 
 constexpr std::int64_t kProgramNumbers = 10'000;  // four digits
 

@@ -25,6 +25,16 @@ struct DwellWord {
   double unit_s;
 };
 
+/// Macro B: variables, IF, GOTO, WHILE and G65 as FANUC has them, and where a dialect differs from it.
+struct MacroRules {
+  bool on = false;
+  bool angles_to_360 = false;        ///< ATAN[y]/[x] from 0 to 360, ASIN from 270 over 360 to 90
+  bool returns_to_number = false;    ///< M99 P leads to a line of the calling program, not of its own
+  bool local_subs = false;           ///< M97 P calls lines of its own program
+  bool then_runs_words = false;      ///< words may follow THEN, not only a setting
+  bool diameters_in_offsets = false; ///< #2401 .. #2600 are diameters of tools
+};
+
 /// What a dialect reads otherwise than LinuxCNC, whose rules the defaults are. A field is one difference.
 struct DialectRules {
   std::span<const DwellWord> dwell_words;  ///< of G4; if a line has several words, the first of these counts
@@ -33,6 +43,7 @@ struct DialectRules {
   bool repeats_in_p = false;                  ///< the digits of M98 P before the last four are repeats
   bool call_shares_line = false;              ///< M98 and M99 beside other words
   bool finds_subs_of_other_files = true;      ///< a subroutine in any file that was read can be called
+  MacroRules macros = {};
 };
 const DialectRules& rules_of(Dialect dialect);
 

@@ -147,6 +147,7 @@ Arithmetic apply(Operation operation, double a, double b) {
     case Operation::tan:
     case Operation::asin:
     case Operation::acos:
+    case Operation::atan:
     case Operation::sqrt:
     case Operation::exp:
     case Operation::ln:
@@ -190,6 +191,8 @@ Arithmetic apply(Operation operation, double a) {
       return {std::floor(a), {}, false};
     case Operation::fup:
       return {-std::floor(-a), {}, false};
+    case Operation::atan:
+      return {atan_deg(a, 1), {}, false};
     case Operation::none:
     case Operation::add:
     case Operation::subtract:

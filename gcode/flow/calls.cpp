@@ -5,11 +5,12 @@
 #include <utility>
 
 #include "gcode/flow/flow.h"
+#include "gcode/interpret/macro_variables.h"
 
 namespace kadr::gcode {
 namespace {
 
-constexpr std::size_t kLocalParameters = 30;  // #1 to #30 belong to a call
+Program::Position behind(const Structure& structure, int statement) { return structure[statement].after; }
 
 }  // namespace
 
@@ -44,28 +45,31 @@ void Flow::call_statement(const Line& line) {
     first = root + 1;
   }
   const Target target = find(name, false, place);
-  if (target.unit == nullptr || !enter(target, false, place, arguments)) interpreter_.lose_track();
+  if (target.unit == nullptr || !enter(target, CallKind::o_word, place, arguments)) interpreter_.lose_track();
 }
 
 void Flow::call_code(const CallRequest& request) {
   if (request.returns) return return_code(request);
   if (request.repeats == 0) return;
+  if (request.to_line) return call_line(request);
   const Target target = find(state_.names.number(std::to_string(request.number)), true, request.place);
-  if (target.unit == nullptr || !enter(target, true, request.place, {})) return interpreter_.lose_track();
+  const CallKind kind = request.macro ? CallKind::macro : CallKind::code;
+  if (target.unit == nullptr || !enter(target, kind, request.place, request.arguments))
+    return interpreter_.lose_track();
   calls_.back().repeats_left = request.repeats - 1;
 }
 
 void Flow::make_known(Unit& unit) {
   for (const auto& [name, statement] : unit.structure.subs())
-    subs_.try_emplace(name, Target{&unit, statement});
+    subs_.try_emplace(name, Target{&unit, statement, behind(unit.structure, statement)});
   for (const auto& [name, statement] : unit.structure.labels())
-    labels_.try_emplace(name, Target{&unit, statement});
+    labels_.try_emplace(name, Target{&unit, statement, behind(unit.structure, statement)});
 }
 
 Flow::Target Flow::find_known(std::int32_t name, bool by_code) const {
   // the calling file first, then all others in the order in which they were read
   const int here = by_code ? unit_->structure.label(name) : unit_->structure.sub(name);
-  if (here >= 0) return {unit_, here};
+  if (here >= 0) return {unit_, here, behind(unit_->structure, here)};
   const auto& known = by_code ? labels_ : subs_;
   const auto it = known.find(name);
   return it == known.end() ? Target{} : it->second;
@@ -132,7 +136,7 @@ bool Flow::load(std::int32_t name, Span place) {
   return readable(index) && add_unit(index, text);
 }
 
-bool Flow::enter(Target target, bool by_code, Span place, const std::vector<double>& arguments) {
+bool Flow::enter(Target target, CallKind kind, Span place, const std::vector<double>& arguments) {
   const std::uint32_t most = options_.bounds.call_depth;
   if (most != 0 && calls_.size() >= most) {
     Diagnostic d = problem(Code::calls_too_deep, place, fmt::format("{} calls deep", calls_.size() + 1),
@@ -142,21 +146,27 @@ bool Flow::enter(Target target, bool by_code, Span place, const std::vector<doub
     stopped_ = true;
     return false;
   }
-  calls_.push_back({unit_, unit_->program.position(), target, by_code, 0});
+  calls_.push_back({unit_, unit_->program.position(), target, kind != CallKind::o_word, 0, {}});
   places_.push_back(place);
   CallLevel level;
-  level.own_numbered = !by_code;
-  if (!by_code) {
-    const auto first = state_.parameters.begin() + parameter::kFirst;
-    std::copy_n(first, kLocalParameters, level.numbered.begin());
-    std::fill_n(first, kLocalParameters, 0.0);
-    std::copy(arguments.begin(), arguments.end(), first);
+  level.own_numbered = kind != CallKind::code;
+  if (level.own_numbered) {
+    std::copy_n(state_.parameters.begin() + parameter::kFirst, state_.locals(), level.numbered.begin());
+    take_arguments(arguments);
+    if (kind == CallKind::macro) calls_.back().arguments = arguments;
   }
   state_.levels.push_back(std::move(level));
   unit_ = target.unit;
-  unit_->defined[static_cast<std::size_t>(target.statement)] = true;
-  unit_->program.go_to(unit_->structure[target.statement].after);
+  if (target.statement >= 0) unit_->defined[static_cast<std::size_t>(target.statement)] = true;
+  unit_->program.go_to(target.begin);
   return true;
+}
+
+/// #1 and on of a call; those that it does not give are 0, or vacant.
+void Flow::take_arguments(const std::vector<double>& arguments) {
+  const auto first = state_.parameters.begin() + parameter::kFirst;
+  std::fill_n(first, state_.locals(), macros_ ? kVacant : 0.0);
+  std::copy(arguments.begin(), arguments.end(), first);
 }
 
 void Flow::give_back(const Line& line) {
@@ -172,6 +182,8 @@ void Flow::give_back(const Line& line) {
 
 void Flow::return_code(const CallRequest& request) {
   const Span place = request.place;
+  const bool own_line = request.to_line && !rules_of(options_.dialect).macros.returns_to_number;
+  if (request.to_line && (calls_.empty() || own_line)) return jump_to_number(request.number, place.line, place);
   if (calls_.empty()) {
     report_.warning(problem(Code::main_again, place, "the program ends here, after one run"));
     return interpreter_.end_program(place);
@@ -186,19 +198,22 @@ void Flow::return_code(const CallRequest& request) {
     error(problem(Code::o_word_place, place, "M99 shares its line with other words",
                   "write M99 on a line of its own"));
   }
-  if (call.repeats_left > 0 && report_.errors() == 0) {
+  if (call.repeats_left > 0 && report_.errors() == 0 && !request.to_line) {
     --call.repeats_left;
-    unit_->program.go_to(unit_->structure[call.target.statement].after);
+    if (!call.arguments.empty()) take_arguments(call.arguments);
+    unit_->program.go_to(call.target.begin);
     return;
   }
   if (call.repeats_left > 0) interpreter_.lose_track();
+  const std::uint32_t caller_line = places_.back().line;
   leave_call();
+  if (request.to_line) jump_to_number(request.number, caller_line, place);
 }
 
 void Flow::leave_call() {
   const CallLevel& level = state_.levels.back();
   if (level.own_numbered) {
-    std::copy(level.numbered.begin(), level.numbered.end(), state_.parameters.begin() + parameter::kFirst);
+    std::copy_n(level.numbered.begin(), state_.locals(), state_.parameters.begin() + parameter::kFirst);
   }
   interpreter_.leave_level(places_.back());
   unit_ = calls_.back().caller;

@@ -29,6 +29,7 @@ bool Evaluator::evaluate(const Line& line, std::int32_t first, std::int32_t root
   if (values_.size() < line.nodes.size()) values_.resize(line.nodes.size());
   report_ = report;
   doubtful_ = false;
+  if (state.macros.on) return evaluate_macro(line, first, root, state, value);
   // operands stand before their node
   for (std::int32_t i = first; i <= root; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -71,6 +72,9 @@ bool Evaluator::node_value(const Line& line, const ExpressionNode& node, const S
     case NodeKind::group:
       value = operand(node.left);
       return true;
+    case NodeKind::comma:
+    case NodeKind::power:
+      break;  // of macro B alone
     case NodeKind::atan:
       value = atan_deg(operand(node.left), operand(node.right));
       return true;

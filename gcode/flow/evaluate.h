@@ -17,7 +17,7 @@ class Evaluator {
   /// @return false if there is no value: a division by zero, an argument outside a function's domain, a
   /// parameter that
   ///         does not exist, an overflow. It is reported to `report` unless that is null or the value depends on
-  ///         a parameter whose setting failed earlier.
+  ///         a parameter whose setting failed earlier. Of macro B a value may be vacant (kVacant).
   bool evaluate(const Line& line, std::int32_t first, std::int32_t root, const State& state, Report* report,
                 double& value);
   /// True if the last evaluated expression read a parameter that may be wrong after an earlier error.
@@ -33,6 +33,12 @@ class Evaluator {
  private:
   bool node_value(const Line& line, const ExpressionNode& node, const State& state, double& value);
   bool read(const Line& line, const ExpressionNode& node, const State& state, double index, double& value);
+  // evaluate_macro.cpp
+  bool evaluate_macro(const Line& line, std::int32_t first, std::int32_t root, const State& state,
+                      double& value);
+  bool macro_node(const Line& line, const ExpressionNode& node, const State& state, double& value);
+  bool read_macro(const Line& line, const ExpressionNode& node, const State& state, double index,
+                  double& value);
   bool read_named(const Line& line, const ExpressionNode& node, const State& state, double& value);
   bool fail(Code code, Span span, std::string label);
 

@@ -29,7 +29,8 @@ Flow::Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& optio
       beside_(FolderTexts::beside(sources[file].name(), options.sub_folders, options.bounds.file_bytes,
                                   options.allowed_folders)),
       called_(options.called_files ? *options.called_files : beside_),
-      end_{file, 1, 1, 1} {
+      end_{file, 1, 1, 1},
+      macros_(rules_of(options.dialect).macros.on) {
   report_.set_call_chain(&places_);
 }
 
@@ -46,8 +47,9 @@ void Flow::run() {
     }
     ran_out_ = calls_.empty();
     if (ran_out_) return;
-    const Statement& head = calls_.back().target.unit->structure[calls_.back().target.statement];
-    return error(problem(Code::sub_without_end, head.span, "no M99 follows",
+    const Target& called = calls_.back().target;
+    const Span head = called.statement < 0 ? places_.back() : called.unit->structure[called.statement].span;
+    return error(problem(Code::sub_without_end, head, "no M99 follows",
                          "end the subroutine with M99, or the program with M2 or M30"));
   }
   const bool ends_all = straight_ || interpreter_.ended_by_percent();
@@ -89,6 +91,7 @@ bool Flow::count_line(const Line& line) {
 }
 
 void Flow::step(const Line& line) {
+  if (macros_) return step_macro(line);
   const bool deleted =
       options_.block_delete && !line.items.empty() && line.items.front().kind == ItemKind::block_delete;
   if (line.has_flow && !line.failed) {
@@ -116,14 +119,14 @@ bool Flow::readable(std::uint32_t file) {
 
 bool Flow::add_unit(std::uint32_t file, std::string name) {
   units_.push_back(std::make_unique<Unit>(
-      Unit{Program(sources_, file, options_.bounds, state_.names, report_), {}, std::move(name)}));
+      Unit{Program(sources_, file, options_.bounds, state_.names, report_, options_.dialect), {}, std::move(name)}));
   Unit& unit = *units_.back();
   // a called file contains a subroutine, even if its O word looks like a program number
   const bool is_main = unit.name.empty();
   straight_ = is_main && !unit.program.has_o_words();
   interpreter_.add_text(count_lines(sources_[file].text()), straight_);
   if (straight_) return true;
-  if (!unit.structure.read(unit.program, options_.block_delete, state_.names, report_)) return false;
+  if (!unit.structure.read(unit.program, options_.block_delete, macros_, state_.names, report_)) return false;
   unit.passes_left.assign(unit.structure.size(), kNoPasses);
   unit.defined.assign(unit.structure.size(), false);
   make_known(unit);
@@ -134,7 +137,7 @@ void Flow::statement(const Line& line) {
   interpreter_.start();
   if (line.flow.word == FlowWord::call) return call_statement(line);
   // a program number at the head of a file without other O words
-  if (line.flow.word == FlowWord::label) return;
+  if (line.flow.word == FlowWord::label) return macros_ ? begin_program(line) : void();
   const int index = unit_->structure.at_line(line.number);
   if (index < 0) {
     // nothing is bound after an M2 that a mistake kept from ending the program
@@ -170,6 +173,13 @@ void Flow::statement(const Line& line) {
       return break_loop(index);
     case FlowWord::continue_loop:
       return continue_loop(index);
+    case FlowWord::go_to:
+    case FlowWord::if_go_to:
+    case FlowWord::if_then:
+    case FlowWord::while_do:
+    case FlowWord::do_loop:
+    case FlowWord::end_do:
+      return control(line, index);
     case FlowWord::label:
     case FlowWord::call:
     case FlowWord::end_if:

@@ -33,15 +33,22 @@ class Flow {
   /// A subroutine in a unit.
   struct Target {
     Unit* unit = nullptr;
-    int statement = -1;
+    int statement = -1;  ///< its head; -1: a line of M97
+    Program::Position begin = {};
+  };
+  enum class CallKind : std::uint8_t {
+    o_word,
+    code,   ///< M97 or M98: the variables are those of the caller
+    macro,  ///< G65 or G66
   };
   /// A call that has not returned.
   struct Call {
     Unit* caller = nullptr;
     Program::Position back;
     Target target;
-    bool by_code = false;            ///< M98
-    std::uint64_t repeats_left = 0;  ///< M98 L
+    bool by_code = false;            ///< M98, G65, ...: ends with M99
+    std::uint64_t repeats_left = 0;  ///< L
+    std::vector<double> arguments = {};  ///< of G65: each repetition begins with them
   };
   bool add_unit(std::uint32_t file, std::string name);
   void make_known(Unit& unit);
@@ -50,6 +57,17 @@ class Flow {
   void tell_words_behind_end();
   void warn_other_file(const Target& target, std::int32_t name, Span place);
   void step(const Line& line);
+  // macros.cpp
+  void step_macro(const Line& line);
+  void control(const Line& line, int index);
+  void begin_program(const Line& line);
+  void if_then(const Line& line, int index);
+  void while_do(const Line& line, int index);
+  bool holds(const Line& line, bool& known);
+  void go_to(const Line& line, int index);
+  void jump(const NumberedLine& target, std::uint32_t line, Span place);
+  void jump_to_number(std::int64_t number, std::uint32_t line, Span place);
+  void call_line(const CallRequest& request);
   void statement(const Line& line);
   void branch(const Line& line, int index);
   void pass_definition(int index);
@@ -64,7 +82,8 @@ class Flow {
   void pass_over_breaks(int from, int loop);
   void leave_loop(int loop);
   void next_pass(int loop);
-  bool count_pass(int beginning);
+  bool count_pass(int beginning) { return count_pass(at(beginning).span); }
+  bool count_pass(Span beginning);
   void warn_kept(int index, std::string label, std::string cause);
 
   void call_statement(const Line& line);
@@ -72,7 +91,8 @@ class Flow {
   Target find(std::int32_t name, bool by_code, Span place);
   Target find_known(std::int32_t name, bool by_code) const;
   bool load(std::int32_t name, Span place);
-  bool enter(Target target, bool by_code, Span place, const std::vector<double>& arguments);
+  bool enter(Target target, CallKind kind, Span place, const std::vector<double>& arguments);
+  void take_arguments(const std::vector<double>& arguments);
   void give_back(const Line& line);
   void leave_call();
   void return_code(const CallRequest& request);
@@ -107,6 +127,7 @@ class Flow {
   std::uint64_t passes_ = 0;
   std::uint64_t lines_ = 0;  ///< run, weighed
   Span end_;
+  bool macros_ = false;    ///< of the dialect
   bool straight_ = false;  ///< no O words: nothing leads past the program's end
   bool stopped_ = false;
   bool ran_out_ = false;

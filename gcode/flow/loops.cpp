@@ -10,11 +10,11 @@
 /// kadr does the same, and reports it.
 namespace kadr::gcode {
 
-bool Flow::count_pass(int beginning) {
+bool Flow::count_pass(Span beginning) {
   const std::uint64_t most = options_.bounds.loop_passes;
   if (++passes_ <= most || most == 0) return true;
   Diagnostic d =
-      problem(Code::loop_too_long, at(beginning).span, fmt::format("pass {} of the program's loops", passes_),
+      problem(Code::loop_too_long, beginning, fmt::format("pass {} of the program's loops", passes_),
               "check the condition and what changes it");
   d.notes.push_back(fmt::format("allowed: {} in all (--limit loop_passes=N)", most));
   error(std::move(d));

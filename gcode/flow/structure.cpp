@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -46,6 +48,17 @@ std::string_view word_text(FlowWord word) {
       return "return";
     case FlowWord::call:
       return "call";
+    case FlowWord::go_to:
+      return "GOTO";
+    case FlowWord::if_go_to:
+    case FlowWord::if_then:
+      return "IF";
+    case FlowWord::while_do:
+      return "WHILE";
+    case FlowWord::do_loop:
+      return "DO";
+    case FlowWord::end_do:
+      return "END";
     case FlowWord::label:
       break;
   }
@@ -82,6 +95,12 @@ FlowWord beginning_of(FlowWord word) {
     case FlowWord::repeat:
     case FlowWord::break_loop:
     case FlowWord::continue_loop:
+    case FlowWord::go_to:
+    case FlowWord::if_go_to:
+    case FlowWord::if_then:
+    case FlowWord::while_do:
+    case FlowWord::do_loop:
+    case FlowWord::end_do:
       break;
   }
   return FlowWord::if_true;
@@ -109,6 +128,7 @@ struct Structure::Reader {
   std::vector<int> open_subs = {};              ///< those of `open` that are subs
   std::set<std::int32_t> labels_in_scope = {};  ///< of ifs and loops, in this sub or main program
   std::set<std::int32_t> labels_of_main = {};   ///< kept while a sub is read
+  std::vector<int> open_loops = {};             ///< DO of macro B without an END so far, the innermost last
 
   void error(Code code, Span span, std::string label, std::string note = {}, std::string help = {}) {
     Diagnostic d = problem(code, span, std::move(label), std::move(help));
@@ -134,7 +154,12 @@ struct Structure::Reader {
     s.span = line.span({flow.label.begin, std::max(flow.label.end, flow.keyword.end)});
     s.at = at;
     s.after = after;
-    if (flow.word != FlowWord::call && flow.name < 0 && !fixed_label(line, s)) return;
+    if (is_macro_word(flow.word)) {
+      s.name = flow.number;
+      s.span = line.span({flow.keyword.begin, std::max({flow.keyword.end, flow.second.end, flow.label.end})});
+    } else if (flow.word != FlowWord::call && flow.name < 0 && !fixed_label(line, s)) {
+      return;
+    }
     const int index = static_cast<int>(structure.statements_.size());
     structure.statements_.push_back(s);
     bind(index);
@@ -169,6 +194,8 @@ struct Structure::Reader {
     switch (s.word) {
       case FlowWord::label:
         structure.labels_.try_emplace(s.name, index);
+        close_loops();
+        structure.numbers_.begin_program(s.span.line);
         // what follows may be another program: its labels are its own
         if (open.empty()) labels_in_scope.clear();
         return;
@@ -196,7 +223,70 @@ struct Structure::Reader {
       case FlowWord::break_loop:
       case FlowWord::continue_loop:
         return leave(index);
+      case FlowWord::go_to:
+      case FlowWord::if_go_to:
+      case FlowWord::if_then:
+        return;
+      case FlowWord::while_do:
+      case FlowWord::do_loop:
+        return open_loop(index);
+      case FlowWord::end_do:
+        return close_loop(index);
     }
+  }
+
+  /// The places in loops of macro B have different numbers: DO1 in DO1 is not allowed.
+  void open_loop(int index) {
+    const Statement& s = structure[index];
+    for (const int outer : open_loops) {
+      if (structure[outer].name != s.name) continue;
+      error(Code::macro_loop, s.span, fmt::format("DO{} inside DO{}", s.name, s.name),
+            fmt::format("the outer one is on line {}", structure[outer].span.line),
+            "loops inside each other have different numbers");
+    }
+    open_loops.push_back(index);
+  }
+
+  void close_loop(int index) {
+    Statement& s = structure.statements_[static_cast<std::size_t>(index)];
+    const auto fitting = std::find_if(open_loops.rbegin(), open_loops.rend(),
+                                      [&](int loop) { return structure[loop].name == s.name; });
+    if (fitting == open_loops.rend())
+      return error(Code::macro_loop, s.span, fmt::format("no DO{} is open here", s.name));
+    if (fitting != open_loops.rbegin()) {
+      error(Code::macro_loop, s.span, fmt::format("DO{} is still open here", structure[open_loops.back()].name),
+            fmt::format("it is on line {}", structure[open_loops.back()].span.line),
+            "the loop that begins last ends first");
+    }
+    s.begin = *fitting;
+    structure.statements_[static_cast<std::size_t>(s.begin)].end = index;
+    open_loops.erase(std::prev(fitting.base()), open_loops.end());
+  }
+
+  /// The end of a program of the file.
+  void close_loops() {
+    for (const int loop : open_loops) {
+      const Statement& s = structure[loop];
+      error(Code::macro_loop, s.span, fmt::format("no END{} follows", s.name));
+    }
+    open_loops.clear();
+  }
+
+  void find_targets() {
+    structure.numbers_.finish();
+    for (Statement& s : structure.statements_) {
+      const bool goes = s.word == FlowWord::go_to || s.word == FlowWord::if_go_to;
+      if (!goes || s.name < 0) continue;
+      std::optional<Diagnostic> fault = structure.find_line(s.name, s.span.line, s.span, s.target);
+      if (fault && problems.size() < Report::kMaxErrors) problems.push_back(std::move(*fault));
+    }
+  }
+
+  /// N of a line, and the O number that names the main program.
+  void note(const Line& line, Program::Position at, bool words) {
+    if (const std::optional<std::int32_t> number = sequence_number(line))
+      structure.numbers_.add(*number, at, open_loops.empty() ? -1 : open_loops.back());
+    if (!words && line.has_flow && line.flow.word == FlowWord::label) structure.head_line_ = line.number;
   }
 
   void begin(int index) {
@@ -310,6 +400,8 @@ struct Structure::Reader {
   }
 
   void end_of_file() {
+    close_loops();
+    find_targets();
     for (const int index : open) {
       const Statement& s = structure[index];
       error(Code::o_not_closed, s.span, fmt::format("no {} {} follows", name_of(s.name), end_text(s.word)));
@@ -328,9 +420,32 @@ bool ends_program(const Line& line) {
   });
 }
 
-bool Structure::read(Program& program, bool block_delete, Names& names, Report& report) {
+std::optional<Diagnostic> Structure::find_line(std::int32_t number, std::uint32_t line, Span place,
+                                               const NumberedLine*& target) const {
+  target = numbers_.find(number, line);
+  if (target == nullptr)
+    return problem(Code::sequence_number_missing, place, fmt::format("no line N{} in this program", number));
+  if (const NumberedLine* again = numbers_.again(*target)) {
+    Diagnostic d =
+        problem(Code::sequence_number_twice, place, fmt::format("N{} is not the only one", number));
+    d.notes.push_back(fmt::format("N{} begins line {} and line {}", number, target->at.line, again->at.line));
+    return d;
+  }
+  if (target->loop < 0) return std::nullopt;
+  const Statement& loop = statements_[static_cast<std::size_t>(target->loop)];
+  if (loop.end < 0) return std::nullopt;  // reported
+  const std::uint32_t last = statements_[static_cast<std::size_t>(loop.end)].span.line;
+  if (line > loop.span.line && line <= last) return std::nullopt;
+  Diagnostic d =
+      problem(Code::jump_into_loop, place, fmt::format("N{} stands inside DO{}", number, loop.name));
+  d.notes.push_back(fmt::format("the loop begins on line {}", loop.span.line));
+  return d;
+}
+
+bool Structure::read(Program& program, bool block_delete, bool macros, Names& names, Report& report) {
   Reader reader{*this, names};
-  bool words = false;
+  bool words = false;  // something stands before, a % perhaps
+  bool code = false;   // and something that acts
   bool unread = false;
   bool behind_end = false;
   for (;;) {
@@ -342,7 +457,8 @@ bool Structure::read(Program& program, bool block_delete, Names& names, Report& 
     if (block_delete && line->items.front().kind == ItemKind::block_delete) continue;
     // unreadable text after M2 is a remark, until a subroutine begins
     if (behind_end && (line->failed || !begins_subroutine(*line))) continue;
-    behind_end = reader.open.empty() && ends_program(*line);
+    behind_end = !macros && reader.open.empty() && ends_program(*line);
+    if (macros) reader.note(*line, at, code);
     if (line->has_flow && line->failed) unread = true;
     if (line->has_flow && !line->failed) {
       reader.add(*line, at, program.position());
@@ -351,10 +467,10 @@ bool Structure::read(Program& program, bool block_delete, Names& names, Report& 
     const bool percent = std::any_of(line->items.begin(), line->items.end(),
                                      [](const Item& item) { return item.kind == ItemKind::percent; });
     if (percent && words) break;
-    words = words || percent || line->has_flow ||
-            std::any_of(line->items.begin(), line->items.end(), [](const Item& item) {
-              return item.kind == ItemKind::word || item.kind == ItemKind::setting;
-            });
+    code = code || line->has_flow || std::any_of(line->items.begin(), line->items.end(), [](const Item& item) {
+             return item.kind == ItemKind::word || item.kind == ItemKind::setting;
+           });
+    words = words || percent || code;
   }
   reader.end_of_file();
   program.rewind();

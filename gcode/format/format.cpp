@@ -80,16 +80,25 @@ std::int32_t rank_of(const Item& item) {
     case ItemKind::word:
       break;
     case ItemKind::o_word:
+    case ItemKind::control:
+      return kGRank;
     case ItemKind::percent:
     case ItemKind::block_delete:
     case ItemKind::byte_order_mark:
     case ItemKind::unread:
-      return item.kind == ItemKind::o_word ? kGRank : kHeadRank;
+      return kHeadRank;
   }
   if (item.letter == 'N') return kNumberRank;
   if (item.letter == 'G') return kGRank + g_rank(item);
   if (item.letter == 'M') return kMRank + m_rank(item);
   return kLetterRank + static_cast<std::int32_t>(kLetterOrder.find(item.letter));
+}
+
+/// The order of the words of a macro call tells I J K of one set from those of the next, and what follows THEN is run
+/// if the condition holds: both stay as written.
+bool keeps_order(const Line& line) {
+  return line.macro_call == MacroCall::once || line.macro_call == MacroCall::modal ||
+         (line.has_flow && is_macro_word(line.flow.word));
 }
 
 bool is_comment(const Item& item) {
@@ -190,7 +199,9 @@ void Formatter::sort_items(const Line& line) {
     order_[i] = i;
     const bool calls = item.letter == 'M' && item.value < 0 && item.number == code::m98;
     const bool names = item.kind == ItemKind::setting && item.name >= 0;
-    ranks_[i] = item.letter == 'N' && !first ? kMisplacedRank
+    const bool stays = keeps_order(line) && rank_of(item) >= kGRank && !is_comment(item);
+    ranks_[i] = stays                         ? kGRank
+                : item.letter == 'N' && !first ? kMisplacedRank
                 : first && (calls || names)  ? kFirstRank
                                              : rank_of(item);
     if ((item.kind == ItemKind::word && item.letter != 'N') || item.kind == ItemKind::setting) first = false;
@@ -217,6 +228,9 @@ void Formatter::append_item(std::string& out, const Line& line, std::uint32_t at
     case ItemKind::o_word:
       append_o_word(out, line, at);
       break;
+    case ItemKind::control:
+      append_control(out, line, at);
+      break;
     case ItemKind::comment:
     case ItemKind::line_comment:
     case ItemKind::percent:
@@ -242,18 +256,42 @@ void Formatter::append_o_word(std::string& out, const Line& line, std::uint32_t 
   append_lexemes(out, line, at);
 }
 
-/// The parts of an item's expressions in the order written. Not by a walk down the tree: a line of a megabyte
-/// may contain an expression as deep.
-void Formatter::append_lexemes(std::string& out, const Line& line, std::uint32_t at) {
-  const Item& item = line.items[at];
+/// IF [#1 EQ 0] GOTO 20, WHILE [#1 LT 5] DO1, GOTO #1, END1.
+void Formatter::append_control(std::string& out, const Line& line, std::uint32_t at) {
+  const FlowStatement& flow = line.flow;
+  append_plain(out, line.slice(flow.keyword));
+  if (!flow.arguments.empty()) {
+    out += ' ';
+    lexemes_.clear();
+    collect_nodes(line, line.items[at].first, flow.arguments.front() + 1);
+    append_sorted(out, line, false);
+    out += ' ';
+    append_plain(out, line.slice(flow.second));
+  }
+  const bool goes = flow.word == FlowWord::go_to || flow.word == FlowWord::if_go_to;
+  if (goes) out += ' ';
+  if (flow.number >= 0) out += plain_number(line.slice(flow.label), false);
+  if (!goes || flow.number >= 0) return;
   lexemes_.clear();
-  const std::int32_t end_node = node_end(line, at);
-  for (std::int32_t i = item.first; i < end_node; ++i) {
+  collect_nodes(line, flow.label_first, flow.label_root + 1);
+  append_sorted(out, line, false);
+}
+
+/// The parts of expressions. Not by a walk down the tree: a line of a megabyte may contain an expression as deep.
+void Formatter::collect_nodes(const Line& line, std::int32_t first, std::int32_t end) {
+  for (std::int32_t i = first; i < end; ++i) {
     const ExpressionNode& node = line.nodes[static_cast<std::size_t>(i)];
     // a sign + changes nothing; before a number it would be read as part of the number the next time
     if (node.kind != NodeKind::plus) lexemes_.push_back({node.own, node.kind});
     if (node.closing.end > node.closing.begin) lexemes_.push_back({node.closing, NodeKind::group});
   }
+}
+
+/// The parts of an item's expressions in the order written.
+void Formatter::append_lexemes(std::string& out, const Line& line, std::uint32_t at) {
+  const Item& item = line.items[at];
+  lexemes_.clear();
+  collect_nodes(line, item.first, node_end(line, at));
   const bool o_word = item.kind == ItemKind::o_word;
   if (item.kind == ItemKind::setting) {
     const std::uint32_t begin = item.bytes.begin;
@@ -261,6 +299,10 @@ void Formatter::append_lexemes(std::string& out, const Line& line, std::uint32_t
     lexemes_.push_back({{item.equals, item.equals + 1}, NodeKind::group});
   }
   if (o_word && line.flow.keyword.end > 0) lexemes_.push_back({line.flow.keyword, NodeKind::function});
+  append_sorted(out, line, o_word);
+}
+
+void Formatter::append_sorted(std::string& out, const Line& line, bool o_word) {
   std::sort(lexemes_.begin(), lexemes_.end(),
             [](const Lexeme& a, const Lexeme& b) { return a.bytes.begin < b.bytes.begin; });
 
@@ -292,20 +334,21 @@ std::size_t Formatter::indentation(const Line& line) {
   const auto blanks = [](std::size_t depth) { return kIndent * std::min(depth, kMostIndented); };
   if (!line.has_flow) return blanks(open_.size());
   const FlowStatement& flow = line.flow;
+  const std::int32_t label = is_macro_word(flow.word) ? flow.number : flow.name;
   const auto close = [&](FlowWord word) {
     // a label that closes nothing is reported elsewhere
-    int& still_open = open_of_[{word, flow.name}];
+    int& still_open = open_of_[{word, label}];
     if (still_open == 0) return false;
     for (bool closed = false; !closed; open_.pop_back()) {
       const Open& last = open_.back();
-      closed = last.word == word && last.name == flow.name;
+      closed = last.word == word && last.name == label;
       --open_of_[{last.word, last.name}];
     }
     return true;
   };
-  const auto open = [&] {
-    open_.push_back({flow.word, flow.name});
-    ++open_of_[{flow.word, flow.name}];
+  const auto open = [&](FlowWord word) {
+    open_.push_back({word, label});
+    ++open_of_[{word, label}];
     return blanks(open_.size() - 1);
   };
   switch (flow.word) {
@@ -313,10 +356,16 @@ std::size_t Formatter::indentation(const Line& line) {
     case FlowWord::if_true:
     case FlowWord::do_once:
     case FlowWord::repeat:
-      return open();
+      return open(flow.word);
     case FlowWord::while_true:
       if (close(FlowWord::do_once)) break;
-      return open();
+      return open(flow.word);
+    case FlowWord::while_do:
+    case FlowWord::do_loop:
+      return open(FlowWord::do_loop);
+    case FlowWord::end_do:
+      close(FlowWord::do_loop);
+      break;
     case FlowWord::else_if:
     case FlowWord::otherwise:
       return blanks(open_.empty() ? 0 : open_.size() - 1);
@@ -337,6 +386,9 @@ std::size_t Formatter::indentation(const Line& line) {
     case FlowWord::return_from:
     case FlowWord::break_loop:
     case FlowWord::continue_loop:
+    case FlowWord::go_to:
+    case FlowWord::if_go_to:
+    case FlowWord::if_then:
       break;
   }
   return blanks(open_.size());
@@ -347,7 +399,8 @@ void Formatter::note_percent(const Line& line) {
   for (const Item& item : line.items) {
     if (item.kind == ItemKind::percent) ended_ = started_;
     started_ = started_ || item.kind == ItemKind::percent || item.kind == ItemKind::word ||
-               item.kind == ItemKind::setting || item.kind == ItemKind::o_word;
+               item.kind == ItemKind::setting || item.kind == ItemKind::o_word ||
+               item.kind == ItemKind::control;
   }
 }
 
@@ -369,14 +422,15 @@ void Formatter::flush() {
 }
 
 bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics, std::string& out,
-                    const ReadingBounds& bounds) {
+                    const ReadingBounds& bounds, Dialect dialect) {
   Report report(diagnostics);
   Names names;
-  Program program(sources, file, bounds, names, report);
+  Program program(sources, file, bounds, names, report, dialect);
   Formatter formatter(out);
   std::optional<Diagnostic> encoding = encoding_problem(file, sources[file].text());
   if (encoding) report.last_error(std::move(*encoding));
   bool behind_end = false;  // where check takes unreadable lines as remarks
+  const bool macros = rules_of(dialect).macros.on;
   while (!formatter.ended()) {
     program.mute(behind_end);
     const Line* line = program.next();
@@ -385,7 +439,7 @@ bool format_program(const SourceSet& sources, std::uint32_t file, Diagnostics& d
     if (behind_end)
       behind_end = line->failed || !begins_subroutine(*line);
     else
-      behind_end = !formatter.inside() && ends_program(*line);
+      behind_end = !macros && !formatter.inside() && ends_program(*line);
   }
   formatter.finish();
   const SourceText& source = sources[file];

@@ -52,6 +52,9 @@ class Formatter {
   void sort_items(const Line& line);
   void append_item(std::string& out, const Line& line, std::uint32_t at);
   void append_o_word(std::string& out, const Line& line, std::uint32_t at);
+  void append_control(std::string& out, const Line& line, std::uint32_t at);
+  void collect_nodes(const Line& line, std::int32_t first, std::int32_t end);
+  void append_sorted(std::string& out, const Line& line, bool o_word);
   void append_lexemes(std::string& out, const Line& line, std::uint32_t at);
   std::size_t indentation(const Line& line);
   void note_percent(const Line& line);

@@ -46,7 +46,7 @@ void Interpreter::check_axes() {
 }
 
 void Interpreter::check_codes() {
-  if (words_.m(MGroup::call) == code::m98) check_call();
+  if (calls_number()) check_call();
   const int nonmodal_code = words_.g(GGroup::nonmodal);
   const int motion_code = words_.g(GGroup::motion);
   const bool takes_axes = axis_words_taken();
@@ -74,10 +74,18 @@ void Interpreter::check_codes() {
   }
 }
 
+/// M98, or M97 of a dialect that has it.
+bool Interpreter::calls_number() const {
+  const int code = words_.m(MGroup::call);
+  return code != kNoCode && code != code::m99;
+}
+
 void Interpreter::check_call() {
   const Span span = words_.span(*line_, MGroup::call);
   if (!words_.has('P')) {
-    error(problem(Code::word_missing, span, "M98 needs P: the number of the subroutine"));
+    error(problem(Code::word_missing, span,
+                  words_.m(MGroup::call) == code::m98 ? "M98 needs P: the number of the subroutine"
+                                                      : "M97 needs P: the sequence number of its first line"));
   }
   if (!calls_only()) return;
   for (const Item& item : line_->items) {
@@ -126,6 +134,8 @@ std::uint32_t Interpreter::usable_letters() const {
   for (const int code : words_.m_codes()) letters |= letters_of_m(code);
   if (moves() && words_.g(GGroup::motion) == kNoCode) letters |= letters_of_g(motion_code(state_));
   if (words_.has('S')) letters |= letter_bit('$');
+  if (state_.macros.on && words_.m(MGroup::call) != kNoCode)
+    letters |= letter_bits(calls_number() ? "PL" : "P");
   return letters;
 }
 
@@ -174,7 +184,7 @@ void Interpreter::check_values() {
   if (words_.g(GGroup::path) == code::g64 && words_.has('P') && words_.value('P') < 0) {
     error(problem(Code::word_out_of_range, words_.span(*line_, 'P'), "a tolerance below 0"));
   }
-  if (words_.m(MGroup::call) == code::m98) {
+  if (words_.m(MGroup::call) != kNoCode) {
     check_whole('P', 0, kLargestCall);
     check_whole('L', 0, kLargestCall);
   }

@@ -127,6 +127,7 @@ void Interpreter::call() {
   request.returns = code == code::m99;
   request.place = words_.span(*line_, MGroup::call);
   request.alone = !words_beside_call();
+  request.to_line = code == code::m97 || (request.returns && words_.has('P'));
   int whole = 0;
   if (words_.has('P') && near_integer(words_.value('P'), whole)) {
     // with L, all of P is the number

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "gcode/interpret/macro_variables.h"
+
 namespace kadr::gcode {
 
 Interpreter::Interpreter(const InterpretOptions& options, Report& report, const Sink& sink)
@@ -16,6 +18,8 @@ Interpreter::Interpreter(const InterpretOptions& options, Report& report, const 
   state_.position = options.home;
   state_.inches = options.inches;
   units_pending_ = !options.units_said;
+  state_.macros = rules_of(options.dialect).macros;
+  if (state_.macros.on) clear_macro_variables(state_);
   state_.parameters[parameter::kDebug] = 1;
   write_axis_parameters(state_, parameter::kG28, options.g28);
   write_axis_parameters(state_, parameter::kG30, options.g30);

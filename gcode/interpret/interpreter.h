@@ -17,12 +17,15 @@
 
 namespace kadr::gcode {
 
-/// M98 or M99 on a line that was run.
+/// M97, M98, M99 or G65 on a line that was run, or a move under G66.
 struct CallRequest {
   bool returns = false;       ///< M99
   bool alone = true;          ///< no other word on its line
-  std::int64_t number = 0;    ///< M98 P
-  std::uint64_t repeats = 1;  ///< M98 L
+  bool to_line = false;       ///< `number` is an N: M97, and M99 with P
+  bool macro = false;         ///< G65 and G66: `arguments` are #1 to #33 of the call
+  std::vector<double> arguments;
+  std::int64_t number = 0;    ///< P
+  std::uint64_t repeats = 1;  ///< L
   Span place;
 };
 
@@ -57,6 +60,14 @@ class Interpreter {
   /// Takes the modes of `startup`. Its text joins the sources if something is wrong with it.
   void begin(SourceSet& sources);
   void run(const Line& line);
+  // macros.cpp
+  /// Runs a line of nothing but settings of macro B, each one before the next.
+  void assign(const Line& line);
+  /// Runs a line of G65 or G66.
+  void macro_call(const Line& line);
+  void cancel_modal_call() { modal_call_.reset(); }
+  /// The call that G66 makes behind the line just run; none if that has moved nothing.
+  std::optional<CallRequest> modal_call_due();
   /// What was not run as written may have set anything: what depends on it is not judged.
   void lose_track();
   /// The text has ended without M2, M30 or a closing %.
@@ -88,6 +99,7 @@ class Interpreter {
   void check_motion_words();
   void check_codes();
   void check_call();
+  bool calls_number() const;
   std::uint32_t usable_letters() const;
   bool require_word(char letter, GGroup group, std::string_view what);
   bool require_words(const std::vector<NeededWord>& needed, Span span, std::string_view who);
@@ -276,6 +288,15 @@ class Interpreter {
   void check_while_compensating(bool until_now, bool from_now);
   void refuse_while_compensating(Span span, std::string_view name, std::string_view what);
 
+  // macros.cpp
+  void set_macro_variable(int number, double value, Span place);
+  void stop_with_message(double value, Span place, bool alarm);
+  bool set_tool_variable(int number, double value, Span place);
+  void refuse_variable(int number, Span place);
+  std::string remark_of_line() const;
+  bool macro_words(const Line& line, CallRequest& request);
+  bool macro_argument(const Line& line, const Item& item, double value, int& set, CallRequest& request);
+
   // inputs.cpp: M62 to M68
   void inputs_and_outputs();
   void wait_input();
@@ -320,6 +341,9 @@ class Interpreter {
   Advice advice_;
   Words words_;
   std::optional<CallRequest> call_;
+  std::optional<CallRequest> modal_call_;  ///< G66
+  std::size_t modal_level_ = 0;            ///< the call level of G66
+  Evaluator evaluator_;                    ///< of settings and arguments of macro B
   std::optional<Span> place_;  ///< of blocks while modes are restored
   Compensation compensation_;
   bool compensation_tilted_ = false;     ///< it runs in program coordinates: G18 in a rotated work system

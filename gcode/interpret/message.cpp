@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "gcode/interpret/macro_variables.h"
 #include "gcode/interpret/predefined.h"
 #include "gcode/read/scanner.h"
 #include "machine/base/utf8.h"
@@ -94,6 +95,10 @@ class Expansion {
     return true;
   }
   void put(double value) {
+    if (is_vacant(value)) {
+      out_ += kUnset;
+      return;
+    }
     out_ += fmt::format("{:.{}f}", std::fabs(value) < kLeastShown ? 0.0 : value, decimals_);
   }
 

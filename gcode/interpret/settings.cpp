@@ -19,6 +19,8 @@ void Interpreter::parameters() {
   for (const Words::Setting& setting : words_.settings) {
     if (setting.name >= 0) {
       set_named(state_, setting.name, setting.value);
+    } else if (state_.macros.on) {
+      set_macro_variable(setting.number, setting.value, line_span());
     } else {
       const auto number = static_cast<std::size_t>(setting.number);
       state_.parameters[number] = setting.value;

@@ -8,6 +8,7 @@
 
 #include "gcode/block.h"
 #include "gcode/dialect/codes.h"
+#include "gcode/dialect/dialect.h"
 #include "gcode/read/names.h"
 #include "gcode/read/tool_table.h"
 #include "machine/base/axes.h"
@@ -132,9 +133,12 @@ struct ModalState {
   bool g92_active = false;
 };
 
+inline constexpr int kLocals = 30;       ///< #1 to #30 belong to a call
+inline constexpr int kMacroLocals = 33;  ///< of macro B #1 to #33
+
 /// State of one call of a subroutine; the main program is the first.
 struct CallLevel {
-  std::array<double, 30> numbered{};               ///< #1 to #30 of the caller, restored at the return
+  std::array<double, kMacroLocals> numbered{};     ///< #1 .. of the caller, restored at the return
   bool own_numbered = true;                        ///< false: M98, which shares the caller's
   std::optional<ModalState> modal;                 ///< kept by M70 or M73
   bool restores_modal = false;                     ///< M73: restored at the return
@@ -201,7 +205,10 @@ struct State {
   double returned_value = 0;  ///< of the last subroutine
   bool value_returned = false;
   Uncertain uncertain;
+  MacroRules macros;  ///< of the dialect
 
+  /// Parameters from #1 on that belong to a call.
+  int locals() const { return macros.on ? kMacroLocals : kLocals; }
   /// G41 or G42 is in force, even with a radius of 0.
   bool compensating() const { return compensation_code != code::g40; }
   int call_level() const { return static_cast<int>(levels.size()) - 1; }

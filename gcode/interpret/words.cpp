@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gcode/interpret/macro_variables.h"
 #include "gcode/interpret/predefined.h"
 #include "gcode/read/scanner.h"
 
@@ -92,6 +93,7 @@ bool Words::read(const Line& line, const State& state, Report* report) {
               problem(Code::comment_not_run, line.span(item.bytes), "kadr does not run ;py, statements"));
         break;
       case ItemKind::o_word:
+      case ItemKind::control:
       case ItemKind::block_delete:
       case ItemKind::byte_order_mark:
       case ItemKind::unread:
@@ -112,6 +114,8 @@ bool Words::read_word(const Line& line, std::uint32_t at, const State& state, Re
       return false;
     }
     doubt = evaluator_.doubtful();
+    // a word with a vacant value does not stand there
+    if (state.macros.on && is_vacant(value)) return true;
   }
   if (item.letter == 'G') return read_g(line, at, value, report);
   if (item.letter == 'M') return read_m(line, at, value, report);
@@ -162,7 +166,11 @@ bool Words::read_g(const Line& line, std::uint32_t at, double value, Report* rep
     const auto nearest = static_cast<int>(tenths_value + 0.5);
     if (std::fabs(tenths_value - nearest) <= kCodeTolerance) tenths = nearest;
   }
-  if (dialect_ != Dialect::linuxcnc) tenths = meant_code(dialect_, 'G', tenths);
+  if (dialect_ != Dialect::linuxcnc) {
+    tenths = meant_code(dialect_, 'G', tenths);
+    // G67 has ended the calls of G66 before the line is run
+    if (tenths == code::g67 && rules_of(dialect_).macros.on) return true;
+  }
   const GCode code = g_code(tenths);
   if (code.standing != Standing::runs) {
     refused_motion = true;
@@ -199,7 +207,10 @@ bool Words::read_m(const Line& line, std::uint32_t at, double value, Report* rep
   int number = -1;
   const bool whole = near_integer(value, number);
   if (dialect_ != Dialect::linuxcnc) number = meant_code(dialect_, 'M', number);
-  const MCode code = whole ? m_code(number) : MCode{};
+  const bool local = number == code::m97 && rules_of(dialect_).macros.local_subs;
+  const MCode code = local   ? MCode{Standing::runs, MGroup::call}
+                     : whole ? m_code(number)
+                             : MCode{};
   if (code.standing == Standing::not_run) {
     return refuse(report, Code::word_not_run, span, fmt::format("kadr does not run M{}", number));
   }
@@ -235,6 +246,10 @@ bool Words::read_setting(const Line& line, const Item& item, const State& state,
   if (!evaluator_.evaluate(line, item.target + 1, item.value, state, report, value)) return false;
   const Span span = line.span({item.bytes.begin, item.equals});
   int parameter_number = 0;
+  if (state.macros.on && near_integer(number, parameter_number)) {
+    settings.push_back({parameter_number, -1, value});
+    return true;
+  }
   if (!near_integer(number, parameter_number) || parameter_number < parameter::kFirst ||
       parameter_number > parameter::kLast) {
     return refuse(report, Code::parameter_range, span,

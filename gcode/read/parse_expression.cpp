@@ -33,6 +33,30 @@ constexpr std::array<NamedOperation, 15> kOperators = {{{"**", Operation::power,
                                                         {"OR", Operation::logical_or, 1},
                                                         {"XOR", Operation::logical_xor, 1}}};
 
+// AND multiplies, OR and XOR add; what compares comes last
+constexpr std::array<NamedOperation, 14> kMacroOperators = {{{"*", Operation::multiply, 3},
+                                                             {"/", Operation::divide, 3},
+                                                             {"MOD", Operation::modulo, 3},
+                                                             {"AND", Operation::logical_and, 3},
+                                                             {"+", Operation::add, 2},
+                                                             {"-", Operation::subtract, 2},
+                                                             {"OR", Operation::logical_or, 2},
+                                                             {"XOR", Operation::logical_xor, 2},
+                                                             {"EQ", Operation::equal, 1},
+                                                             {"NE", Operation::not_equal, 1},
+                                                             {"GT", Operation::greater, 1},
+                                                             {"GE", Operation::greater_equal, 1},
+                                                             {"LT", Operation::less, 1},
+                                                             {"LE", Operation::less_equal, 1}}};
+constexpr std::array<NamedOperation, 2> kMacroFunctions = {
+    {{"SQR", Operation::sqrt, 0}, {"RND", Operation::round, 0}}};
+
+constexpr std::string_view kOperatorList = "+ - * / ** MOD EQ NE GT GE LT LE AND OR XOR";
+constexpr std::string_view kMacroOperatorList = "+ - * / MOD EQ NE GT GE LT LE AND OR XOR";
+constexpr std::string_view kFunctionList = "ABS ACOS ASIN ATAN COS EXP FIX FUP LN ROUND SIN SQRT TAN";
+constexpr std::string_view kMacroFunctionList =
+    "ABS ACOS ASIN ATAN COS EXP FIX FUP LN POW ROUND SIN SQRT TAN";
+
 constexpr std::array<NamedOperation, 12> kFunctions = {{{"ABS", Operation::abs, 0},
                                                         {"ACOS", Operation::acos, 0},
                                                         {"ASIN", Operation::asin, 0},
@@ -105,7 +129,7 @@ bool ExpressionParser::foreign_here() {
 
 std::int32_t ExpressionParser::number() {
   ExpressionNode node;
-  const NumberResult result = cursor_.read_number(node.value, node.own);
+  const NumberResult result = cursor_.read_number(node.value, node.own, in_pair_);
   if (result == NumberResult::good) return add(node);
   if (report_ != nullptr) report_->error(number_problem(line_, result, node.own, 0));
   return -1;
@@ -126,6 +150,7 @@ std::int32_t ExpressionParser::parameter() {
   node.own = {cursor_.at(), cursor_.at() + 1};
   cursor_.advance();
   if (cursor_.peek() == '<') {
+    if (macros_) return refuse_name(node.own.begin);
     node.kind = NodeKind::named;
     node.left = name(node.own.begin);
     node.own.end = cursor_.at();
@@ -133,6 +158,11 @@ std::int32_t ExpressionParser::parameter() {
     node.left = value();
   }
   return node.left < 0 ? -1 : add(node);
+}
+
+std::int32_t ExpressionParser::refuse_name(std::uint32_t sign) {
+  return fail(Code::name_bad, {sign, cursor_.at() + 1}, "macro B has no named variables",
+              "use a number: #100 to #199 are common to all programs");
 }
 
 std::int32_t ExpressionParser::name(std::uint32_t sign) {
@@ -192,7 +222,9 @@ std::int32_t ExpressionParser::group() {
   node.kind = NodeKind::group;
   node.own = {cursor_.at(), cursor_.at() + 1};
   cursor_.advance();
-  node.left = chain(1);
+  const bool around = std::exchange(in_pair_, false);
+  node.left = chain(1, Within::bracket);
+  in_pair_ = around;
   if (node.left < 0) return -1;
   if (cursor_.peek() != ']') return fail(Code::bracket_not_closed, node.own, "no ] closes this bracket");
   node.closing = {cursor_.at(), cursor_.at() + 1};
@@ -204,22 +236,28 @@ std::int32_t ExpressionParser::function() {
   ExpressionNode node;
   node.kind = NodeKind::function;
   const Cursor before = cursor_;
-  if (match(cursor_, "EXISTS", node.own)) return exists(node);
-  if (match(cursor_, "ATAN", node.own)) {
-    node.kind = NodeKind::atan;
-  } else {
-    for (const NamedOperation& f : kFunctions) {
+  const auto find = [&](const auto& functions) {
+    for (const NamedOperation& f : functions) {
       if (!match(cursor_, f.name, node.own)) continue;
       node.operation = f.operation;
-      break;
+      return true;
     }
-    if (node.operation == Operation::none) return unknown_name("function");
+    return false;
+  };
+  if (!macros_ && match(cursor_, "EXISTS", node.own)) return exists(node);
+  if (match(cursor_, "ATAN", node.own) || (macros_ && match(cursor_, "ATN", node.own))) {
+    node.kind = NodeKind::atan;
+  } else if (macros_ && match(cursor_, "POW", node.own)) {
+    node.kind = NodeKind::power;
+  } else if (!find(kFunctions) && !(macros_ && find(kMacroFunctions))) {
+    return macros_ && refuse_macro_function(node) ? -1 : unknown_name("function");
   }
   if (is_letter(cursor_.peek())) {  // SINE, COSH: a name that only begins like a function
     cursor_ = before;
     return unknown_name("function");
   }
   if (cursor_.peek() != '[') return fail(Code::argument_missing, node.own, "an argument in [ ] must follow");
+  if (macros_ && node.kind != NodeKind::function) return pair(node);
   node.left = group();
   if (node.left < 0) return -1;
   if (node.kind == NodeKind::atan) {
@@ -237,38 +275,94 @@ std::int32_t ExpressionParser::function() {
   return add(node);
 }
 
-std::int32_t ExpressionParser::chain(int lowest_precedence) {
+/// ATAN[y]/[x], ATAN[y,x], ATAN[a] and POW[base,exponent] of macro B.
+std::int32_t ExpressionParser::pair(ExpressionNode node) {
+  ExpressionNode brackets;
+  brackets.kind = NodeKind::group;
+  brackets.own = {cursor_.at(), cursor_.at() + 1};
+  cursor_.advance();
+  const bool around = std::exchange(in_pair_, true);
+  node.left = chain(1, Within::bracket);
+  if (node.left >= 0 && cursor_.peek() == ',') {
+    ExpressionNode comma;
+    comma.kind = NodeKind::comma;
+    comma.own = {cursor_.at(), cursor_.at() + 1};
+    cursor_.advance();
+    node.right = chain(1, Within::bracket);
+    if (node.right >= 0) add(comma);
+    else node.left = -1;
+  }
+  in_pair_ = around;
+  if (node.left < 0) return -1;
+  if (cursor_.peek() != ']')
+    return fail(Code::bracket_not_closed, brackets.own, "no ] closes this bracket");
+  brackets.closing = {cursor_.at(), cursor_.at() + 1};
+  cursor_.advance();
+  brackets.left = node.left;
+  const std::int32_t inside = add(brackets);
+  if (node.right >= 0) return add(node);
+  if (node.kind == NodeKind::power)
+    return fail(Code::argument_missing, node.own, "POW takes two arguments", "write POW[base,exponent]");
+  node.left = inside;
+  if (cursor_.peek() == '/') {
+    Cursor ahead = cursor_;
+    ahead.advance();
+    if (ahead.peek() == '[') {
+      node.closing = {cursor_.at(), cursor_.at() + 1};
+      cursor_ = ahead;
+      node.right = group();
+      return node.right < 0 ? -1 : add(node);
+    }
+  }
+  node.kind = NodeKind::function;
+  node.operation = Operation::atan;
+  return add(node);
+}
+
+/// BIN, BCD and ADP depend on how a controller keeps its numbers.
+bool ExpressionParser::refuse_macro_function(ExpressionNode& node) {
+  for (const std::string_view name : {"BIN", "BCD", "ADP"}) {
+    if (!match(cursor_, name, node.own)) continue;
+    fail(Code::word_not_run, node.own, fmt::format("kadr does not run {}", name));
+    return true;
+  }
+  return false;
+}
+
+std::int32_t ExpressionParser::chain(int lowest_precedence, Within within) {
   std::int32_t left = value();
   while (left >= 0) {
     const char c = cursor_.peek();
-    if (c == ']' || cursor_.at_end()) return left;
+    if (c == ']' || cursor_.at_end() || (in_pair_ && c == ',')) return left;
     const Cursor before = cursor_;
     ExpressionNode node;
     node.kind = NodeKind::binary;
-    if (!read_operator(node.operation, node.own)) return unknown_name("operator");
     int precedence = 0;
-    for (const NamedOperation& o : kOperators) {
-      if (o.operation == node.operation) precedence = o.precedence;
-    }
+    if (!read_operator(node.operation, node.own, precedence))
+      return within == Within::line ? left : unknown_name("operator");
     if (precedence < lowest_precedence) {
       cursor_ = before;
       return left;
     }
     node.left = left;
-    node.right = chain(precedence + 1);
+    node.right = chain(precedence + 1, within);
     if (node.right < 0) return -1;
     left = add(node);
   }
   return left;
 }
 
-bool ExpressionParser::read_operator(Operation& operation, Bytes& bytes) {
-  for (const NamedOperation& o : kOperators) {
-    if (!match(cursor_, o.name, bytes)) continue;
-    operation = o.operation;
-    return true;
-  }
-  return false;
+bool ExpressionParser::read_operator(Operation& operation, Bytes& bytes, int& precedence) {
+  const auto find = [&](const auto& operators) {
+    for (const NamedOperation& o : operators) {
+      if (!match(cursor_, o.name, bytes)) continue;
+      operation = o.operation;
+      precedence = o.precedence;
+      return true;
+    }
+    return false;
+  };
+  return macros_ ? find(kMacroOperators) : find(kOperators);
 }
 
 std::int32_t ExpressionParser::unknown_name(const char* expected) {
@@ -277,15 +371,16 @@ std::int32_t ExpressionParser::unknown_name(const char* expected) {
   Bytes bytes{cursor_.at(), cursor_.at() + 1};
   if (!is_letter(c)) {
     return fail(Code::operator_expected, bytes, "an operator or ] is expected here",
-                "operators: + - * / ** MOD EQ NE GT GE LT LE AND OR XOR");
+                fmt::format("operators: {}", macros_ ? kMacroOperatorList : kOperatorList));
   }
   while (bytes.end < line_.text.size() && is_letter(line_.text[bytes.end])) ++bytes.end;
   if (bytes.end - bytes.begin == 1 && expected[0] == 'f') {
     return fail(Code::number_missing, bytes, "a value is missing before this letter");
   }
   return fail(Code::unknown_name, bytes, fmt::format("there is no {} of this name", expected),
-              expected[0] == 'f' ? "functions: ABS ACOS ASIN ATAN COS EXP FIX FUP LN ROUND SIN SQRT TAN"
-                                 : "operators: + - * / ** MOD EQ NE GT GE LT LE AND OR XOR");
+              expected[0] == 'f'
+                  ? fmt::format("functions: {}", macros_ ? kMacroFunctionList : kFunctionList)
+                  : fmt::format("operators: {}", macros_ ? kMacroOperatorList : kOperatorList));
 }
 
 std::int32_t ExpressionParser::add(const ExpressionNode& node) {

@@ -72,7 +72,8 @@ bool Parser::parse_o_word() {
   line_->has_flow = true;
   FlowStatement& flow = line_->flow;
   flow.arguments.clear();
-  flow.keyword = {};
+  flow.keyword = flow.second = {};
+  flow.number = -1;
   flow.first = flow.label_first = flow.label_root = flow.name = -1;
   flow.label = {begin, begin + 1};
   const auto nodes = static_cast<std::int32_t>(line_->nodes.size());
@@ -111,7 +112,7 @@ bool Parser::parse_o_word() {
 }
 
 bool Parser::parse_label(FlowStatement& flow) {
-  ExpressionParser expression(*line_, cursor_, names_, muted_ ? nullptr : &report_);
+  ExpressionParser expression = this->expression();
   const char c = cursor_.peek();
   if (c == '<') {
     flow.name = expression.name(flow.label.begin);
@@ -146,7 +147,7 @@ bool Parser::parse_label(FlowStatement& flow) {
 
 bool Parser::parse_arguments(FlowStatement& flow) {
   const Arguments wanted = arguments_of(flow.word);
-  ExpressionParser expression(*line_, cursor_, names_, muted_ ? nullptr : &report_);
+  ExpressionParser expression = this->expression();
   flow.first = static_cast<std::int32_t>(line_->nodes.size());
   const std::size_t most = wanted == Arguments::any ? kMostArguments : wanted == Arguments::none ? 0 : 1;
   for (;;) {

@@ -36,6 +36,8 @@ void Parser::parse(Line& line, std::size_t begin_at) {
   line.nodes.clear();
   line.failed = false;
   line.has_flow = false;
+  line.only_settings = false;
+  line.macro_call = MacroCall::none;
   if (carriage_return_inside(line)) return;
   cursor_ = Cursor(line.text, static_cast<std::uint32_t>(begin_at));
   if (begin_at > 0) {
@@ -45,7 +47,10 @@ void Parser::parse(Line& line, std::size_t begin_at) {
   }
   for (;;) {
     const char c = cursor_.peek();
-    if (c == '\0' && cursor_.at_end()) return;
+    if (c == '\0' && cursor_.at_end()) {
+      if (macros_.on) note_macro_line();
+      return;
+    }
     std::uint32_t begin = cursor_.at();
     const std::size_t nodes = line.nodes.size();
     const std::size_t items = line.items.size();
@@ -91,7 +96,7 @@ void Parser::leave_unread(Line& line) {
 }
 
 bool Parser::parse_item(char c) {
-  if (line_->has_flow && c != '(' && c != ';') {
+  if (line_->has_flow && c != '(' && c != ';' && line_->flow.word != FlowWord::if_then) {
     return fail(Code::text_after_o_word, {cursor_.at(), static_cast<std::uint32_t>(line_->text.size())},
                 "only a comment may follow an O word and its values");
   }
@@ -134,6 +139,7 @@ bool Parser::parse_word(char letter) {
     word.bytes = {begin, cursor_.at()};
     return true;
   }
+  if (macros_.on && is_letter(cursor_.peek()) && begins_control(begin)) return parse_control(begin);
   Item item;
   item.letter = letter;
   if (begins_number(cursor_)) {
@@ -147,7 +153,7 @@ bool Parser::parse_word(char letter) {
       return fail(Code::number_missing, {begin, begin + 1}, fmt::format("{} has no value", letter));
     }
     item.first = static_cast<std::int32_t>(line_->nodes.size());
-    item.value = ExpressionParser(*line_, cursor_, names_, muted_ ? nullptr : &report_).value();
+    item.value = expression().value();
     if (item.value < 0) return false;
   }
   item.bytes = {begin, cursor_.at()};
@@ -161,10 +167,12 @@ bool Parser::parse_setting() {
   const std::uint32_t begin = cursor_.at();
   cursor_.advance();
   item.first = static_cast<std::int32_t>(line_->nodes.size());
-  if (cursor_.peek() == '<') {
-    item.name = ExpressionParser(*line_, cursor_, names_, muted_ ? nullptr : &report_).name(begin);
+  if (cursor_.peek() == '<' && macros_.on) {
+    expression().refuse_name(begin);
+  } else if (cursor_.peek() == '<') {
+    item.name = expression().name(begin);
   } else {
-    item.target = ExpressionParser(*line_, cursor_, names_, muted_ ? nullptr : &report_).value();
+    item.target = expression().value();
   }
   if (item.target < 0 && item.name < 0) return false;
   if (cursor_.peek() != '=') {
@@ -173,11 +181,15 @@ bool Parser::parse_setting() {
   }
   item.equals = cursor_.at();
   cursor_.advance();
-  item.value = ExpressionParser(*line_, cursor_, names_, muted_ ? nullptr : &report_).value();
+  item.value = macros_.on ? expression().right_side() : expression().value();
   if (item.value < 0) return false;
   item.bytes = {begin, cursor_.at()};
   line_->items.push_back(item);
   return true;
+}
+
+ExpressionParser Parser::expression() {
+  return {*line_, cursor_, names_, muted_ ? nullptr : &report_, macros_.on};
 }
 
 bool Parser::parse_comment() {

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "gcode/dialect/dialect.h"
 #include "gcode/read/names.h"
 #include "gcode/read/report.h"
 #include "gcode/read/scanner.h"
@@ -9,11 +10,14 @@
 
 namespace kadr::gcode {
 
+class ExpressionParser;
+
 /// Text of one line -> items and expression nodes. The first syntax error of a line is reported and the rest of
 /// that line becomes one `unread` item, so the next line is read as if nothing had happened.
 class Parser {
  public:
-  Parser(Names& names, Report& report) : names_(names), report_(report) {}
+  Parser(Names& names, Report& report, Dialect dialect = Dialect::linuxcnc)
+      : names_(names), report_(report), macros_(rules_of(dialect).macros) {}
   /// Takes the whole line as one item that was not read, without a message.
   void leave_unread(Line& line);
   /// Mistakes are not reported: for a line reported before, or one that is never reached.
@@ -29,6 +33,15 @@ class Parser {
   bool parse_o_word();
   bool parse_label(FlowStatement& flow);
   bool parse_arguments(FlowStatement& flow);
+  // parse_macro.cpp
+  bool begins_control(std::uint32_t begin) const;
+  bool parse_control(std::uint32_t begin);
+  bool control_place(std::uint32_t begin);
+  bool parse_condition(FlowStatement& flow);
+  bool parse_behind_condition(FlowStatement& flow);
+  bool parse_target(FlowStatement& flow);
+  bool parse_loop_number(FlowStatement& flow);
+  void note_macro_line();
   bool parse_comment();
   bool parse_line_comment();
   bool parse_percent();
@@ -39,8 +52,11 @@ class Parser {
   bool corner_or_comma(std::uint32_t at);
   bool fail(Code code, Bytes bytes, std::string label, std::string help = {});
 
+  ExpressionParser expression();
+
   Names& names_;
   Report& report_;
+  MacroRules macros_;
   Line* line_ = nullptr;
   Cursor cursor_{{}};
   bool encoding_told_ = false;
@@ -54,15 +70,20 @@ class ExpressionParser {
   static constexpr int kMaxDepth = 100;
 
   /// @param report  null: mistakes are not reported
-  ExpressionParser(Line& line, Cursor& cursor, Names& names, Report* report)
-      : line_(line), cursor_(cursor), names_(names), report_(report) {}
+  /// @param macros  operators and functions are those of macro B
+  ExpressionParser(Line& line, Cursor& cursor, Names& names, Report* report, bool macros = false)
+      : line_(line), cursor_(cursor), names_(names), report_(report), macros_(macros) {}
 
   /// @return index of the root node, -1 after an error was reported
   std::int32_t value();
   /// A value in [ ].
   std::int32_t group();
+  /// The right side of a setting of macro B: operators without brackets around them.
+  std::int32_t right_side() { return chain(1, Within::line); }
   /// Reads <name>. @return its number, -1 after an error was reported
   std::int32_t name(std::uint32_t sign);
+  /// Reports the < of a name where a dialect has none. @return -1
+  std::int32_t refuse_name(std::uint32_t sign);
 
  private:
   std::int32_t number();
@@ -72,8 +93,12 @@ class ExpressionParser {
   std::int32_t parameter();
   std::int32_t function();
   std::int32_t exists(ExpressionNode node);
-  std::int32_t chain(int lowest_precedence);
-  bool read_operator(Operation& operation, Bytes& bytes);
+  /// What ends a chain of operators: the bracket around it, or the first thing that is no operator.
+  enum class Within : std::uint8_t { bracket, line };
+  std::int32_t chain(int lowest_precedence, Within within);
+  bool read_operator(Operation& operation, Bytes& bytes, int& precedence);
+  std::int32_t pair(ExpressionNode node);
+  bool refuse_macro_function(ExpressionNode& node);
   std::int32_t unknown_name(const char* expected);
   std::int32_t add(const ExpressionNode& node);
   std::int32_t fail(Code code, Bytes bytes, std::string label, std::string help = {});
@@ -82,6 +107,8 @@ class ExpressionParser {
   Cursor& cursor_;
   Names& names_;
   Report* report_;
+  bool macros_;
+  bool in_pair_ = false;  ///< a comma separates arguments
   int depth_ = 0;
 };
 

@@ -48,11 +48,12 @@ LineHead head_of(std::string_view line) {
 }  // namespace
 
 Program::Program(const SourceSet& sources, std::uint32_t file, const ReadingBounds& bounds, Names& names,
-                 Report& report)
+                 Report& report, Dialect dialect)
     : text_(sources[file].text()),
       file_(file),
       line_bytes_(bounds.line_bytes),
-      parser_(names, report),
+      macros_(rules_of(dialect).macros.on),
+      parser_(names, report, dialect),
       report_(report) {}
 
 const Line* Program::next() {
@@ -69,12 +70,47 @@ void Program::rewind() {
   at_ = {};
 }
 
+/// Whether the line holds a statement of macro B, M97, M98, M99, G65 or G66, as far as can be seen without reading it.
+bool Program::leads_elsewhere(std::string_view line) const {
+  char letter = 0;  // of the word so far
+  int digits = 0;   // its number so far, without zeros at its head
+  bool apart = true;  // something that is no letter stands before
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    if (is_blank(line[at])) continue;
+    const char c = upper(line[at]);
+    if (c == ';') return false;
+    if (c == '(') {
+      at = line.find(')', at);
+      if (at == std::string_view::npos) return false;
+      continue;
+    }
+    if (is_letter(c)) {
+      // a word is a letter and something else
+      if (!apart) return true;
+      letter = c;
+      digits = 0;
+      apart = false;
+      continue;
+    }
+    apart = true;
+    if (!is_digit(c)) {
+      letter = 0;
+      continue;
+    }
+    digits = std::min(10 * digits + (c - '0'), 1000);
+    if ((letter == 'M' && digits >= 97 && digits <= 99) || (letter == 'G' && (digits == 65 || digits == 66)))
+      return true;
+  }
+  return false;
+}
+
 bool Program::has_o_words() const {
   bool at_head = true;
   for (std::size_t at = 0; at < text_.size();) {
     const auto* newline = static_cast<const char*>(std::memchr(text_.data() + at, '\n', text_.size() - at));
     const std::size_t end = newline ? static_cast<std::size_t>(newline - text_.data()) : text_.size();
     const LineHead head = head_of(text_.substr(at, end - at));
+    if (macros_ && leads_elsewhere(text_.substr(at, end - at))) return true;
     if (head == LineHead::o_word && !at_head) return true;
     if (head == LineHead::o_word) {
       // a number alone at the beginning names the program, as on a Fanuc control

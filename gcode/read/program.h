@@ -20,7 +20,7 @@ class Program {
   };
 
   Program(const SourceSet& sources, std::uint32_t file, const ReadingBounds& bounds, Names& names,
-          Report& report);
+          Report& report, Dialect dialect = Dialect::linuxcnc);
 
   /// Parses the next line; it holds until the next call. Null at the end of the text.
   const Line* next();
@@ -32,15 +32,18 @@ class Program {
   /// Back to the beginning of the text, after all of it was read and its mistakes reported. From here on nothing is
   /// reported twice, and the lines of a short text stay parsed.
   void rewind();
-  /// True if some line begins with an O word other than a program number at the very beginning.
+  /// True if some line begins with an O word other than a program number at the very beginning, or of a dialect with
+  /// macro B, if it may lead to another line than the next.
   bool has_o_words() const;
 
  private:
   bool read(Line& line);
+  bool leads_elsewhere(std::string_view line) const;
 
   std::string_view text_;
   std::uint32_t file_;
   std::uint32_t line_bytes_;
+  bool macros_;
   Position at_;
   Parser parser_;
   Report& report_;

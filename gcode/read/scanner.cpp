@@ -52,7 +52,7 @@ bool Cursor::read_plain_number(double& value) {
   return true;
 }
 
-NumberResult Cursor::read_number(double& value, Bytes& bytes) {
+NumberResult Cursor::read_number(double& value, Bytes& bytes, bool comma_ends) {
   char c = peek();
   bytes.begin = at_;
   const bool negative = c == '-';
@@ -86,7 +86,7 @@ NumberResult Cursor::read_number(double& value, Bytes& bytes) {
     bytes.end = end > bytes.begin ? end : bytes.begin + 1;
     return NumberResult::no_digits;
   }
-  if (c == ',' && Cursor(text_, at_ + 1).begins_digit()) {
+  if (c == ',' && !comma_ends && Cursor(text_, at_ + 1).begins_digit()) {
     bytes.end = at_ + 1;
     return NumberResult::decimal_comma;
   }

@@ -48,7 +48,8 @@ class Cursor {
   bool read_plain_number(double& value);
   /// Reads sign, digits, point, digits. Correctly rounded. The cursor is left after the number.
   /// @param bytes  position of the number; on failure, of the offending sign
-  NumberResult read_number(double& value, Bytes& bytes);
+  /// @param comma_ends  a comma separates two numbers; it is no decimal mark
+  NumberResult read_number(double& value, Bytes& bytes, bool comma_ends = false);
 
  private:
   NumberResult read_long_number(double& value, Bytes bytes);

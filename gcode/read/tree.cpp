@@ -35,6 +35,12 @@ std::vector<Bytes> lexemes_of(const Line& line) {
         if (line.flow.keyword.end > 0) lexemes.push_back(line.flow.keyword);
         collect(line, item, end_node, lexemes);
         break;
+      case ItemKind::control:
+        lexemes.push_back(line.flow.keyword);
+        for (const Bytes more : {line.flow.second, line.flow.label})
+          if (more.end > 0) lexemes.push_back(more);
+        collect(line, item, end_node, lexemes);
+        break;
       case ItemKind::setting:
         lexemes.push_back({begin, item.name < 0 ? begin + 1 : item.equals});
         lexemes.push_back({item.equals, item.equals + 1});

@@ -24,7 +24,9 @@ enum class NodeKind : std::uint8_t {
   group,         ///< [left]
   binary,        ///< left operation right
   function,      ///< name[left]
-  atan,          ///< ATAN[left]/[right]
+  atan,          ///< ATAN[left]/[right], of macro B ATAN[left,right], too
+  power,         ///< POW[left,right]
+  comma,         ///< between two arguments
   named,         ///< #<name>; left: number of the name
   exists,        ///< EXISTS[#left] of a numbered parameter
   exists_named,  ///< EXISTS[#<name>]; left: number of the name
@@ -52,6 +54,7 @@ enum class Operation : std::uint8_t {
   tan,
   asin,
   acos,
+  atan,  ///< of one argument
   sqrt,
   exp,
   ln,
@@ -75,6 +78,7 @@ struct ExpressionNode {
 enum class ItemKind : std::uint8_t {
   word,             ///< letter and value
   o_word,           ///< O with its label, keyword and arguments: Line::flow
+  control,          ///< IF, WHILE, GOTO, DO or END of macro B: Line::flow
   setting,          ///< #index = value
   comment,          ///< ( ... )
   line_comment,     ///< ; ...
@@ -97,7 +101,7 @@ struct Item {
   std::uint32_t equals = 0;  ///< setting: position of `=`
 };
 
-/// Keywords of O words.
+/// Keywords of O words and of macro B.
 enum class FlowWord : std::uint8_t {
   label,  ///< O and a number alone: a program's number, or the head of a subroutine that M98 calls
   sub,
@@ -115,19 +119,32 @@ enum class FlowWord : std::uint8_t {
   end_repeat,
   break_loop,
   continue_loop,
+  // macro B
+  go_to,     ///< GOTO n
+  if_go_to,  ///< IF [condition] GOTO n
+  if_then,   ///< IF [condition] THEN, and the rest of the line
+  while_do,  ///< WHILE [condition] DO n
+  do_loop,   ///< DO n
+  end_do,    ///< END n
 };
+constexpr bool is_macro_word(FlowWord word) { return word >= FlowWord::go_to; }
 
-/// The O word of a line.
+/// The O word of a line, or its statement of macro B.
 struct FlowStatement {
   FlowWord word = FlowWord::label;
   std::int32_t name = -1;         ///< number of the label in Names; -1: computed
   std::int32_t label_first = -1;  ///< computed label: its nodes
   std::int32_t label_root = -1;
-  Bytes label;                          ///< O and its label
+  Bytes label;                          ///< O and its label; n of GOTO, DO and END, empty if computed
   Bytes keyword;                        ///< empty for a label alone
+  Bytes second;                         ///< GOTO, THEN or DO behind a condition
+  std::int32_t number = -1;             ///< n of GOTO, DO and END; -1: computed, or none
   std::vector<std::int32_t> arguments;  ///< root nodes; the nodes of one end where those of the next begin
   std::int32_t first = -1;              ///< first node of the first argument
 };
+
+/// The macro call on a line, whose words are arguments.
+enum class MacroCall : std::uint8_t { none, once /* G65 */, modal /* G66 */, cancel /* G67 */ };
 
 /// A line as written. Storage is kept from line to line.
 struct Line {
@@ -137,9 +154,11 @@ struct Line {
   std::string_view ending;   ///< "\n" or "\r\n"; "\r" or "" at the end of the file
   std::vector<Item> items;
   std::vector<ExpressionNode> nodes;
-  FlowStatement flow;     ///< if has_flow
-  bool has_flow = false;  ///< there is an O word on the line
-  bool failed = false;    ///< a syntax error was reported; items before it are valid
+  FlowStatement flow;         ///< if has_flow
+  bool has_flow = false;      ///< there is an O word or a statement of macro B on the line
+  bool failed = false;        ///< a syntax error was reported; items before it are valid
+  bool only_settings = false; ///< of macro B: settings and nothing else that acts, statements apart
+  MacroCall macro_call = MacroCall::none;
 
   Span span(Bytes bytes) const {
     return {file, number, bytes.begin + 1, bytes.end > bytes.begin ? bytes.end - bytes.begin : 1};

@@ -63,6 +63,13 @@ enum class Code : std::uint16_t {
   too_many_lines = 1044,
   sub_of_other_file = 1045,
   program_aborts = 1046,
+  macro_statement = 1050,
+  macro_loop = 1051,
+  sequence_number_missing = 1052,
+  sequence_number_twice = 1053,
+  jump_into_loop = 1054,
+  system_variable = 1055,
+  macro_argument = 1056,
 
   // K1xxx reading a control program: words and codes (codes/reading.inc)
   word_not_run = 1101,
