@@ -132,6 +132,10 @@ void Options::reading(CLI::App* sub, Writes writes) {
       ->type_name("SYSTEM=LIST")
       ->allow_extra_args(false)
       ->take_all();
+  dialect(sub);
+}
+
+void Options::dialect(CLI::App* sub) {
   sub->add_option_function<std::string>(
          "--dialect",
          [this](const std::string& text) {

@@ -42,6 +42,7 @@ class Options {
   enum class Writes : std::uint8_t { nothing, log };
   void reading(CLI::App* sub, Writes writes = Writes::nothing);
   /// --limit, for every command that reads programs: messages about a bound name it.
+  void dialect(CLI::App* sub);
   void limits(CLI::App* sub, Writes writes = Writes::nothing);
   void allow(CLI::App* sub);
   void strict(CLI::App* sub);

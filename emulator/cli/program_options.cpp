@@ -127,6 +127,7 @@ void add_fmt(Options& o) {
   CLI::Option* check = sub->add_flag("--check", o.arguments.only_check,
                                      "Print only the names of programs that differ; exit 1 if there are any");
   sub->add_flag("-i,--in-place", o.arguments.in_place, "Rewrite the files that differ")->excludes(check);
+  o.dialect(sub);
   o.limits(sub);
   o.diagnostics(sub);
   o.output(sub);

@@ -110,6 +110,22 @@ void Flow::warn_other_file(const Target& target, std::int32_t name, Span place) 
               fmt::format("move it to {}.ngc, or into the program", state_.names[name])));
 }
 
+/// A dialect with macro B has subprograms in files like O1001.nc or O0001.
+FoundText Flow::find_text(const std::string& name) const {
+  FoundText first = called_.find(name);
+  const bool number = !name.empty() && name.size() <= 5 && std::all_of(name.begin(), name.end(), is_digit);
+  if (!macros_ || !number || first.text || !first.refusal.empty()) return first;
+  for (const std::size_t digits : {std::size_t{4}, std::size_t{5}}) {
+    const std::string padded = std::string(digits - std::min(digits, name.size()), '0') + name;
+    for (const char* head : {"O", "o", ""}) {
+      FoundText found = called_.find(head + padded);
+      if (found.text || !found.refusal.empty()) return found;
+      if (digits == 4 && head[0] == 'O') first.looked = found.looked;
+    }
+  }
+  return first;
+}
+
 bool Flow::load(std::int32_t name, Span place) {
   const std::string& text = state_.names[name];
   const auto loaded =
@@ -118,7 +134,7 @@ bool Flow::load(std::int32_t name, Span place) {
   // folders are asked once for each name
   const auto [known, is_new] = unusable_.try_emplace(name);
   FoundText& found = known->second;
-  if (is_new) found = called_.find(text);
+  if (is_new) found = find_text(text);
   if (!found.refusal.empty()) {
     const Code code = found.too_large ? Code::file_too_large : Code::sub_file;
     error(problem(code, place, found.refusal, found.help));

@@ -27,7 +27,7 @@ Flow::Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& optio
       interpreter_(interpreter),
       state_(interpreter.state()),
       beside_(FolderTexts::beside(sources[file].name(), options.sub_folders, options.bounds.file_bytes,
-                                  options.allowed_folders)),
+                                  options.allowed_folders, rules_of(options.dialect).macros.on)),
       called_(options.called_files ? *options.called_files : beside_),
       end_{file, 1, 1, 1},
       macros_(rules_of(options.dialect).macros.on) {
@@ -35,7 +35,7 @@ Flow::Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& optio
 }
 
 void Flow::run() {
-  report_.watch_kind(file_, sources_[file_].text());
+  report_.watch_kind(file_, sources_[file_].text(), options_.dialect);
   if (!readable(file_) || !add_unit(file_, {})) return;
   unit_ = units_.front().get();
   while (!interpreter_.ended() && !report_.full() && !stopped_) {

@@ -91,6 +91,7 @@ class Flow {
   Target find(std::int32_t name, bool by_code, Span place);
   Target find_known(std::int32_t name, bool by_code) const;
   bool load(std::int32_t name, Span place);
+  FoundText find_text(const std::string& name) const;
   bool enter(Target target, CallKind kind, Span place, const std::vector<double>& arguments);
   void take_arguments(const std::vector<double>& arguments);
   void give_back(const Line& line);

@@ -74,7 +74,7 @@ bool is_macro(std::string_view line) {
 
 }  // namespace
 
-std::optional<OtherKind> other_kind(std::string_view text) {
+std::optional<OtherKind> other_kind(std::string_view text, bool macros) {
   for (std::size_t count = 0; !text.empty() && count < kMostLines; ++count) {
     const std::string_view written = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(written.size() + 1, text.size()));
@@ -89,9 +89,9 @@ std::optional<OtherKind> other_kind(std::string_view text) {
     if (is_heidenhain(line))
       return OtherKind{"a program in Heidenhain's language",
                        "let the postprocessor write ISO code (DIN/ISO)"};
-    if (is_macro(line))
+    if (!macros && is_macro(line))
       return OtherKind{"a Fanuc or Haas macro (macro B: IF .. GOTO, WHILE .. DO)",
-                       "kadr runs the O words of LinuxCNC: O1 if [#1 LT 5] ... O1 endif"};
+                       "run it with --dialect fanuc, or --dialect haas"};
   }
   return std::nullopt;
 }

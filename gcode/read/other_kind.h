@@ -16,7 +16,8 @@ struct OtherKind {
 
 /// Looks for what only a slicer, Sinumerik, Heidenhain or a Fanuc macro writes, in the first 2000 lines. To be asked of
 /// texts with errors alone: what it looks for is an error for kadr, too.
-std::optional<OtherKind> other_kind(std::string_view text);
+/// @param macros  the dialect has macro B, so that this is no other kind
+std::optional<OtherKind> other_kind(std::string_view text, bool macros = false);
 
 /// "UTF-16" or "UTF-32" if the bytes are a text in it: by its byte order mark, or by the zeros between Latin letters.
 std::string_view other_encoding(std::string_view text);

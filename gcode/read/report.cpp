@@ -25,7 +25,7 @@ void Report::last_error(Diagnostic d) {
 /// The first error of a text of another kind is told as that.
 bool Report::tell_kind(const Diagnostic& d) {
   if (!watched_ || watched_->file != d.span.file) return false;
-  const std::optional<OtherKind> kind = other_kind(watched_->text);
+  const std::optional<OtherKind> kind = other_kind(watched_->text, watched_->macros);
   watched_.reset();
   if (!kind) return false;
   Diagnostic told = problem(Code::kind_other, d.span, "this looks like " + kind->name, kind->help);

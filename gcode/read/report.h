@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gcode/read/tree.h"
+#include "gcode/dialect/dialect.h"
 #include "machine/base/diagnostic.h"
 
 namespace kadr::gcode {
@@ -39,7 +40,9 @@ class Report {
   std::size_t found() const { return errors_ + warnings_ + met_; }
   /// The text whose first error may say that it is of another kind (gcode/read/other_kind.h): that is told in its place,
   /// and reading ends.
-  void watch_kind(std::uint32_t file, std::string_view text) { watched_ = {file, text}; }
+  void watch_kind(std::uint32_t file, std::string_view text, Dialect dialect) {
+    watched_ = {file, text, rules_of(dialect).macros.on};
+  }
   /// The calls in force while the program runs, outermost first, as they are pushed and popped: every
   /// diagnostic from now on carries them. Null: none. The vector must outlive its use here.
   void set_call_chain(const std::vector<Span>* chain) { chain_ = chain; }
@@ -65,6 +68,7 @@ class Report {
   struct Watched {
     std::uint32_t file = 0;
     std::string_view text;
+    bool macros = false;  ///< macro B is not another kind
   };
   bool first_time(const Diagnostic& d);
   bool tell_kind(const Diagnostic& d);

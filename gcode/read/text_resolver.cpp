@@ -1,6 +1,7 @@
 #include "gcode/read/text_resolver.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <system_error>
@@ -30,31 +31,28 @@ FoundText open_text(const InputFile& file, std::uint64_t most_bytes) {
 
 }  // namespace
 
+std::vector<std::string> file_endings(bool macros) {
+  if (!macros) return {".ngc"};
+  return {".ngc", ".nc", ".NC", ".cnc", ".tap", ".txt"};
+}
+
 FolderTexts FolderTexts::beside(const std::string& program, const std::vector<std::string>& others,
-                                std::uint64_t most_bytes, std::vector<std::string> allowed) {
+                                std::uint64_t most_bytes, std::vector<std::string> allowed, bool macros) {
   std::vector<std::string> folders;
   const fs::path path = program;
   if (path != "-") folders.push_back(path.has_parent_path() ? path.parent_path().string() : ".");
   folders.insert(folders.end(), others.begin(), others.end());
-  return FolderTexts(std::move(folders), most_bytes, std::move(allowed));
+  return FolderTexts(std::move(folders), most_bytes, std::move(allowed), macros);
 }
 
 FoundText FolderTexts::find(std::string_view name) const {
   if (name.find('/') != std::string_view::npos || name.find("..") != std::string_view::npos)
     return refuse("the name holds a path");
   for (const std::string& folder : folders_) {
-    std::error_code error;
-    const InputFile wanted(std::string(name) + ".ngc", InputFolders{folder, allowed_});
-    if (!fs::exists(wanted.path, error)) continue;
-    switch (place_of(wanted)) {
-      case InputPlace::inside:
-        return open_text(wanted, most_bytes_);
-      case InputPlace::outside:
-        return refuse(
-            wanted.path + " is a link that leads out of its folder",
-            "put the file below the program's folder, or allow the folder that it is in with --allow DIR");
-      case InputPlace::missing:
-        return refuse(wanted.path + " is not a plain file");
+    for (const std::string& ending : endings_) {
+      std::error_code error;
+      const InputFile wanted(std::string(name) + ending, InputFolders{folder, allowed_});
+      if (fs::exists(wanted.path, error)) return found(wanted);
     }
   }
   std::string looked;
@@ -63,8 +61,23 @@ FoundText FolderTexts::find(std::string_view name) const {
           {},
           {},
           looked.empty() ? "a program from standard input has no folder; --subs names one"
-                         : fmt::format("kadr looked for {}.ngc in {}", name, looked),
+                         : fmt::format("kadr looked for {}{} in {}", name,
+                                       fmt::join(endings_, fmt::format(", {}", name)), looked),
           false};
+}
+
+FoundText FolderTexts::found(const InputFile& wanted) const {
+  switch (place_of(wanted)) {
+    case InputPlace::inside:
+      return open_text(wanted, most_bytes_);
+    case InputPlace::outside:
+      return refuse(
+          wanted.path + " is a link that leads out of its folder",
+          "put the file below the program's folder, or allow the folder that it is in with --allow DIR");
+    case InputPlace::missing:
+      break;
+  }
+  return refuse(wanted.path + " is not a plain file");
 }
 
 FoundText MemoryTexts::find(std::string_view name) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gcode/reading_bounds.h"
+#include "machine/base/confinement.h"
 #include "machine/base/diagnostic.h"
 
 namespace kadr::gcode {
@@ -28,24 +29,33 @@ class TextResolver {
   virtual FoundText find(std::string_view name) const = 0;
 };
 
-/// Looks for NAME.ngc in folders, in their order. A file counts only if it is a plain file below its folder, or an
+/// Endings of files that hold subroutines, in the order in which they are looked for.
+std::vector<std::string> file_endings(bool macros);
+
+/// Looks for NAME.ngc, or other endings, in folders, in their order. A file counts only if it is a plain file below its folder, or an
 /// allowed one, once all links are followed; names that contain a path are refused.
 class FolderTexts final : public TextResolver {
  public:
   /// @param most_bytes  larger files are refused; 0: no bound
   /// @param allowed     folders that links may lead to; nothing is looked for there
+  /// @param macros      of a dialect with macro B: O1001.nc and others, too
   explicit FolderTexts(std::vector<std::string> folders,
                        std::uint64_t most_bytes = ReadingBounds().file_bytes,
-                       std::vector<std::string> allowed = {})
-      : folders_(std::move(folders)), allowed_(std::move(allowed)), most_bytes_(most_bytes) {}
+                       std::vector<std::string> allowed = {}, bool macros = false)
+      : folders_(std::move(folders)),
+        allowed_(std::move(allowed)),
+        endings_(file_endings(macros)),
+        most_bytes_(most_bytes) {}
   /// The folder of a program, unless it comes from standard input ("-"), then the others.
   static FolderTexts beside(const std::string& program, const std::vector<std::string>& others,
                             std::uint64_t most_bytes = ReadingBounds().file_bytes,
-                            std::vector<std::string> allowed = {});
+                            std::vector<std::string> allowed = {}, bool macros = false);
   FoundText find(std::string_view name) const override;
 
  private:
-  std::vector<std::string> folders_, allowed_;
+  FoundText found(const InputFile& wanted) const;
+
+  std::vector<std::string> folders_, allowed_, endings_;
   std::uint64_t most_bytes_;
 };
 
