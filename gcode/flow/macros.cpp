@@ -61,7 +61,7 @@ void Flow::control(const Line& line, int index) {
 
 /// An O number alone heads the next program of the file: the one before ends here.
 void Flow::begin_program(const Line& line) {
-  if (line.number == unit_->structure.head_line() && calls_.empty()) return;
+  if (straight_ || (line.number == unit_->structure.head_line() && calls_.empty())) return;
   stopped_ = true;
   if (calls_.empty()) return;
   error(problem(Code::sub_without_end, line.span(line.flow.label), "the next program begins before an M99",

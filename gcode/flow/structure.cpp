@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -129,6 +128,7 @@ struct Structure::Reader {
   std::set<std::int32_t> labels_in_scope = {};  ///< of ifs and loops, in this sub or main program
   std::set<std::int32_t> labels_of_main = {};   ///< kept while a sub is read
   std::vector<int> open_loops = {};             ///< DO of macro B without an END so far, the innermost last
+  std::map<std::int32_t, std::vector<int>> loops_of = {};  ///< the same by number
 
   void error(Code code, Span span, std::string label, std::string note = {}, std::string help = {}) {
     Diagnostic d = problem(code, span, std::move(label), std::move(help));
@@ -235,32 +235,35 @@ struct Structure::Reader {
     }
   }
 
-  /// The places in loops of macro B have different numbers: DO1 in DO1 is not allowed.
+  /// Loops of macro B inside each other have different numbers.
   void open_loop(int index) {
     const Statement& s = structure[index];
-    for (const int outer : open_loops) {
-      if (structure[outer].name != s.name) continue;
+    std::vector<int>& same = loops_of[s.name];
+    if (!same.empty()) {
       error(Code::macro_loop, s.span, fmt::format("DO{} inside DO{}", s.name, s.name),
-            fmt::format("the outer one is on line {}", structure[outer].span.line),
+            fmt::format("the outer one is on line {}", structure[same.back()].span.line),
             "loops inside each other have different numbers");
     }
+    same.push_back(index);
     open_loops.push_back(index);
   }
 
   void close_loop(int index) {
     Statement& s = structure.statements_[static_cast<std::size_t>(index)];
-    const auto fitting = std::find_if(open_loops.rbegin(), open_loops.rend(),
-                                      [&](int loop) { return structure[loop].name == s.name; });
-    if (fitting == open_loops.rend())
-      return error(Code::macro_loop, s.span, fmt::format("no DO{} is open here", s.name));
-    if (fitting != open_loops.rbegin()) {
-      error(Code::macro_loop, s.span, fmt::format("DO{} is still open here", structure[open_loops.back()].name),
-            fmt::format("it is on line {}", structure[open_loops.back()].span.line),
-            "the loop that begins last ends first");
+    const std::vector<int>& same = loops_of[s.name];
+    if (same.empty()) return error(Code::macro_loop, s.span, fmt::format("no DO{} is open here", s.name));
+    const int loop = same.back();
+    if (loop != open_loops.back()) {
+      const Statement& inner = structure[open_loops.back()];
+      error(Code::macro_loop, s.span, fmt::format("DO{} is still open here", inner.name),
+            fmt::format("it is on line {}", inner.span.line), "the loop that begins last ends first");
     }
-    s.begin = *fitting;
-    structure.statements_[static_cast<std::size_t>(s.begin)].end = index;
-    open_loops.erase(std::prev(fitting.base()), open_loops.end());
+    s.begin = loop;
+    structure.statements_[static_cast<std::size_t>(loop)].end = index;
+    while (!open_loops.empty() && open_loops.back() >= loop) {
+      loops_of[structure[open_loops.back()].name].pop_back();
+      open_loops.pop_back();
+    }
   }
 
   /// The end of a program of the file.
@@ -270,6 +273,7 @@ struct Structure::Reader {
       error(Code::macro_loop, s.span, fmt::format("no END{} follows", s.name));
     }
     open_loops.clear();
+    loops_of.clear();
   }
 
   void find_targets() {

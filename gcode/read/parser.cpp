@@ -100,6 +100,10 @@ bool Parser::parse_item(char c) {
     return fail(Code::text_after_o_word, {cursor_.at(), static_cast<std::uint32_t>(line_->text.size())},
                 "only a comment may follow an O word and its values");
   }
+  if (line_->has_flow && !macros_.then_runs_words && c != '(' && c != ';' && c != '#') {
+    return fail(Code::macro_statement, {cursor_.at(), static_cast<std::uint32_t>(line_->text.size())},
+                "only a setting may follow THEN", "write IF [condition] GOTO n, around what the condition decides");
+  }
   if (is_letter(c)) return parse_word(upper(c));
   switch (c) {
     case '(':

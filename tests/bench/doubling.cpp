@@ -48,6 +48,21 @@ void check_program(const std::string& text) {
   benchmark::DoNotOptimize(blocks + told);
 }
 
+/// A program of macro B.
+void check_macro(const std::string& text) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  gcode::InterpretOptions options;
+  options.dialect = gcode::Dialect::fanuc;
+  std::uint64_t blocks = 0;
+  gcode::interpret(
+      sources, sources.add(SourceText("p.nc", text)), options, [&](const gcode::Block&) { ++blocks; },
+      diagnostics);
+  std::size_t told = 0;
+  for (const Diagnostic& d : diagnostics.list()) told += render_human(d, sources).size();
+  benchmark::DoNotOptimize(blocks + told);
+}
+
 void check_as_sarif(const std::string& text) {
   SourceSet sources;
   Diagnostics diagnostics;
@@ -141,6 +156,41 @@ const Construct kConstructs[] = {
     {"calls", 20'000,
      [](int n) { return "O1 sub\nO1 endsub\n" + repeated(n, [](int) { return "O1 call\n"; }) + "M2\n"; },
      check_program},
+    {"macro_numbers", 20'000,
+     [](int n) { return repeated(n, [](int i) { return fmt::format("N{} G0 X{}\n", i, i % 97); }) + "GOTO 9\n"; },
+     check_macro},
+    {"macro_jumps_forward", 20'000,
+     [](int n) {
+       return repeated(n, [](int i) { return fmt::format("N{} GOTO {}\n", i, i + 1); }) +
+              fmt::format("N{} M30\n", n + 1);
+     },
+     check_macro},
+    {"macro_jumps_back", 20'000,
+     [](int n) {
+       return fmt::format("GOTO {}\nN0 M30\n", n) +
+              repeated(n, [](int i) { return fmt::format("N{} GOTO [{}]\n", i, i - 1); });
+     },
+     check_macro},
+    {"macro_missing_numbers", 20'000,
+     [](int n) { return repeated(n, [](int i) { return fmt::format("GOTO {}\n", i); }); }, check_macro},
+    {"macro_loops", 10'000,
+     [](int n) {
+       return repeated(n, [](int) { return "DO1\nDO2\nDO3\nGOTO 1\nEND3\nEND2\nEND1\n"; }) + "N1 M30\n";
+     },
+     check_macro},
+    {"macro_open_loops", 10'000,
+     [](int n) { return repeated(n, [](int) { return "WHILE [#1 EQ 1] DO1\n"; }) + "M30\n"; }, check_macro},
+    {"macro_calls", 10'000,
+     [](int n) { return repeated(n, [](int) { return "G65 P1 A1 B2\n"; }) + "M30\nO1\nG0 X#1\nM99\n"; },
+     check_macro},
+    {"macro_programs", 10'000,
+     [](int n) {
+       return "M98 P1\nM30\n" +
+              repeated(n, [](int i) { return fmt::format("O{}\nIF [1 EQ 2] GOTO 5\nN5 M99\n", i); });
+     },
+     check_macro},
+    {"macro_right_side", 20'000,
+     [](int n) { return "#1=1" + repeated(n, [](int) { return "+#2*3"; }) + "\n"; }, check_macro},
     {"nurbs", 1'000,
      [](int n) {
        return "F9000\nG5.2 P1 L16\n" +

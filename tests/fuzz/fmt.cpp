@@ -18,12 +18,18 @@ struct Formed {
   bool good = false;
 };
 
+/// What a program that begins with ";!" chooses, as for the target `program`: fanuc, haas, or linuxcnc.
+Dialect dialect_of(const std::string& text) {
+  if (text.size() < 3 || text.substr(0, 2) != ";!") return Dialect::linuxcnc;
+  return text[2] == '(' ? Dialect::fanuc : text[2] == '!' ? Dialect::haas : Dialect::linuxcnc;
+}
+
 Formed form(const std::string& text) {
   SourceSet sources;
   const auto file = sources.add(SourceText("fuzz.ngc", text));
   Diagnostics diagnostics;
   Formed formed;
-  formed.good = format_program(sources, file, diagnostics, formed.text);
+  formed.good = format_program(sources, file, diagnostics, formed.text, {}, dialect_of(text));
   require(formed.good == !diagnostics.has_errors(), "the result says whether there was a mistake");
   fuzz::check_diagnostics(diagnostics, sources);
   return formed;
@@ -34,6 +40,7 @@ std::string trace(const std::string& text) {
   SourceSet sources;
   const auto file = sources.add(SourceText("/nowhere/fuzz.ngc", text));
   InterpretOptions options;
+  options.dialect = dialect_of(text);
   options.bounds = {.blocks = 1000,
                     .lines = 50'000,
                     .messages = 1000,

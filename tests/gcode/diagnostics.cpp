@@ -54,6 +54,7 @@ InterpretOptions machine_for(const std::string& program) {
   if (program.rfind("K1043", 0) == 0) options.bounds.line_bytes = 64;
   if (program.rfind("K1044", 0) == 0) options.bounds.lines = 50;
   if (program.rfind("K1302", 0) == 0) options.bounds.messages = 10;
+  if (program.rfind("K105", 0) == 0) options.dialect = Dialect::fanuc;  // macro B
   if (program.rfind("K1125", 0) == 0) options.units_said = false;
   if (program.rfind("K1128", 0) == 0) options.startup = "G18 G64 P0.1 X5 M3 G28";
   static const MemoryTexts two_subs = [] {
