@@ -25,7 +25,7 @@ inline constexpr int m0 = 0, m1 = 1, m2 = 2, m3 = 3, m4 = 4, m5 = 5, m6 = 6, m7 
 
 /// Codes of macro B. No other dialect has them, and kadr knows no others of their groups.
 namespace code {
-inline constexpr int g67 = 670, m97 = 97;
+inline constexpr int g66_1 = 661, g67 = 670, m97 = 97;
 }
 
 /// Modal groups of G codes (RS-274/NGC numbers them 0 to 13); one code of a group per line.

@@ -167,6 +167,11 @@ bool Evaluator::read_macro(const Line& line, const ExpressionNode& node, const S
     value = state.parameters[static_cast<std::size_t>(number)];
     return true;
   }
+  const bool computed = line.nodes[static_cast<std::size_t>(node.left)].kind != NodeKind::number;
+  if (computed && is_input_variable(number)) {
+    return fail(Code::system_variable, line.span(node.own),
+                fmt::format("#{} is an input: write its number without an expression", number));
+  }
   if (tells_position(number) && state.compensating()) {
     return fail(Code::compensation_conflict, line.span(node.own),
                 fmt::format("#{} tells where the tool is, which the next move decides", number));

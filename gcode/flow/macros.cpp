@@ -11,6 +11,7 @@ void Flow::step_macro(const Line& line) {
   const bool deleted =
       options_.block_delete && !line.items.empty() && line.items.front().kind == ItemKind::block_delete;
   if (deleted || line.items.empty()) return;
+  if (line.reads_inputs && !line.failed) interpreter_.read_inputs(line);
   if (line.has_flow && !line.failed) return statement(line);
   if (line.only_settings && !line.failed) return interpreter_.assign(line);
   if (!line.failed && (line.macro_call == MacroCall::once || line.macro_call == MacroCall::modal)) {

@@ -63,6 +63,8 @@ class Interpreter {
   // macros.cpp
   /// Runs a line of nothing but settings of macro B, each one before the next.
   void assign(const Line& line);
+  /// Reads the inputs of macro B that stand on a line.
+  void read_inputs(const Line& line);
   /// Runs a line of G65 or G66.
   void macro_call(const Line& line);
   void cancel_modal_call() { modal_call_.reset(); }
@@ -300,6 +302,7 @@ class Interpreter {
   // inputs.cpp: M62 to M68
   void inputs_and_outputs();
   void wait_input();
+  InputReading read_input(const InputWait& wait) const;
   void check_functions();
   void check_orientation();
   void check_inputs();

@@ -113,6 +113,7 @@ std::optional<WorkOffsetVariable> work_offset_variable_of(int number) {
 
 std::optional<double> read_system_variable(const State& state, int number) {
   if (number == 0) return kVacant;
+  if (is_input_variable(number)) return state.parameters[static_cast<std::size_t>(number)];
   if (const std::optional<double> modal = modal_variable(state, number)) return modal;
   if (const std::optional<double> length = tool_variable(state, number)) return length;
   if (const std::optional<WorkOffsetVariable> offset = work_offset_variable_of(number))
@@ -134,7 +135,7 @@ std::string system_variable_text(int number) {
   constexpr Range kRanges[] = {
       {34, 99, "is no variable of this controller"},
       {200, 499, "is no variable of this controller"},
-      {1000, 1063, "is an input of the machine's controller, which kadr does not have"},
+      {1032, 1063, "is an input of the machine's controller, which kadr does not have"},
       {1064, 1099, "is no variable of this controller"},
       {2201, 2999, "is a part of a tool's offset that kadr's table does not hold"},
       {3001, 3002, "is a timer: no time passes while kadr reads a program, and G4 waits"},

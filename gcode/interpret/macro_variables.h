@@ -10,6 +10,7 @@ namespace kadr::gcode {
 
 namespace macro_variable {
 inline constexpr int kLast = 999;  ///< of those that hold what the program writes
+inline constexpr int kInput = 1000;  ///< is_input_variable()
 inline constexpr int kOutput = 1100, kOutputLast = 1131;
 inline constexpr int kAlarm = 3000, kStop = 3006;
 inline constexpr int kSingleBlock = 3003, kHoldAndOverride = 3004;

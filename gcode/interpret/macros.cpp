@@ -74,6 +74,11 @@ void Interpreter::set_macro_variable(int number, double value, Span place) {
   if (set_tool_variable(number, amount, place)) return;
   if (const std::optional<WorkOffsetVariable> offset = work_offset_variable_of(number)) {
     state_.parameters[static_cast<std::size_t>(number)] = state_.to_base_units(offset->axis, amount);
+    if (offset->system == state_.work_system && state_.compensating()) {
+      error(problem(Code::compensation_conflict, place,
+                    fmt::format("#{} moves the zero point in force while cutter compensation is on", number)));
+      return;
+    }
     // in force from the next line on
     if (offset->system == state_.work_system) state_.use_work_system(offset->system);
     return;

@@ -170,6 +170,8 @@ bool Words::read_g(const Line& line, std::uint32_t at, double value, Report* rep
     tenths = meant_code(dialect_, 'G', tenths);
     // G67 has ended the calls of G66 before the line is run
     if (tenths == code::g67 && rules_of(dialect_).macros.on) return true;
+    if (tenths == code::g66_1 && rules_of(dialect_).macros.on)
+      return refuse(report, Code::word_not_run, span, "kadr does not run G66.1: calls before every block");
   }
   const GCode code = g_code(tenths);
   if (code.standing != Standing::runs) {

@@ -35,6 +35,11 @@ MacroCall call_of(const Item& item) {
   return item.number == 67 ? MacroCall::cancel : MacroCall::none;
 }
 
+bool is_input_number(const Line& line, std::int32_t node) {
+  const ExpressionNode& number = line.nodes[static_cast<std::size_t>(node)];
+  return number.kind == NodeKind::number && is_input_variable(number.value);
+}
+
 }  // namespace
 
 /// Whether a statement begins at the letter at `begin`, and no word.
@@ -167,7 +172,7 @@ bool Parser::parse_loop_number(FlowStatement& flow) {
   return true;
 }
 
-/// What the whole line is: a macro call, or nothing but settings.
+/// What the whole line is: a macro call, or nothing but settings; and whether it reads inputs.
 void Parser::note_macro_line() {
   bool settings = false;
   bool other = false;
@@ -182,6 +187,10 @@ void Parser::note_macro_line() {
     other = other || !passive;
   }
   line_->only_settings = settings && !other;
+  line_->reads_inputs =
+      std::any_of(line_->nodes.begin(), line_->nodes.end(), [&](const ExpressionNode& node) {
+        return node.kind == NodeKind::parameter && is_input_number(*line_, node.left);
+      });
 }
 
 }  // namespace kadr::gcode

@@ -36,7 +36,7 @@ void Parser::parse(Line& line, std::size_t begin_at) {
   line.nodes.clear();
   line.failed = false;
   line.has_flow = false;
-  line.only_settings = false;
+  line.only_settings = line.reads_inputs = false;
   line.macro_call = MacroCall::none;
   if (carriage_return_inside(line)) return;
   cursor_ = Cursor(line.text, static_cast<std::uint32_t>(begin_at));

@@ -143,6 +143,9 @@ struct FlowStatement {
   std::int32_t first = -1;              ///< first node of the first argument
 };
 
+/// True for #1000 to #1031, the inputs of macro B, of a node of that number.
+constexpr bool is_input_variable(double number) { return number >= 1000 && number <= 1031; }
+
 /// The macro call on a line, whose words are arguments.
 enum class MacroCall : std::uint8_t { none, once /* G65 */, modal /* G66 */, cancel /* G67 */ };
 
@@ -158,6 +161,7 @@ struct Line {
   bool has_flow = false;      ///< there is an O word or a statement of macro B on the line
   bool failed = false;        ///< a syntax error was reported; items before it are valid
   bool only_settings = false; ///< of macro B: settings and nothing else that acts, statements apart
+  bool reads_inputs = false;  ///< of macro B: #1000 to #1031 stand on the line
   MacroCall macro_call = MacroCall::none;
 
   Span span(Bytes bytes) const {

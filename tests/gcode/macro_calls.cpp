@@ -81,7 +81,8 @@ TEST_CASE("G66 calls its macro behind each move, until G67") {
   CHECK(ys == Points{0, 0, 5, 5, 5, 5});
   // the moves of the macro call nothing
   CHECK(macro_xs("G66 P1 A5\nG0 X2\nG67\nM30\nO1\nG0 X7\nX8\nM99\n") == Points{2, 7, 8});
-  // two levels: L
+  CHECK(only_code("G66.1 P1\nM30\nO1\nM99\n", of_fanuc()) == Code::word_not_run);
+  // L
   CHECK(macro_xs("G66 P1 L2\nG0 X2\nG67\nM30\nO1\nG0 X7\nM99\n") == Points{2, 7, 7});
 }
 

@@ -111,21 +111,42 @@ TEST_CASE("#1100 and on are outputs, #3003 and #3004 are told") {
   CHECK(only_code("#3004=7\n", of_fanuc()) == Code::word_without_effect);
 }
 
+TEST_CASE("#1000 to #1031 are the inputs of the machine, read where the line is run") {
+  InterpretOptions options = of_fanuc();
+  int asked = 0;
+  options.read_input = [&](const InputWait& wait) {
+    ++asked;
+    return InputReading{true, wait.number == 3 && asked > 2 ? 1.0 : 0.0};
+  };
+  const Outcome outcome = run("WHILE [#1003 EQ 0] DO1\nG4 P100\nEND1\nG0 X#1003\n", options);
+  CHECK_FALSE(outcome.diagnostics.has_errors());
+  CHECK(outcome.all<Dwell>().size() == 2);
+  CHECK(outcome.all<InputWait>().size() == 4);
+  CHECK(outcome.moves().back().end[0] == 1);
+  // without a machine an input reads 0
+  CHECK(macro_xs("G0 X[#1031+5]\n") == std::vector<double>{5});
+}
+
 TEST_CASE("what only tells can't be set, and what kadr does not have is named") {
   for (const char* setting : {"#0=1\n", "#5001=1\n", "#5023=1\n", "#5041=1\n", "#4003=90\n", "#5201=0\n"}) {
     CAPTURE(setting);
     CHECK(macro_error(setting) == MacroError{Code::parameter_read_only, 1});
   }
-  for (const char* text : {"G0 X#1000\n", "G0 X#3001\n", "#3001=0\n", "G0 X#34\n", "#99=1\n", "G0 X#200\n", "#499=1\n",
+  for (const char* text : {"G0 X#1032\n", "#1=1000\nG0 X#[#1+1]\n", "#1000=1\n", "G0 X#3001\n", "#3001=0\n", "G0 X#34\n", "#99=1\n", "G0 X#200\n", "#499=1\n",
                            "G0 X#3011\n", "G0 X#4111\n", "G0 X#7001\n", "G0 X#100000\n", "#5400=1\n", "G0 X#5420\n"}) {
     CAPTURE(text);
-    CHECK(macro_error(text) == MacroError{Code::system_variable, 1});
+    CHECK(macro_error(text).code == Code::system_variable);
   }
   CHECK(macro_error("G0 X#[-1]\n") == MacroError{Code::parameter_range, 1});
   CHECK(macro_error("G0 X#[1.5]\n") == MacroError{Code::parameter_range, 1});
   CHECK(macro_error("G0 X#[#1]\n") == MacroError{Code::parameter_range, 1});
   CHECK(macro_error("#[1.5]=1\n") == MacroError{Code::parameter_range, 1});
-  CHECK(run("G0 X#1000\n", of_fanuc()).rendered.find("#1000 is an input") != std::string::npos);
+  CHECK(run("G0 X#3001\n", of_fanuc()).rendered.find("#3001 is a timer") != std::string::npos);
+}
+
+TEST_CASE("the zero point in force does not move while cutter compensation is on") {
+  CHECK(macro_error("G21 G90 G0 X0 Y0\nG41.1 D4\nG1 F100 X10 Y10\n#5221=5\nX20\nG40\nM30\n").code ==
+        Code::compensation_conflict);
 }
 
 TEST_CASE("positions are not read while cutter compensation decides them") {
