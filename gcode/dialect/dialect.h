@@ -28,11 +28,11 @@ struct DwellWord {
 /// Macro B: variables, IF, GOTO, WHILE and G65 as FANUC has them, and where a dialect differs from it.
 struct MacroRules {
   bool on = false;
-  bool angles_to_360 = false;        ///< ATAN[y]/[x] from 0 to 360, ASIN from 270 over 360 to 90
-  bool returns_to_number = false;    ///< M99 P leads to a line of the calling program, not of its own
-  bool local_subs = false;           ///< M97 P calls lines of its own program
-  bool then_runs_words = false;      ///< words may follow THEN, not only a setting
-  bool diameters_in_offsets = false; ///< #2401 .. #2600 are diameters of tools
+  bool angles_to_360 = false;         ///< ATAN[y]/[x] from 0 to 360, ASIN from 270 over 360 to 90
+  bool returns_to_number = false;     ///< M99 P leads to a line of the calling program, not of its own
+  bool local_subs = false;            ///< M97 P calls lines of its own program
+  bool then_runs_words = false;       ///< words may follow THEN, not only a setting
+  bool diameters_in_offsets = false;  ///< #2401 .. #2600 are diameters of tools
 };
 
 /// What a dialect reads otherwise than LinuxCNC, whose rules the defaults are. A field is one difference.

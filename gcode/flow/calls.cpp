@@ -199,7 +199,8 @@ void Flow::give_back(const Line& line) {
 void Flow::return_code(const CallRequest& request) {
   const Span place = request.place;
   const bool own_line = request.to_line && !rules_of(options_.dialect).macros.returns_to_number;
-  if (request.to_line && (calls_.empty() || own_line)) return jump_to_number(request.number, place.line, place);
+  if (request.to_line && (calls_.empty() || own_line))
+    return jump_to_number(request.number, place.line, place);
   if (calls_.empty()) {
     report_.warning(problem(Code::main_again, place, "the program ends here, after one run"));
     return interpreter_.end_program(place);

@@ -29,6 +29,8 @@ class Evaluator {
     declared_on_[at] = line_;
   }
   void begin_line() { ++line_; }
+  /// ROUND of macro B in a word goes to the places of its letter: so many steps make 1.
+  void round_to(double steps_per_unit) { steps_per_unit_ = steps_per_unit; }
 
  private:
   bool node_value(const Line& line, const ExpressionNode& node, const State& state, double& value);
@@ -53,6 +55,7 @@ class Evaluator {
   std::vector<std::uint64_t> declared_on_;  ///< [names], the last line that set it; 0: none
   std::uint64_t line_ = 1;                  ///< lines begun
   Report* report_ = nullptr;
+  double steps_per_unit_ = 1;
   bool doubtful_ = false;
 };
 

@@ -142,6 +142,10 @@ bool Evaluator::macro_node(const Line& line, const ExpressionNode& node, const S
       break;
     }
     case NodeKind::function:
+      if (node.operation == Operation::round) {
+        result.value = to_nearest(or_zero(operand(node.left)) * steps_per_unit_) / steps_per_unit_ + 0.0;
+        break;
+      }
       result = macro_function(node.operation, or_zero(operand(node.left)), state.macros);
       break;
   }

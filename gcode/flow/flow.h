@@ -46,8 +46,8 @@ class Flow {
     Unit* caller = nullptr;
     Program::Position back;
     Target target;
-    bool by_code = false;            ///< M98, G65, ...: ends with M99
-    std::uint64_t repeats_left = 0;  ///< L
+    bool by_code = false;                ///< M98, G65, ...: ends with M99
+    std::uint64_t repeats_left = 0;      ///< L
     std::vector<double> arguments = {};  ///< of G65: each repetition begins with them
   };
   bool add_unit(std::uint32_t file, std::string name);
@@ -61,7 +61,8 @@ class Flow {
   void step_macro(const Line& line);
   void control(const Line& line, int index);
   void begin_program(const Line& line);
-  void if_then(const Line& line, int index);
+  void if_then(const Line& line);
+  void run_words(const Line& line);
   void while_do(const Line& line, int index);
   bool holds(const Line& line, bool& known);
   void go_to(const Line& line, int index);

@@ -14,6 +14,11 @@ void Flow::step_macro(const Line& line) {
   if (line.reads_inputs && !line.failed) interpreter_.read_inputs(line);
   if (line.has_flow && !line.failed) return statement(line);
   if (line.only_settings && !line.failed) return interpreter_.assign(line);
+  run_words(line);
+}
+
+/// A line of words, or those behind THEN, and the call that they make.
+void Flow::run_words(const Line& line) {
   if (!line.failed && (line.macro_call == MacroCall::once || line.macro_call == MacroCall::modal)) {
     interpreter_.macro_call(line);
   } else {
@@ -32,7 +37,7 @@ void Flow::control(const Line& line, int index) {
     case FlowWord::if_go_to:
       return go_to(line, index);
     case FlowWord::if_then:
-      return if_then(line, index);
+      return if_then(line);
     case FlowWord::while_do:
       return while_do(line, index);
     case FlowWord::do_loop:
@@ -77,12 +82,11 @@ bool Flow::holds(const Line& line, bool& known) {
   return known && condition == condition && condition != 0;
 }
 
-void Flow::if_then(const Line& line, int /*index*/) {
+void Flow::if_then(const Line& line) {
   bool known = false;
   if (!holds(line, known)) return;
   if (line.only_settings) return interpreter_.assign(line);
-  interpreter_.run(line);
-  if (const std::optional<CallRequest> request = interpreter_.take_call()) call_code(*request);
+  run_words(line);
 }
 
 void Flow::while_do(const Line& line, int index) {

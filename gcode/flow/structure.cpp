@@ -471,9 +471,10 @@ bool Structure::read(Program& program, bool block_delete, bool macros, Names& na
     const bool percent = std::any_of(line->items.begin(), line->items.end(),
                                      [](const Item& item) { return item.kind == ItemKind::percent; });
     if (percent && words) break;
-    code = code || line->has_flow || std::any_of(line->items.begin(), line->items.end(), [](const Item& item) {
-             return item.kind == ItemKind::word || item.kind == ItemKind::setting;
-           });
+    code =
+        code || line->has_flow || std::any_of(line->items.begin(), line->items.end(), [](const Item& item) {
+          return item.kind == ItemKind::word || item.kind == ItemKind::setting;
+        });
     words = words || percent || code;
   }
   reader.end_of_file();

@@ -20,8 +20,8 @@ struct Statement {
   Span span;
   Program::Position at;     ///< its own line
   Program::Position after;  ///< the line after it
-  int begin = -1;       ///< the sub, if, while, do or repeat that it belongs to; -1: it is a beginning itself
-  int next = -1;        ///< if, elseif, else: the next branch or the end
+  int begin = -1;  ///< the sub, if, while, do or repeat that it belongs to; -1: it is a beginning itself
+  int next = -1;   ///< if, elseif, else: the next branch or the end
   const NumberedLine* target = nullptr;  ///< of GOTO n
   int end = -1;         ///< of a beginning: endsub, endif, endwhile, endrepeat, or the while of a do
   int last_break = -1;  ///< of a loop: the last break that leaves it

@@ -200,10 +200,10 @@ void Formatter::sort_items(const Line& line) {
     const bool calls = item.letter == 'M' && item.value < 0 && item.number == code::m98;
     const bool names = item.kind == ItemKind::setting && item.name >= 0;
     const bool stays = keeps_order(line) && rank_of(item) >= kGRank && !is_comment(item);
-    ranks_[i] = stays                         ? kGRank
+    ranks_[i] = stays                          ? kGRank
                 : item.letter == 'N' && !first ? kMisplacedRank
-                : first && (calls || names)  ? kFirstRank
-                                             : rank_of(item);
+                : first && (calls || names)    ? kFirstRank
+                                               : rank_of(item);
     if ((item.kind == ItemKind::word && item.letter != 'N') || item.kind == ItemKind::setting) first = false;
   }
   std::stable_sort(order_.begin(), order_.end(),

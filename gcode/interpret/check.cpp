@@ -84,8 +84,9 @@ void Interpreter::check_call() {
   const Span span = words_.span(*line_, MGroup::call);
   if (!words_.has('P')) {
     error(problem(Code::word_missing, span,
-                  words_.m(MGroup::call) == code::m98 ? "M98 needs P: the number of the subroutine"
-                                                      : "M97 needs P: the sequence number of its first line"));
+                  words_.m(MGroup::call) == code::m98
+                      ? "M98 needs P: the number of the subroutine"
+                      : "M97 needs P: the sequence number of its first line"));
   }
   if (!calls_only()) return;
   for (const Item& item : line_->items) {

@@ -19,10 +19,10 @@ namespace kadr::gcode {
 
 /// M97, M98, M99 or G65 on a line that was run, or a move under G66.
 struct CallRequest {
-  bool returns = false;       ///< M99
-  bool alone = true;          ///< no other word on its line
-  bool to_line = false;       ///< `number` is an N: M97, and M99 with P
-  bool macro = false;         ///< G65 and G66: `arguments` are #1 to #33 of the call
+  bool returns = false;  ///< M99
+  bool alone = true;     ///< no other word on its line
+  bool to_line = false;  ///< `number` is an N: M97, and M99 with P
+  bool macro = false;    ///< G65 and G66: `arguments` are #1 to #33 of the call
   std::vector<double> arguments;
   std::int64_t number = 0;    ///< P
   std::uint64_t repeats = 1;  ///< L
@@ -347,7 +347,7 @@ class Interpreter {
   std::optional<CallRequest> modal_call_;  ///< G66
   std::size_t modal_level_ = 0;            ///< the call level of G66
   Evaluator evaluator_;                    ///< of settings and arguments of macro B
-  std::optional<Span> place_;  ///< of blocks while modes are restored
+  std::optional<Span> place_;              ///< of blocks while modes are restored
   Compensation compensation_;
   bool compensation_tilted_ = false;     ///< it runs in program coordinates: G18 in a rotated work system
   Span compensation_span_;               ///< the G41 or G42 in force

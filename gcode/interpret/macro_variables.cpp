@@ -49,7 +49,9 @@ std::optional<double> modal_variable(const State& state, int number) {
     case 4003:
       return state.incremental ? 91 : 90;
     case 4005:
-      return state.feed_mode == FeedMode::inverse_time ? 93 : state.feed_mode == FeedMode::units_per_minute ? 94 : 95;
+      return state.feed_mode == FeedMode::inverse_time       ? 93
+             : state.feed_mode == FeedMode::units_per_minute ? 94
+                                                             : 95;
     case 4006:
       return state.inches ? 20 : 21;
     case 4007:

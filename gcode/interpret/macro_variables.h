@@ -4,12 +4,13 @@
 #include <string>
 
 #include "gcode/interpret/state.h"
+#include "gcode/read/tree.h"
 
 /// Variables of macro B by number.
 namespace kadr::gcode {
 
 namespace macro_variable {
-inline constexpr int kLast = 999;  ///< of those that hold what the program writes
+inline constexpr int kLast = 999;    ///< of those that hold what the program writes
 inline constexpr int kInput = 1000;  ///< is_input_variable()
 inline constexpr int kOutput = 1100, kOutputLast = 1131;
 inline constexpr int kAlarm = 3000, kStop = 3006;

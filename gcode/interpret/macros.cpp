@@ -19,9 +19,9 @@ struct ArgumentLetter {
   char letter;
   int variable;
 };
-constexpr ArgumentLetter kArguments[] = {{'A', 1},  {'B', 2},  {'C', 3},  {'D', 7},  {'E', 8},  {'F', 9},  {'H', 11},
-                                         {'M', 13}, {'Q', 17}, {'R', 18}, {'S', 19}, {'T', 20}, {'U', 21}, {'V', 22},
-                                         {'W', 23}, {'X', 24}, {'Y', 25}, {'Z', 26}};
+constexpr ArgumentLetter kArguments[] = {{'A', 1},  {'B', 2},  {'C', 3},  {'D', 7},  {'E', 8},  {'F', 9},
+                                         {'H', 11}, {'M', 13}, {'Q', 17}, {'R', 18}, {'S', 19}, {'T', 20},
+                                         {'U', 21}, {'V', 22}, {'W', 23}, {'X', 24}, {'Y', 25}, {'Z', 26}};
 constexpr int kFirstOfSets = 4;  // I of the first set; J and K follow
 constexpr int kSetSize = 3;
 constexpr int kMostSets = 10;
@@ -34,9 +34,8 @@ void Interpreter::assign(const Line& line) {
   for (const Item& item : line.items) {
     if (item.kind != ItemKind::setting) continue;
     double value = 0, index = 0;
-    const bool known =
-        evaluator_.evaluate(line, item.first, item.target, state_, &report_, index) &&
-        evaluator_.evaluate(line, item.target + 1, item.value, state_, &report_, value);
+    const bool known = evaluator_.evaluate(line, item.first, item.target, state_, &report_, index) &&
+                       evaluator_.evaluate(line, item.target + 1, item.value, state_, &report_, value);
     int number = 0;
     if (known && index >= 0 && index <= macro_variable::kLast) {
       number = static_cast<int>(index);
@@ -65,9 +64,9 @@ void Interpreter::set_macro_variable(int number, double value, Span place) {
   const double amount = is_vacant(value) ? 0 : value;
   if (number == kAlarm || number == kStop) return stop_with_message(amount, place, number == kAlarm);
   if (number == kSingleBlock || number == kHoldAndOverride) {
-    return report_.warning(problem(Code::word_without_effect, place,
-                                   fmt::format("#{} changes nothing here: single block, hold and override act as ever",
-                                               number)));
+    return report_.warning(problem(
+        Code::word_without_effect, place,
+        fmt::format("#{} changes nothing here: single block, hold and override act as ever", number)));
   }
   if (number >= kOutput && number <= kOutputLast)
     return emit(place, DigitalOutput{number - kOutput, amount != 0, false});
@@ -75,8 +74,9 @@ void Interpreter::set_macro_variable(int number, double value, Span place) {
   if (const std::optional<WorkOffsetVariable> offset = work_offset_variable_of(number)) {
     state_.parameters[static_cast<std::size_t>(number)] = state_.to_base_units(offset->axis, amount);
     if (offset->system == state_.work_system && state_.compensating()) {
-      error(problem(Code::compensation_conflict, place,
-                    fmt::format("#{} moves the zero point in force while cutter compensation is on", number)));
+      error(
+          problem(Code::compensation_conflict, place,
+                  fmt::format("#{} moves the zero point in force while cutter compensation is on", number)));
       return;
     }
     // in force from the next line on
@@ -88,8 +88,9 @@ void Interpreter::set_macro_variable(int number, double value, Span place) {
 
 void Interpreter::refuse_variable(int number, Span place) {
   if (number == 0 || read_system_variable(state_, number)) {
-    error(problem(Code::parameter_read_only, place,
-                  number == 0 ? "#0 is always vacant" : fmt::format("#{} tells the state of the controller", number)));
+    error(problem(
+        Code::parameter_read_only, place,
+        number == 0 ? "#0 is always vacant" : fmt::format("#{} tells the state of the controller", number)));
   } else {
     error(problem(Code::system_variable, place, system_variable_text(number)));
   }
@@ -173,14 +174,16 @@ bool Interpreter::macro_words(const Line& line, CallRequest& request) {
     if (item.kind != ItemKind::word || item.letter == 'N') continue;
     const Span place = line.span(item.bytes);
     double value = item.number;
-    if (item.value >= 0 && !evaluator_.evaluate(line, item.first, item.value, state_, &report_, value)) return false;
+    if (item.value >= 0 && !evaluator_.evaluate(line, item.first, item.value, state_, &report_, value))
+      return false;
     if (item.value >= 0 && evaluator_.doubtful()) return false;
     const bool call = item.letter == 'G' && item.value < 0 && (item.number == 65 || item.number == 66);
     if (call && request.place.line == 0) {
       request.place = place;
     } else if (item.letter == 'P' || item.letter == 'L') {
       int whole = 0;
-      if (!near_integer(is_vacant(value) ? 1 : value, whole) || whole < 0 || whole > kLargestMacroCall) {
+      if (is_vacant(value)) continue;
+      if (!near_integer(value, whole) || whole < 0 || whole > kLargestMacroCall) {
         error(problem(Code::word_not_whole, place, fmt::format("{} is {}", item.letter, figure(value))));
       } else if (item.letter == 'P') {
         request.number = whole;
@@ -196,15 +199,18 @@ bool Interpreter::macro_words(const Line& line, CallRequest& request) {
 
 /// I, J and K count in sets: each one that does not come behind the one before begins the next set.
 /// @param set  3 · (number of the set) + place in the set of the last I, J or K; -1: none
-bool Interpreter::macro_argument(const Line& line, const Item& item, double value, int& set, CallRequest& request) {
+bool Interpreter::macro_argument(const Line& line, const Item& item, double value, int& set,
+                                 CallRequest& request) {
   if (!is_vacant(value) && !(std::fabs(value) <= kLargestArgument)) {
-    error(problem(Code::value_too_large, line.span(item.bytes), fmt::format("{} is {:.6g}", item.letter, value)));
+    error(problem(Code::value_too_large, line.span(item.bytes),
+                  fmt::format("{} is {:.6g}", item.letter, value)));
     return true;
   }
   int variable = 0;
   if (item.letter >= 'I' && item.letter <= 'K') {
     const int place = item.letter - 'I';
-    const int next = set < 0 ? place : set - set % kSetSize + place + (place <= set % kSetSize ? kSetSize : 0);
+    const int next =
+        set < 0 ? place : set - set % kSetSize + place + (place <= set % kSetSize ? kSetSize : 0);
     if (next >= kSetSize * kMostSets) return false;
     set = next;
     variable = kFirstOfSets + set;

@@ -23,6 +23,13 @@ bool refuse(Report* report, Code code, Span span, std::string label, std::string
   return false;
 }
 
+/// Least increments that make 1 of a letter's unit: 0.001 mm or degree, 0.0001 inch; 1 for numbers without unit.
+double steps_of(char letter, const State& state) {
+  constexpr std::uint32_t kLengths = kAxisBits | letter_bits("IJKRQ");
+  if ((letter_bit(letter) & kLengths) == 0) return 1;
+  return state.inches && !is_rotary_letter(letter) ? 1e4 : 1e3;
+}
+
 }  // namespace
 
 std::string g_name(int tenths) {
@@ -109,7 +116,10 @@ bool Words::read_word(const Line& line, std::uint32_t at, const State& state, Re
   any = true;
   bool doubt = false;
   if (item.value >= 0) {
-    if (!evaluator_.evaluate(line, item.first, item.value, state, report, value)) {
+    if (state.macros.on) evaluator_.round_to(steps_of(item.letter, state));
+    const bool known = evaluator_.evaluate(line, item.first, item.value, state, report, value);
+    evaluator_.round_to(1);
+    if (!known) {
       if (item.letter == 'G') refused_motion = true;
       return false;
     }
@@ -210,9 +220,7 @@ bool Words::read_m(const Line& line, std::uint32_t at, double value, Report* rep
   const bool whole = near_integer(value, number);
   if (dialect_ != Dialect::linuxcnc) number = meant_code(dialect_, 'M', number);
   const bool local = number == code::m97 && rules_of(dialect_).macros.local_subs;
-  const MCode code = local   ? MCode{Standing::runs, MGroup::call}
-                     : whole ? m_code(number)
-                             : MCode{};
+  const MCode code = local ? MCode{Standing::runs, MGroup::call} : whole ? m_code(number) : MCode{};
   if (code.standing == Standing::not_run) {
     return refuse(report, Code::word_not_run, span, fmt::format("kadr does not run M{}", number));
   }

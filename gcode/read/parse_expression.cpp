@@ -289,13 +289,14 @@ std::int32_t ExpressionParser::pair(ExpressionNode node) {
     comma.own = {cursor_.at(), cursor_.at() + 1};
     cursor_.advance();
     node.right = chain(1, Within::bracket);
-    if (node.right >= 0) add(comma);
-    else node.left = -1;
+    if (node.right >= 0)
+      add(comma);
+    else
+      node.left = -1;
   }
   in_pair_ = around;
   if (node.left < 0) return -1;
-  if (cursor_.peek() != ']')
-    return fail(Code::bracket_not_closed, brackets.own, "no ] closes this bracket");
+  if (cursor_.peek() != ']') return fail(Code::bracket_not_closed, brackets.own, "no ] closes this bracket");
   brackets.closing = {cursor_.at(), cursor_.at() + 1};
   cursor_.advance();
   brackets.left = node.left;

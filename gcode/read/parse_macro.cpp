@@ -49,7 +49,8 @@ bool Parser::begins_control(std::uint32_t begin) const {
     Bytes bytes;
     return match(cursor, name, bytes);
   };
-  return std::any_of(kControls.begin(), kControls.end(), [&](const ControlName& c) { return here(c.name); }) ||
+  return std::any_of(kControls.begin(), kControls.end(),
+                     [&](const ControlName& c) { return here(c.name); }) ||
          std::any_of(kNotRun.begin(), kNotRun.end(), here);
 }
 
@@ -90,9 +91,9 @@ bool Parser::parse_control(std::uint32_t begin) {
 /// Only N, / and comments may stand before a statement.
 bool Parser::control_place(std::uint32_t begin) {
   for (const Item& item : line_->items) {
-    const bool may_stand_before =
-        (item.kind == ItemKind::word && item.letter == 'N') || item.kind == ItemKind::block_delete ||
-        item.kind == ItemKind::comment || item.kind == ItemKind::byte_order_mark;
+    const bool may_stand_before = (item.kind == ItemKind::word && item.letter == 'N') ||
+                                  item.kind == ItemKind::block_delete || item.kind == ItemKind::comment ||
+                                  item.kind == ItemKind::byte_order_mark;
     if (may_stand_before) continue;
     return fail(Code::macro_statement, {begin, begin + 1}, "the statement does not begin its line",
                 "write it on a line of its own");

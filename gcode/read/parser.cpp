@@ -102,7 +102,8 @@ bool Parser::parse_item(char c) {
   }
   if (line_->has_flow && !macros_.then_runs_words && c != '(' && c != ';' && c != '#') {
     return fail(Code::macro_statement, {cursor_.at(), static_cast<std::uint32_t>(line_->text.size())},
-                "only a setting may follow THEN", "write IF [condition] GOTO n, around what the condition decides");
+                "only a setting may follow THEN",
+                "write IF [condition] GOTO n, around what the condition decides");
   }
   if (is_letter(c)) return parse_word(upper(c));
   switch (c) {

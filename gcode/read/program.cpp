@@ -72,8 +72,8 @@ void Program::rewind() {
 
 /// Whether the line holds a statement of macro B, M97, M98, M99, G65 or G66, as far as can be seen without reading it.
 bool Program::leads_elsewhere(std::string_view line) const {
-  char letter = 0;  // of the word so far
-  int digits = 0;   // its number so far, without zeros at its head
+  char letter = 0;    // of the word so far
+  int digits = 0;     // its number so far, without zeros at its head
   bool apart = true;  // something that is no letter stands before
   for (std::size_t at = 0; at < line.size(); ++at) {
     if (is_blank(line[at])) continue;

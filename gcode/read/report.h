@@ -9,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "gcode/read/tree.h"
 #include "gcode/dialect/dialect.h"
+#include "gcode/read/tree.h"
 #include "machine/base/diagnostic.h"
 
 namespace kadr::gcode {

@@ -157,11 +157,11 @@ struct Line {
   std::string_view ending;   ///< "\n" or "\r\n"; "\r" or "" at the end of the file
   std::vector<Item> items;
   std::vector<ExpressionNode> nodes;
-  FlowStatement flow;         ///< if has_flow
-  bool has_flow = false;      ///< there is an O word or a statement of macro B on the line
-  bool failed = false;        ///< a syntax error was reported; items before it are valid
-  bool only_settings = false; ///< of macro B: settings and nothing else that acts, statements apart
-  bool reads_inputs = false;  ///< of macro B: #1000 to #1031 stand on the line
+  FlowStatement flow;          ///< if has_flow
+  bool has_flow = false;       ///< there is an O word or a statement of macro B on the line
+  bool failed = false;         ///< a syntax error was reported; items before it are valid
+  bool only_settings = false;  ///< of macro B: settings and nothing else that acts, statements apart
+  bool reads_inputs = false;   ///< of macro B: #1000 to #1031 stand on the line
   MacroCall macro_call = MacroCall::none;
 
   Span span(Bytes bytes) const {

@@ -157,7 +157,9 @@ const Construct kConstructs[] = {
      [](int n) { return "O1 sub\nO1 endsub\n" + repeated(n, [](int) { return "O1 call\n"; }) + "M2\n"; },
      check_program},
     {"macro_numbers", 20'000,
-     [](int n) { return repeated(n, [](int i) { return fmt::format("N{} G0 X{}\n", i, i % 97); }) + "GOTO 9\n"; },
+     [](int n) {
+       return repeated(n, [](int i) { return fmt::format("N{} G0 X{}\n", i, i % 97); }) + "GOTO 9\n";
+     },
      check_macro},
     {"macro_jumps_forward", 20'000,
      [](int n) {

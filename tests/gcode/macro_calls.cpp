@@ -16,7 +16,8 @@ using Points = std::vector<double>;
 
 TEST_CASE("the words of G65 are #1 to #26 of the macro") {
   // A B C I J K D E F H M Q R S T U V W X Y Z
-  const std::string call = "G65 P9010 A1 B2 C3 I4 J5 K6 D7 E8 F9 H11 M13 Q17 R18 S19 T20 U21 V22 W23 X24 Y25 Z26\n";
+  const std::string call =
+      "G65 P9010 A1 B2 C3 I4 J5 K6 D7 E8 F9 H11 M13 Q17 R18 S19 T20 U21 V22 W23 X24 Y25 Z26\n";
   std::string macro = "M30\nO9010\nG0 X0\n";
   Points expected{0};
   for (int variable = 1; variable <= 26; ++variable) {
@@ -140,7 +141,8 @@ TEST_CASE("a subprogram is looked for beside the program under the names that co
     for (const LineOrArc& move : outcome.moves()) xs.push_back(move.end[0]);
     return xs;
   };
-  CHECK(xs_of("G65 P1001 A11\nM98 P2\nM98 P3\nM98 P4\nG0 X1\nN9 X2\nM30\n", of_fanuc()) == Points{11, 22, 33, 44, 2});
+  CHECK(xs_of("G65 P1001 A11\nM98 P2\nM98 P3\nM98 P4\nG0 X1\nN9 X2\nM30\n", of_fanuc()) ==
+        Points{11, 22, 33, 44, 2});
   const Outcome missing = run("M98 P77\nM30\n", of_fanuc(), program);
   REQUIRE(missing.codes() == std::vector<Code>{Code::sub_not_found});
   CHECK(missing.rendered.find("O0077.nc") != std::string::npos);

@@ -49,6 +49,14 @@ TEST_CASE("FIX goes towards zero and FUP away from it, ROUND to the nearest") {
   CHECK(macro_value("ROUND[-1.5]") == -2);
 }
 
+TEST_CASE("ROUND in a word goes to the least increment of its letter") {
+  CHECK(macro_xs("G21 G0 X[ROUND[1.23456]]\n") == std::vector<double>{1.235});
+  CHECK(macro_xs("G21 #1=ROUND[1.23456]\nG0 X#1\n") == std::vector<double>{1});
+  CHECK(macro_xs("G20 G0 X[ROUND[1.23456]]\n")[0] == doctest::Approx(1.2346 * 25.4).epsilon(1e-12));
+  CHECK(macro_xs("G21\nIF [ROUND[1.4] EQ 1] GOTO 5\nG0 X1\nN5 G0 X-ROUND[2.0006]\n") ==
+        std::vector<double>{-2.001});
+}
+
 TEST_CASE("functions of macro B") {
   const auto near = [](double value) { return doctest::Approx(value).epsilon(1e-12); };
   CHECK(macro_value("SIN[30]") == near(0.5));

@@ -10,7 +10,8 @@ using namespace kadr::gcode::test;
 using Xs = std::vector<double>;
 
 TEST_CASE("IF .. GOTO and GOTO back make a loop") {
-  CHECK(macro_xs("%\nO0001\nG21 G90\n#1=3\nN10\nIF [#1 EQ 0] GOTO 20\nG0 X#1\n#1=#1-1\nGOTO 10\nN20\nM30\n%\n") ==
+  CHECK(macro_xs(
+            "%\nO0001\nG21 G90\n#1=3\nN10\nIF [#1 EQ 0] GOTO 20\nG0 X#1\n#1=#1-1\nGOTO 10\nN20\nM30\n%\n") ==
         Xs{3, 2, 1});
 }
 
@@ -39,8 +40,9 @@ TEST_CASE("WHILE runs while its condition holds, also not at all") {
 }
 
 TEST_CASE("loops nest with different numbers, and a number may be used again") {
-  CHECK(macro_xs("#1=0\nWHILE[#1 LT 2]DO1\n#2=0\nWHILE[#2 LT 2]DO2\nG0 X[10*#1+#2]\n#2=#2+1\nEND2\n#1=#1+1\nEND1\n"
-                 "DO1\nGOTO 5\nEND1\nN5 X99\n") == Xs{0, 1, 10, 11, 99});
+  CHECK(macro_xs(
+            "#1=0\nWHILE[#1 LT 2]DO1\n#2=0\nWHILE[#2 LT 2]DO2\nG0 X[10*#1+#2]\n#2=#2+1\nEND2\n#1=#1+1\nEND1\n"
+            "DO1\nGOTO 5\nEND1\nN5 X99\n") == Xs{0, 1, 10, 11, 99});
   CHECK(macro_error("DO1\nDO1\nEND1\nEND1\n") == MacroError{Code::macro_loop, 2});
   CHECK(macro_error("DO1\nDO2\nEND1\n") == MacroError{Code::macro_loop, 3});
   CHECK(macro_error("WHILE [1 EQ 1] DO3\nM30\n") == MacroError{Code::macro_loop, 1});
@@ -60,7 +62,8 @@ TEST_CASE("a sequence number that GOTO names stands once in its program") {
   CHECK(macro_error("GOTO #1\nN5 G0 X1\n") == MacroError{Code::sequence_number_missing, 1});
   CHECK(macro_error("N5 G0 X1\nGOTO 5\nN5 G0 X2\n") == MacroError{Code::sequence_number_twice, 2});
   // one that nothing names may repeat, and each program of the file has its own
-  CHECK(macro_xs("O1\nN1 G0 X1\nN1 X2\nGOTO 5\nX3\nN5 M98 P2\nM30\nO2\nGOTO 5\nX4\nN5 X5\nM99\n") == Xs{1, 2, 5});
+  CHECK(macro_xs("O1\nN1 G0 X1\nN1 X2\nGOTO 5\nX3\nN5 M98 P2\nM30\nO2\nGOTO 5\nX4\nN5 X5\nM99\n") ==
+        Xs{1, 2, 5});
 }
 
 TEST_CASE("what does not end ends at a bound") {
@@ -78,12 +81,14 @@ TEST_CASE("what does not end ends at a bound") {
 TEST_CASE("after an error a loop is run through once, and its follow-ups are not told") {
   CHECK(macro_error("G0 X1 X2\nN1 G0 Y1\n#1=#1+1\nIF [#1 LT 3] GOTO 1\nWHILE [1 EQ 1] DO1\nEND1\n") ==
         MacroError{Code::word_repeated, 1});
-  CHECK(macro_error("#1=1/0\nIF [#1 EQ 5] GOTO 9\nG0 X#1\nN9 M30\n") == MacroError{Code::division_by_zero, 1});
+  CHECK(macro_error("#1=1/0\nIF [#1 EQ 5] GOTO 9\nG0 X#1\nN9 M30\n") ==
+        MacroError{Code::division_by_zero, 1});
 }
 
 TEST_CASE("statements of macro B that can't be read") {
-  for (const char* text : {"IF #1 EQ 0 GOTO 5\nN5\n", "IF [#1 EQ 0]\n", "IF [#1 EQ 0] THEN\n", "WHILE [#1 EQ 0]\n", "DO4\n",
-                           "END\n", "DO12\n", "GOTO\n", "GOTO 1.5\n", "G0 X1 GOTO 5\nN5\n"}) {
+  for (const char* text :
+       {"IF #1 EQ 0 GOTO 5\nN5\n", "IF [#1 EQ 0]\n", "IF [#1 EQ 0] THEN\n", "WHILE [#1 EQ 0]\n", "DO4\n",
+        "END\n", "DO12\n", "GOTO\n", "GOTO 1.5\n", "G0 X1 GOTO 5\nN5\n"}) {
     CAPTURE(text);
     CHECK(macro_error(text) == MacroError{Code::macro_statement, 1});
   }

@@ -55,7 +55,8 @@ class TwinMaker {
   }
   /// One text for both; `depth` operators at most.
   std::string expression(int depth) {
-    if (depth == 0 || random_.chance(0.3)) return random_.chance(0.4) ? number() : fmt::format("#{}", variable());
+    if (depth == 0 || random_.chance(0.3))
+      return random_.chance(0.4) ? number() : fmt::format("#{}", variable());
     switch (random_.below(6)) {
       case 0:
         return fmt::format("[{}]", expression(depth - 1));
@@ -67,7 +68,8 @@ class TwinMaker {
         return fmt::format("-[{}]", expression(depth - 1));
       default: {
         static const char* const kSigns[] = {"+", "-", "*"};
-        return fmt::format("{} {} {}", expression(depth - 1), kSigns[random_.below(3)], expression(depth - 1));
+        return fmt::format("{} {} {}", expression(depth - 1), kSigns[random_.below(3)],
+                           expression(depth - 1));
       }
     }
   }
