@@ -24,10 +24,10 @@ bool refuse(Report* report, Code code, Span span, std::string label, std::string
 }
 
 /// Least increments that make 1 of a letter's unit: 0.001 mm or degree, 0.0001 inch; 1 for numbers without unit.
-double steps_of(char letter, const State& state) {
+double steps_of(char letter, bool inches) {
   constexpr std::uint32_t kLengths = kAxisBits | letter_bits("IJKRQ");
   if ((letter_bit(letter) & kLengths) == 0) return 1;
-  return state.inches && !is_rotary_letter(letter) ? 1e4 : 1e3;
+  return inches && !is_rotary_letter(letter) ? 1e4 : 1e3;
 }
 
 }  // namespace
@@ -116,7 +116,10 @@ bool Words::read_word(const Line& line, std::uint32_t at, const State& state, Re
   any = true;
   bool doubt = false;
   if (item.value >= 0) {
-    if (state.macros.on) evaluator_.round_to(steps_of(item.letter, state));
+    if (state.macros.on) {
+      const int units = g(GGroup::units);
+      evaluator_.round_to(steps_of(item.letter, units == kNoCode ? state.inches : units == code::g20));
+    }
     const bool known = evaluator_.evaluate(line, item.first, item.value, state, report, value);
     evaluator_.round_to(1);
     if (!known) {

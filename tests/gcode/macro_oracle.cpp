@@ -63,7 +63,7 @@ class TwinMaker {
       case 1:
         return fmt::format("ABS[{}]", expression(depth - 1));
       case 2:
-        return fmt::format("ROUND[{}]", expression(depth - 1));
+        return fmt::format("{}[{}]", in_word_ ? "ABS" : "ROUND", expression(depth - 1));
       case 3:
         return fmt::format("-[{}]", expression(depth - 1));
       default: {
@@ -102,7 +102,9 @@ class TwinMaker {
     static const char* const kLetters[] = {"X", "Y", "Z", "U"};
     std::string line = random_.chance(0.5) ? "G1" : "G0";
     const std::uint64_t first = random_.below(4);
+    in_word_ = true;  // where ROUND of macro B goes to 0.001
     line += fmt::format(" {}[{}]", kLetters[first], expression(2));
+    in_word_ = false;
     line += fmt::format(" {}#{}", kLetters[(first + 1) % 4], variable());
     both(line);
   }
@@ -193,6 +195,7 @@ class TwinMaker {
 
   Random& random_;
   Twins twins_;
+  bool in_word_ = false;
   int labels_ = 0;
   int loops_ = 0;
   int first_callable_ = 1;
