@@ -154,6 +154,25 @@ TEST_CASE("--offset and units of the machine hold before the first line") {
   }
 }
 
+TEST_CASE("--offset of an axis that the machine lacks is refused, unless it is 0") {
+  const Scratch scratch;
+  scratch.write("p.ngc", "G21 G0 X1\nM2\n");
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"check", "p.ngc"}, {"plan", "p.ngc"}, {"run", "p.ngc", "--no-log"}}) {
+    CAPTURE(command.front());
+    const auto with = [&](const char* offset) {
+      std::vector<std::string> arguments = command;
+      arguments.insert(arguments.end(), {"--offset", offset});
+      return call(arguments, scratch.path());
+    };
+    CHECK(with("G54=1,2,3,0").code == 0);
+    const Finished refused = with("G54=1,2,3,90");
+    CHECK(refused.code == 2);
+    CHECK(contains(refused.err,
+                   "--offset gives A the zero 90, and machine mill3 has no such axis; its axes: XYZ"));
+  }
+}
+
 TEST_CASE("kadr canon prints one call a line, in mm, and leaves out / lines on demand") {
   const Scratch scratch;
   scratch.write("part.ngc", "G20 G90\n/G0 X2\nG1 X1 F10 (MSG, hi)\nM2\n");
