@@ -100,8 +100,11 @@ class Flow {
   void return_code(const CallRequest& request);
 
   bool value(const Line& line, std::int32_t first, std::int32_t root, double& result);
+  /// A vacant one of macro B is 0.
   bool argument(const Line& line, double& result) {
-    return value(line, line.flow.first, line.flow.arguments.front(), result);
+    const bool known = value(line, line.flow.first, line.flow.arguments.front(), result);
+    if (result != result) result = 0;
+    return known;
   }
   std::string label_text(std::int32_t name) const;
   void error(Diagnostic d) { report_.error(std::move(d)); }

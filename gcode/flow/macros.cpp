@@ -79,7 +79,7 @@ bool Flow::holds(const Line& line, bool& known) {
   double condition = 0;
   known = argument(line, condition);
   if (!known) interpreter_.lose_track();
-  return known && condition == condition && condition != 0;
+  return known && condition != 0;
 }
 
 void Flow::if_then(const Line& line) {

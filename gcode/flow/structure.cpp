@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "gcode/flow/evaluate.h"
+#include "gcode/flow/macro_loops.h"
 #include "gcode/interpret/words.h"
 
 namespace kadr::gcode {
@@ -127,8 +128,7 @@ struct Structure::Reader {
   std::vector<int> open_subs = {};              ///< those of `open` that are subs
   std::set<std::int32_t> labels_in_scope = {};  ///< of ifs and loops, in this sub or main program
   std::set<std::int32_t> labels_of_main = {};   ///< kept while a sub is read
-  std::vector<int> open_loops = {};             ///< DO of macro B without an END so far, the innermost last
-  std::map<std::int32_t, std::vector<int>> loops_of = {};  ///< the same by number
+  MacroLoops loops{structure.statements_, problems};  ///< of macro B
 
   void error(Code code, Span span, std::string label, std::string note = {}, std::string help = {}) {
     Diagnostic d = problem(code, span, std::move(label), std::move(help));
@@ -194,7 +194,7 @@ struct Structure::Reader {
     switch (s.word) {
       case FlowWord::label:
         structure.labels_.try_emplace(s.name, index);
-        close_loops();
+        loops.end_program();
         structure.numbers_.begin_program(s.span.line);
         // what follows may be another program: its labels are its own
         if (open.empty()) labels_in_scope.clear();
@@ -229,51 +229,10 @@ struct Structure::Reader {
         return;
       case FlowWord::while_do:
       case FlowWord::do_loop:
-        return open_loop(index);
+        return loops.begin(index);
       case FlowWord::end_do:
-        return close_loop(index);
+        return loops.end(index);
     }
-  }
-
-  /// Loops of macro B inside each other have different numbers.
-  void open_loop(int index) {
-    const Statement& s = structure[index];
-    std::vector<int>& same = loops_of[s.name];
-    if (!same.empty()) {
-      error(Code::macro_loop, s.span, fmt::format("DO{} inside DO{}", s.name, s.name),
-            fmt::format("the outer one is on line {}", structure[same.back()].span.line),
-            "loops inside each other have different numbers");
-    }
-    same.push_back(index);
-    open_loops.push_back(index);
-  }
-
-  void close_loop(int index) {
-    Statement& s = structure.statements_[static_cast<std::size_t>(index)];
-    const std::vector<int>& same = loops_of[s.name];
-    if (same.empty()) return error(Code::macro_loop, s.span, fmt::format("no DO{} is open here", s.name));
-    const int loop = same.back();
-    if (loop != open_loops.back()) {
-      const Statement& inner = structure[open_loops.back()];
-      error(Code::macro_loop, s.span, fmt::format("DO{} is still open here", inner.name),
-            fmt::format("it is on line {}", inner.span.line), "the loop that begins last ends first");
-    }
-    s.begin = loop;
-    structure.statements_[static_cast<std::size_t>(loop)].end = index;
-    while (!open_loops.empty() && open_loops.back() >= loop) {
-      loops_of[structure[open_loops.back()].name].pop_back();
-      open_loops.pop_back();
-    }
-  }
-
-  /// The end of a program of the file.
-  void close_loops() {
-    for (const int loop : open_loops) {
-      const Statement& s = structure[loop];
-      error(Code::macro_loop, s.span, fmt::format("no END{} follows", s.name));
-    }
-    open_loops.clear();
-    loops_of.clear();
   }
 
   void find_targets() {
@@ -289,7 +248,7 @@ struct Structure::Reader {
   /// N of a line, and the O number that names the main program.
   void note(const Line& line, Program::Position at, bool words) {
     if (const std::optional<std::int32_t> number = sequence_number(line))
-      structure.numbers_.add(*number, at, open_loops.empty() ? -1 : open_loops.back());
+      structure.numbers_.add(*number, at, loops.innermost());
     if (!words && line.has_flow && line.flow.word == FlowWord::label) structure.head_line_ = line.number;
   }
 
@@ -404,7 +363,7 @@ struct Structure::Reader {
   }
 
   void end_of_file() {
-    close_loops();
+    loops.end_program();
     find_targets();
     for (const int index : open) {
       const Statement& s = structure[index];
@@ -422,28 +381,6 @@ bool ends_program(const Line& line) {
     return item.kind == ItemKind::word && item.letter == 'M' && item.value < 0 &&
            (item.number == code::m2 || item.number == code::m30);
   });
-}
-
-std::optional<Diagnostic> Structure::find_line(std::int32_t number, std::uint32_t line, Span place,
-                                               const NumberedLine*& target) const {
-  target = numbers_.find(number, line);
-  if (target == nullptr)
-    return problem(Code::sequence_number_missing, place, fmt::format("no line N{} in this program", number));
-  if (const NumberedLine* again = numbers_.again(*target)) {
-    Diagnostic d =
-        problem(Code::sequence_number_twice, place, fmt::format("N{} is not the only one", number));
-    d.notes.push_back(fmt::format("N{} begins line {} and line {}", number, target->at.line, again->at.line));
-    return d;
-  }
-  if (target->loop < 0) return std::nullopt;
-  const Statement& loop = statements_[static_cast<std::size_t>(target->loop)];
-  if (loop.end < 0) return std::nullopt;  // reported
-  const std::uint32_t last = statements_[static_cast<std::size_t>(loop.end)].span.line;
-  if (line > loop.span.line && line <= last) return std::nullopt;
-  Diagnostic d =
-      problem(Code::jump_into_loop, place, fmt::format("N{} stands inside DO{}", number, loop.name));
-  d.notes.push_back(fmt::format("the loop begins on line {}", loop.span.line));
-  return d;
 }
 
 bool Structure::read(Program& program, bool block_delete, bool macros, Names& names, Report& report) {

@@ -97,6 +97,11 @@ TEST_CASE("statements of macro B that can't be read") {
   CHECK(macro_error("DPRNT[X#1[53]]\n") == MacroError{Code::word_not_run, 1});
 }
 
+TEST_CASE("O words run beside macro B, where a vacant condition does not hold") {
+  CHECK(macro_xs("o1 if [#1]\nG0 X1\no1 else\nG0 X2\no1 endif\no2 repeat [#1]\nX3\no2 endrepeat\n") == Xs{2});
+  CHECK(macro_xs("IF [#1] GOTO 5\nG0 X1\nN5 M30\n") == Xs{1});
+}
+
 TEST_CASE("a macro under linuxcnc is told once, with the dialect that runs it") {
   const Outcome outcome = run("#1=3\nN10 IF [#1 EQ 0] GOTO 20\nG0 X#1\n#1=#1-1\nGOTO 10\nN20 M30\n");
   REQUIRE(outcome.codes() == std::vector<Code>{Code::kind_other});
