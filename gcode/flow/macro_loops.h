@@ -30,7 +30,7 @@ class MacroLoops {
 
   std::vector<Statement>& statements_;
   std::vector<Diagnostic>& problems_;
-  std::vector<int> open_;                              ///< without an END so far, the innermost last
+  std::vector<int> open_;                               ///< without an END so far, the innermost last
   std::map<std::int32_t, std::vector<int>> by_number_;  ///< the same by n of DO
 };
 

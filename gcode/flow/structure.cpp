@@ -125,9 +125,9 @@ struct Structure::Reader {
   std::vector<int> open = {};             ///< beginnings without an end so far, the innermost last
   std::vector<int> last_branch = {};      ///< [open], the latest branch of an if
   std::map<std::pair<FlowWord, std::int32_t>, std::vector<int>> open_of = {};  ///< `open` by word and label
-  std::vector<int> open_subs = {};              ///< those of `open` that are subs
-  std::set<std::int32_t> labels_in_scope = {};  ///< of ifs and loops, in this sub or main program
-  std::set<std::int32_t> labels_of_main = {};   ///< kept while a sub is read
+  std::vector<int> open_subs = {};                    ///< those of `open` that are subs
+  std::set<std::int32_t> labels_in_scope = {};        ///< of ifs and loops, in this sub or main program
+  std::set<std::int32_t> labels_of_main = {};         ///< kept while a sub is read
   MacroLoops loops{structure.statements_, problems};  ///< of macro B
 
   void error(Code code, Span span, std::string label, std::string note = {}, std::string help = {}) {

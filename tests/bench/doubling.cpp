@@ -158,7 +158,8 @@ const Construct kConstructs[] = {
      check_program},
     {"macro_numbers", 20'000,
      [](int n) {
-       return fmt::format("GOTO {}\n", n) + repeated(n, [](int i) { return fmt::format("N{} G0 X{}\n", i, i % 97); });
+       return fmt::format("GOTO {}\n", n) +
+              repeated(n, [](int i) { return fmt::format("N{} G0 X{}\n", i, i % 97); });
      },
      check_macro},
     {"macro_jumps_forward", 20'000,

@@ -128,13 +128,14 @@ TEST_CASE("#1000 to #1031 are the inputs of the machine, read where the line is 
 }
 
 TEST_CASE("what only tells can't be set, and what kadr does not have is named") {
-  for (const char* setting : {"#0=1\n", "#5001=1\n", "#5023=1\n", "#5041=1\n", "#4003=90\n", "#5201=0\n", "#1000=1\n"}) {
+  for (const char* setting :
+       {"#0=1\n", "#5001=1\n", "#5023=1\n", "#5041=1\n", "#4003=90\n", "#5201=0\n", "#1000=1\n"}) {
     CAPTURE(setting);
     CHECK(macro_error(setting) == MacroError{Code::parameter_read_only, 1});
   }
-  for (const char* text : {"G0 X#1032\n", "#1=1000\nG0 X#[#1+1]\n", "G0 X#3001\n", "#3001=0\n",
-                           "G0 X#34\n", "#99=1\n", "G0 X#200\n", "#499=1\n", "G0 X#3011\n", "G0 X#4111\n",
-                           "G0 X#7001\n", "G0 X#100000\n", "#5400=1\n", "G0 X#5420\n"}) {
+  for (const char* text : {"G0 X#1032\n", "#1=1000\nG0 X#[#1+1]\n", "G0 X#3001\n", "#3001=0\n", "G0 X#34\n",
+                           "#99=1\n", "G0 X#200\n", "#499=1\n", "G0 X#3011\n", "G0 X#4111\n", "G0 X#7001\n",
+                           "G0 X#100000\n", "#5400=1\n", "G0 X#5420\n"}) {
     CAPTURE(text);
     CHECK(macro_error(text).code == Code::system_variable);
   }
