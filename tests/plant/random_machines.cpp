@@ -88,5 +88,6 @@ TEST_CASE("random spring machines: smooth within 1e-6 um of the oracle, the orac
     CAPTURE(i);
     CAPTURE(lag_um);
     CHECK(oracle_um < 1e-9 + 1e-11 * lag_um);
+    CHECK(smooth_um < 1e-6);
   }
 }
