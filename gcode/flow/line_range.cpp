@@ -76,7 +76,9 @@ std::string Flow::not_entered(const Line& line) const {
     const bool begins = word == FlowWord::call || word == FlowWord::if_true || word == FlowWord::repeat ||
                         word == FlowWord::do_once ||
                         (word == FlowWord::while_true && index >= 0 && at(index).begin < 0);
-    if (!begins) return fmt::format("{} begins nothing that could be run", line.slice(line.flow.label));
+    const FlowStatement& flow = line.flow;
+    const Bytes words{flow.label.begin, std::max(flow.label.end, flow.keyword.end)};
+    if (!begins) return fmt::format("{} begins nothing that is run", line.slice(words));
   }
   return interpreter_.not_entered(line);
 }
@@ -98,8 +100,9 @@ void Flow::tell_range() {
                       fmt::format("the program never comes here; it ends on line {}", end_.line));
   }
   if (options_.to_line && !exit_) {
-    tell_exit(end_, fmt::format("the program ends here, without having come to line {}{}", *options_.to_line,
-                                options_.from_line ? " behind its entry" : ""));
+    const std::string_view since = options_.from_line ? " since it was entered" : "";
+    tell_exit(end_, fmt::format("the program ends here, and has not come to line {}{}", *options_.to_line,
+                                since));
   }
 }
 

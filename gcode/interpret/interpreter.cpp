@@ -174,7 +174,8 @@ void Interpreter::emit(Span span, Action action) {
 void Interpreter::hand_out(Block& block) {
   if (ended_ || !block_allowed(block.span, 0)) return;
   if (place_) block.span = *place_;
-  if (!left_) advice_.watch(block);
+  // how the program ends is not judged where it was cut off
+  if (!is<ProgramEnd>(block) || !(left_ || passing_)) advice_.watch(block);
   if (passing_) return passed_.add(block);
   ++blocks_;
   sink_(block);

@@ -370,7 +370,7 @@ class Interpreter {
   double thread_pitch_u_rev_ = 0;  ///< as written
   bool standing_told_ = false;     ///< the warning of a feed that follows a stopped spindle
   bool passing_ = false;           ///< the line where the program is entered is yet to come
-  bool left_ = false;              ///< or not entered: nothing is said of how the program ends
+  bool left_ = false;              ///< the program was ended where it goes on
   PassedBlocks passed_;
   bool silent_ = false;            ///< recovering from an error: modes are taken over, nothing is handed out
 };
