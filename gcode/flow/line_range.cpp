@@ -37,7 +37,7 @@ void Flow::step_in_range(const Line& line) {
   step(line);
   if (!exit_ || calls_.size() > exit_->depth || interpreter_.ended()) return;
   if (const std::string refusal = interpreter_.not_left(); !refusal.empty()) {
-    tell_exit(exit_->place, refusal);
+    if (report_.errors() == 0) tell_exit(exit_->place, refusal);
     stopped_ = true;
     return;
   }

@@ -57,6 +57,8 @@ bool is_initial(const Block& block) {
                  [](const SpindleStop& stop) { return !stop.orientation; },
                  [](const OneOf<MistOff, FloodOff> auto&) { return true; },
                  [](const OneOf<FeedOverride, SpeedOverride> auto& lock) { return lock.enabled; },
+                 [](const DigitalOutput& output) { return !output.on; },
+                 [](const AnalogOutput& output) { return output.value == 0; },
                  [](const auto&) { return false; }},
       block.action);
 }
