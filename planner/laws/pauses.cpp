@@ -23,8 +23,11 @@ class PauseWriter {
       plan_.segments[segment_].end_time_s += shift_s_;
     }
     for (; piece_ < piece; ++piece_) {
-      pieces_.push_back(plan_.law.pieces[piece_]);
-      pieces_.back().begin_s += shift_s_;
+      JerkPiece later = plan_.law.pieces[piece_];
+      later.begin_s += shift_s_;
+      // a later time has fewer bits: what was too short for it is left out
+      if (!pieces_.empty() && pieces_.back().begin_s == later.begin_s) pieces_.pop_back();
+      pieces_.push_back(later);
     }
   }
 

@@ -89,9 +89,10 @@ bool OverrideSource::law_rests() const {
 
 bool OverrideSource::leave_law(const LawSource& source, const MotionLaw& law, const Percent& percent) {
   const MotionState x = source.state();
-  // the ramp under way ends with the jerk of its last piece
   double jerk = terrain_.limits(segment_, segment_).jerk_u_s3;
-  for (std::size_t k = source.piece(); x.accel_u_s2 != 0.0 && k < law.pieces.size(); ++k) {
+  // the ramp under way ends with the jerk of its last piece; a time law has no ramps
+  const bool ramps = x.accel_u_s2 != 0.0 && !machine::facts(machine_.planner.method).is_law;
+  for (std::size_t k = source.piece(); ramps && k < law.pieces.size(); ++k) {
     const double j = law.pieces[k].jerk_u_s3;
     if (j * x.accel_u_s2 < 0.0) {
       jerk = std::fabs(j);

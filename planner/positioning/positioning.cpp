@@ -249,11 +249,13 @@ class Maker {
 }  // namespace
 
 void append_pieces(const PointLaw& law, double s_u, const Signature& why, std::vector<JerkPiece>& out) {
+  const PointPiece& last = law.pieces().back();
+  const double whole = law.distance_u() / last.at(last.duration_s).position_u;
   for (const PointPiece& p : law.pieces()) {
     const bool cruises = p.accel_u_s2 == 0.0 && p.jerk_u_s3 == 0.0;
     const Signature reason = cruises ? why : Signature{LimitedBy::length, -1};
-    out.push_back({p.begin_s, p.duration_s, s_u + p.position_u, p.speed_u_s, p.accel_u_s2, p.jerk_u_s3,
-                   reason.reason, reason.axis});
+    out.push_back({p.begin_s, p.duration_s, s_u + whole * p.position_u, whole * p.speed_u_s,
+                   whole * p.accel_u_s2, whole * p.jerk_u_s3, reason.reason, reason.axis});
   }
 }
 

@@ -61,7 +61,8 @@ struct Positioning {
 Positioning plan_positioning(const PositioningTask& task);
 inline constexpr std::size_t kMostTuned = 2;
 
-/// Appends the pieces of a law that begins at path length s.
+/// Appends the pieces of a law that begins at path length s. They end where the law says: edges that are short
+/// beside its duration round what they add up to (up to 1e-9 of the way), and that is shared out.
 /// @param why  the limit of the cruising speed
 void append_pieces(const PointLaw& law, double s_u, const Signature& why, std::vector<JerkPiece>& out);
 

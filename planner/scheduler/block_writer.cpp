@@ -1,5 +1,7 @@
 #include "planner/scheduler/block_writer.h"
 
+#include <utility>
+
 #include "planner/path/path.h"
 
 namespace kadr::planner {
@@ -15,8 +17,12 @@ void BlockWriter::add(const BlockDiagram& block, const BlockReasons& why) {
   elements_.clear();
   const double stretch = append_elements(block, path_.start_s_u[i], tau_s_, why, elements_);
   // elements that are too short to move time are the last bits of a bisection
-  if (elements_.size() > 1)
-    std::erase_if(elements_, [&](const Element& e) { return begin_s + e.time_s() == begin_s; });
+  double time_s = begin_s;
+  const auto moves_no_time = [&](const Element& e) {
+    const double before_s = std::exchange(time_s, time_s + e.time_s() * stretch);
+    return time_s == before_s;
+  };
+  if (elements_.size() > 1) std::erase_if(elements_, moves_no_time);
   ticks_ += block.ticks;
   const double end_s = static_cast<double>(ticks_) * tau_s_;
   // a block that is scaled to whole ticks, but ends at rest, stands there for the part of a tick

@@ -15,7 +15,8 @@ void BlockEnds::tick(const TickView& view) {
   if (path_.size() > 0) {
     if (open_ && path_.segments[view.segment].block != path_.segments[segment_].block) end_block(view.end);
     segment_ = view.segment;
-    open_ = true;
+    // a stand before the block is none of its motion
+    open_ = open_ || view.motion.s_end_u > path_.start_s_u[segment_];
   }
   has_energy_ = view.energy != nullptr;
   if (!view.plant) return;
@@ -44,11 +45,11 @@ void BlockEnds::end_block(Ticks tick) {
     axis.begin_recuperated_J = axis.recuperated_J;
   }
   records_.push_back(std::move(record));
+  open_ = false;
 }
 
 void BlockEnds::finish(Ticks end) {
   if (open_) end_block(end);
-  open_ = false;
 }
 
 }  // namespace kadr::cycle

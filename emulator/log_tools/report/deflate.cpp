@@ -15,21 +15,37 @@ constexpr int kRawWindow = -15;  ///< deflate without zlib's own header
 constexpr std::uint16_t kNoValue = 65535;
 constexpr double kSteps = 65534;
 
+/// zlib's state of a quarter of a megabyte, kept from one array of a page to the next.
+class Deflater {
+ public:
+  Deflater() {
+    const int begin = deflateInit2(&z_, kLevel, Z_DEFLATED, kRawWindow, 9, Z_DEFAULT_STRATEGY);
+    if (begin == Z_MEM_ERROR) throw std::bad_alloc();
+    require(begin == Z_OK, "zlib starts");
+  }
+  Deflater(const Deflater&) = delete;
+  Deflater& operator=(const Deflater&) = delete;
+  ~Deflater() { deflateEnd(&z_); }
+
+  std::string deflated(std::string_view bytes) {
+    require(deflateReset(&z_) == Z_OK, "zlib starts again");
+    std::string out(deflateBound(&z_, static_cast<uLong>(bytes.size())), '\0');
+    z_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    z_.avail_in = static_cast<uInt>(bytes.size());
+    z_.next_out = reinterpret_cast<Bytef*>(out.data());
+    z_.avail_out = static_cast<uInt>(out.size());
+    const int end = deflate(&z_, Z_FINISH);
+    require(end == Z_STREAM_END && z_.total_out <= out.size(), "zlib packs into the space it asked for");
+    return out.substr(0, z_.total_out);
+  }
+
+ private:
+  z_stream z_{};
+};
+
 std::string deflated(std::string_view bytes) {
-  z_stream z{};
-  const int begin = deflateInit2(&z, kLevel, Z_DEFLATED, kRawWindow, 9, Z_DEFAULT_STRATEGY);
-  if (begin == Z_MEM_ERROR) throw std::bad_alloc();
-  require(begin == Z_OK, "zlib starts");
-  std::string out(deflateBound(&z, static_cast<uLong>(bytes.size())), '\0');
-  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  z.avail_in = static_cast<uInt>(bytes.size());
-  z.next_out = reinterpret_cast<Bytef*>(out.data());
-  z.avail_out = static_cast<uInt>(out.size());
-  const int end = deflate(&z, Z_FINISH);
-  const std::size_t used = z.total_out;
-  deflateEnd(&z);
-  require(end == Z_STREAM_END && used <= out.size(), "zlib packs into the space it asked for");
-  return out.substr(0, used);
+  thread_local Deflater deflater;
+  return deflater.deflated(bytes);
 }
 
 std::string base64(std::string_view bytes) {
