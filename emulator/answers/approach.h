@@ -11,8 +11,9 @@ namespace kadr::answers {
 /// The way from home to the line where the program is entered (--from-line).
 struct ApproachRow {
   std::uint32_t line = 0;
-  double time_s = 0;              ///< as planned
-  std::vector<std::string> ways;  ///< axes that move together, one group after the other: {"XY", "Z"}; may be empty
+  double time_s = 0;  ///< as planned
+  std::vector<std::string>
+      ways;  ///< axes that move together, one group after the other: {"XY", "Z"}; may be empty
 };
 
 /// Nothing: the program is run from its beginning.

@@ -229,7 +229,7 @@ class Session::Cycle {
   TickMotion motion_{};
   ControlTicks ticks_, motion_ticks_;
   ControlTicks approach_ticks_;  // of motion_ticks_, before the program's own path begins
-  std::size_t end_alarms_ = 0;  // that ended the run, and are no monitor's
+  std::size_t end_alarms_ = 0;   // that ended the run, and are no monitor's
   std::optional<log::Outcome> outcome_;
 };
 

@@ -100,8 +100,8 @@ struct Scenario {
   std::string tools_file;  ///< tool table as written, empty: none
   gcode::Dialect dialect = gcode::Dialect::linuxcnc;
   std::optional<std::uint32_t> from_line, to_line;  ///< as gcode::Reading has them
-  std::vector<std::string> settings;    ///< "key=value"
-  std::optional<double> most_override;  ///< JobInputs::most_override
+  std::vector<std::string> settings;                ///< "key=value"
+  std::optional<double> most_override;              ///< JobInputs::most_override
   std::vector<ScenarioStep> steps;
   std::vector<ScenarioTechnology> technology;
   Expectations expect;

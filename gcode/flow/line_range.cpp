@@ -101,8 +101,8 @@ void Flow::tell_range() {
   }
   if (options_.to_line && !exit_) {
     const std::string_view since = options_.from_line ? " since it was entered" : "";
-    tell_exit(end_, fmt::format("the program ends here, and has not come to line {}{}", *options_.to_line,
-                                since));
+    tell_exit(end_,
+              fmt::format("the program ends here, and has not come to line {}{}", *options_.to_line, since));
   }
 }
 

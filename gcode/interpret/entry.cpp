@@ -69,10 +69,11 @@ std::vector<std::string> Interpreter::ways_to(const AxisValues& place) const {
 }
 
 bool Interpreter::refuse_passed_probe() {
-  return error(problem(Code::entry_probe, action_span(),
-                       fmt::format("what it finds is not known: the program is entered on line {}",
-                                   options_.from_line.value_or(0)),
-                       "say where the material is: [stock] in the machine file, or --set stock.position_mm=Z"));
+  return error(
+      problem(Code::entry_probe, action_span(),
+              fmt::format("what it finds is not known: the program is entered on line {}",
+                          options_.from_line.value_or(0)),
+              "say where the material is: [stock] in the machine file, or --set stock.position_mm=Z"));
 }
 
 }  // namespace kadr::gcode

@@ -372,7 +372,7 @@ class Interpreter {
   bool passing_ = false;           ///< the line where the program is entered is yet to come
   bool left_ = false;              ///< the program was ended where it goes on
   PassedBlocks passed_;
-  bool silent_ = false;            ///< recovering from an error: modes are taken over, nothing is handed out
+  bool silent_ = false;  ///< recovering from an error: modes are taken over, nothing is handed out
 };
 
 }  // namespace kadr::gcode

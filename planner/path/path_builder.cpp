@@ -87,11 +87,11 @@ void PathBuilder::add_motion(const gcode::Block& block) {
     add_line(segment, tap, start);
   };
   const auto to_entry = [&](const gcode::Approach& approach) { add_approach(segment, approach); };
-  std::visit(
-      Overloaded{along_line, to_contact, down_and_up, to_entry, [&](const gcode::Arc& arc) { add_arc(segment, arc); },
-                 [&](const gcode::Spline& spline) { add_spline(segment, spline); },
-                 [](const gcode::NoMove auto&) {}},
-      block.action);
+  std::visit(Overloaded{along_line, to_contact, down_and_up, to_entry,
+                        [&](const gcode::Arc& arc) { add_arc(segment, arc); },
+                        [&](const gcode::Spline& spline) { add_spline(segment, spline); },
+                        [](const gcode::NoMove auto&) {}},
+             block.action);
 }
 
 PathSegment PathBuilder::segment_of(const gcode::Block& block, const gcode::Move& move) {

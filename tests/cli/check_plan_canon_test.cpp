@@ -162,17 +162,20 @@ TEST_CASE("--from-line and --to-line cut a program, and name what can't be cut")
   CHECK(contains(check.out, "   1 block\n  approach     "));
   CHECK(contains(check.out, "X Y, to where line 5 begins\n"));
   CHECK(contains(check.out, "path         10.000 mm"));
-  const Json j = Json::parse(call({"check", "p.ngc", "--from-line", "5", "--json"}, scratch.path()).out)[0]["check"];
+  const Json j =
+      Json::parse(call({"check", "p.ngc", "--from-line", "5", "--json"}, scratch.path()).out)[0]["check"];
   CHECK(j["blocks"] == 1);
   CHECK(j["path_u"] == doctest::Approx(10));
   CHECK(j["approach"]["axes"] == Json::array({"XY"}));
   CHECK(j["approach"]["line"] == 5);
   CHECK(j["time_s"].get<double>() > j["approach"]["time_s"].get<double>() + 1);
-  CHECK_FALSE(Json::parse(call({"check", "p.ngc", "--json"}, scratch.path()).out)[0]["check"].contains("approach"));
+  CHECK_FALSE(
+      Json::parse(call({"check", "p.ngc", "--json"}, scratch.path()).out)[0]["check"].contains("approach"));
   const Finished plan = call({"plan", "p.ngc", "--from-line", "3", "--to-line", "3"}, scratch.path());
   CHECK(contains(plan.out, "  approach: X\n"));
   CHECK(contains(plan.out, "2 rows, "));
-  const Json rows = Json::parse(call({"plan", "p.ngc", "--from-line", "3", "--json"}, scratch.path()).out)["rows"];
+  const Json rows =
+      Json::parse(call({"plan", "p.ngc", "--from-line", "3", "--json"}, scratch.path()).out)["rows"];
   CHECK(rows[0]["motion"] == "approach");
   CHECK(rows[0]["axes"] == Json::array({"X"}));
   CHECK(contains(call({"plan", "p.ngc", "--from-line", "3", "--csv"}, scratch.path()).out, "\n3,approach,,"));
@@ -198,8 +201,9 @@ TEST_CASE("--from-line and --to-line cut a program, and name what can't be cut")
 TEST_CASE("a log keeps the lines between which its program was run, and has the approach") {
   const Scratch scratch;
   scratch.write("p.ngc", "G21 G90 F600\nG1 X10\nG1 Y10\nG1 X20\nM2\n");
-  scratch.write("scenario.toml",
-                "format = 1\nname = \"part\"\nprogram = \"p.ngc\"\nmachine = \"mill3\"\nfrom_line = 4\nto_line = 4\n");
+  scratch.write(
+      "scenario.toml",
+      "format = 1\nname = \"part\"\nprogram = \"p.ngc\"\nmachine = \"mill3\"\nfrom_line = 4\nto_line = 4\n");
   const auto log_of = [&](std::vector<std::string> arguments, const std::string& log) {
     arguments.insert(arguments.end(), {"--no-plant", "-o", log});
     CHECK(call(arguments, scratch.path()).code == 0);

@@ -90,7 +90,8 @@ TEST_CASE("a program that is entered at a line has the blocks from there on, and
       "STRAIGHT_FEED 30.000000 20.000000 -2.000000 0.000000 0.000000 0.000000 0.000000 0.000000 0.000000"};
   REQUIRE(outcome.trace.size() > wanted.size());
   CHECK(std::vector<std::string>(outcome.trace.begin(),
-                                 outcome.trace.begin() + static_cast<std::ptrdiff_t>(wanted.size())) == wanted);
+                                 outcome.trace.begin() + static_cast<std::ptrdiff_t>(wanted.size())) ==
+        wanted);
   CHECK(lines_of(outcome)[4] == 2);  // a setting stands on its own line
 }
 
@@ -150,12 +151,14 @@ TEST_CASE("a program can't be entered inside compensation, a cycle, a NURBS or a
         "it repeats the G81 of a line before it | the nearest lines that can be entered are 2 and 4");
   CHECK(told(cycle, from(5)) == "nothing");
   CHECK(told("G21 F100 G1 X0 Y0\nG5.2 X0 Y1 P1\nX2 Y2 P1\nX3 Y0 P1\nG5.3\nG1 X9\nM2\n", from(3)) ==
-        "it stands in the middle of the NURBS that begins on line 2 | the nearest lines that can be entered are "
+        "it stands in the middle of the NURBS that begins on line 2 | the nearest lines that can be entered "
+        "are "
         "2 and 6");
   const std::string thread = "G21 S100 M3\nG33 Z-5 K1\nG33 Z-9 K1\nG0 X5\nG33 Z0 K1\nM5\nM2\n";
   CHECK(told(thread, from(2)) == "nothing");
-  CHECK(told(thread, from(3)) ==
-        "it goes on with the thread of the move before it | the nearest lines that can be entered are 2 and 4");
+  CHECK(
+      told(thread, from(3)) ==
+      "it goes on with the thread of the move before it | the nearest lines that can be entered are 2 and 4");
   CHECK(told(thread, from(5)) == "nothing");
 }
 
@@ -165,8 +168,9 @@ TEST_CASE("a line without a block, one that is never run and one behind the end 
         "no block stands on this line | the nearest lines that can be entered are 1 and 4");
   CHECK(told(text, from(3)) ==
         "no block stands on this line | the nearest lines that can be entered are 1 and 4");
-  CHECK(told(text, from(6)) ==
-        "the program never comes here; it ends on line 8 | the nearest lines that can be entered are 5 and 8");
+  CHECK(
+      told(text, from(6)) ==
+      "the program never comes here; it ends on line 8 | the nearest lines that can be entered are 5 and 8");
   CHECK(told(text, from(9)) ==
         "the program never comes here; it ends on line 8 | the nearest line that can be entered is 8");
   CHECK(told(text, from(10)) ==
@@ -264,7 +268,9 @@ TEST_CASE("from the line of its entry on a program has the blocks of a full run"
       text += lines[l] + "\n";
       if (l == std::min(end, lines.size() - 2)) text += "o1 endrepeat\n";
     }
-    text += "(DEBUG, #5420 #5421 #5422 #<_feed> #<_rpm> #<_spindle_on> #<_mist> #<_flood> #<_metric> #<_plane>)\n";
+    text +=
+        "(DEBUG, #5420 #5421 #5422 #<_feed> #<_rpm> #<_spindle_on> #<_mist> #<_flood> #<_metric> "
+        "#<_plane>)\n";
     text += lines.back() + "\n";
     InterpretOptions options;
     options.tools = made.tools;

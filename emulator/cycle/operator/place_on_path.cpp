@@ -95,8 +95,8 @@ std::vector<double> place_on_path(const std::vector<OperatorStep>& steps, const 
         Code::scenario_step, steps[i].span,
         segment ? fmt::format("{} and {:.6g} after it is beyond the path", place_text(place), place.after_u)
                 : fmt::format("{} of the program starts no motion", place_text(place)));
-    d.notes.push_back(
-        fmt::format("the program has {} motion blocks and a path of {:.6g}", blocks, path.length_u() - path.program_begin_u()));
+    d.notes.push_back(fmt::format("the program has {} motion blocks and a path of {:.6g}", blocks,
+                                  path.length_u() - path.program_begin_u()));
     d.help = "kadr plan shows the lines that move";
     diagnostics.add(std::move(d));
   }

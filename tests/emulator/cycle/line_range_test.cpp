@@ -45,7 +45,9 @@ TEST_CASE("a run that is entered at a line approaches it from home, and ends whe
   CHECK(part.log.blocks[1].span.line == 6);
   CHECK(part.log.blocks[2].span.line == 7);
   // X and Y before Z, which goes down
-  const auto steps_of = [&](std::size_t tick, std::size_t axis) { return part.log.ticks[tick].steps[axis].value; };
+  const auto steps_of = [&](std::size_t tick, std::size_t axis) {
+    return part.log.ticks[tick].steps[axis].value;
+  };
   for (std::size_t t = 0; t < part.log.ticks.size() && steps_of(t, 2) == 0; ++t) CHECK(steps_of(t, 0) >= 0);
   const planner::Path& path = part.job->read.path;
   REQUIRE(path.approach_size() == 2);
@@ -99,8 +101,7 @@ TEST_CASE("a program that is entered where the machine stands has an approach wi
 }
 
 TEST_CASE("soft limits hold for the approach, not for what is passed over") {
-  const std::string program =
-      "G21 G90 F3000\nG0 X500\nG0 X10\nG0 Y500\nG1 X20\nG0 Y0\nG1 X30\nM2\n";
+  const std::string program = "G21 G90 F3000\nG0 X500\nG0 X10\nG0 Y500\nG1 X20\nG0 Y0\nG1 X30\nM2\n";
   machine::MachineModel machine = test_machine(3);
   for (machine::AxisModel& axis : machine.axis) axis.soft_min_u = -100, axis.soft_max_u = 100;
   const auto lines = [&](std::uint32_t from_line) {
@@ -122,7 +123,8 @@ TEST_CASE("places of the timeline and of technology points count from where the 
   RunResult r;
   r.in = make_inputs(kProgram, test_machine(3));
   r.in.given.reading.from_line = 6;
-  OperatorStep at_path{.action = OperatorAction::feed_override, .value = 0.5};
+  OperatorStep at_path;
+  at_path.value = 0.5;
   at_path.place = PathPlace{PathPlace::Kind::length, 10};
   OperatorStep at_block = at_path;
   at_block.place = PathPlace{PathPlace::Kind::block, 1};
