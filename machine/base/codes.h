@@ -64,7 +64,7 @@ enum class Code : std::uint16_t {
   sub_of_other_file = 1045,
   program_aborts = 1046,
 
-  // K1070 to K1079 where a program is entered and left (codes/flow.inc)
+  // K1070 to K1079 where a program is entered and left (codes/line_range.inc)
   entry_line = 1070,
   exit_line = 1071,
   entry_probe = 1072,
