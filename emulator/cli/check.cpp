@@ -37,6 +37,7 @@ int check_one(const Arguments& arguments, const std::string& path, Console& cons
     console.diagnostics(diagnostics, sources, "the machine file", Console::Where::errors);
     return kNotStarted;
   }
+  refuse_offsets(arguments, given.machine.model);
   try {
     given.program = load_program(path, arguments.bounds, sources);
   } catch (const WorldError& e) {
@@ -136,6 +137,7 @@ int plan_program(const Arguments& arguments, Console& console) {
     console.diagnostics(diagnostics, sources, "the machine file", Console::Where::errors);
     return kNotStarted;
   }
+  refuse_offsets(arguments, given.machine.model);
   given.program = load_program(path, arguments.bounds, sources);
   if (!load_reading(arguments, sources, given.reading, diagnostics)) {
     console.diagnostics(diagnostics, sources, arguments.tools, Console::Where::errors);

@@ -48,9 +48,12 @@ int answer(const Diff& diff, const Arguments& arguments, Console& console) {
   note_passed_over(diff.b.path, diff.b.end, console);
   bool denied = false;
   for (const log_tools::LogSide* side : {&diff.a, &diff.b}) {
-    if (side->end.state != log::LogState::damaged && side->end.state != log::LogState::altered) continue;
-    console.error(fmt::format("{}: {}", side->path, side->end.detail));
-    denied = true;
+    const bool contradicts =
+        side->end.state == log::LogState::damaged || side->end.state == log::LogState::altered;
+    // the table says that a log was cut off
+    if (contradicts || (console.options().quiet && !log::is_sound(side->end.state)))
+      console.error(fmt::format("{}: {}", side->path, side->end.detail));
+    denied = denied || contradicts;
   }
   return denied || diff.differ() || (arguments.strict && diff.inputs_differ()) ? kNo : kYes;
 }

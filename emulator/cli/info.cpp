@@ -93,6 +93,8 @@ int log_info(const Arguments& arguments, Console& console) {
       documents.push_back(info_json(*info));
     } else if (!console.options().quiet) {
       console.data((first ? "" : "\n") + log::render_log_info(*info));
+    } else if (!log::is_sound(info->end.state)) {
+      console.error(fmt::format("{}: {}", path, info->end.detail));
     }
     first = false;
   }

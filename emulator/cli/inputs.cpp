@@ -78,15 +78,25 @@ bool load_reading(const Arguments& arguments, const InputFile& tools, SourceSet&
   return diagnostics.errors() == errors;
 }
 
+void refuse_offsets(const Arguments& arguments, const machine::MachineModel& machine) {
+  std::string axes;
+  for (const machine::AxisModel& axis : machine.axis) axes += axis.letter;
+  for (const gcode::WorkOffset& offset : arguments.offsets)
+    for (std::size_t a = 0; a < offset.zero_u.size(); ++a)
+      if (offset.zero_u[a] != 0.0 && axes.find(kAxisLetters[a]) == std::string::npos)
+        throw WorldError(
+            fmt::format("--offset gives {} the zero {:.6g}, and machine {} has no such axis; its axes: {}",
+                        kAxisLetters[a], offset.zero_u[a], displayable(machine.name), axes));
+}
+
 std::uint32_t load_program(const InputFile& file, const gcode::ReadingBounds& bounds, SourceSet& sources) {
   if (file.path.ends_with(".toml"))
     throw WorldError(
         fmt::format("{}: a TOML file is no program; kadr run -s FILE runs a scenario", file.path));
   try {
-    return sources.add(SourceText::open(file, bounds.file_bytes));
+    return sources.add(gcode::open_program(file, bounds.file_bytes));
   } catch (const UnreadableText& e) {
-    const bool too_large = e.code() == std::errc::file_too_large;
-    throw WorldError(fmt::format("{}{}", e.what(), too_large ? " (--limit file_bytes=N)" : ""));
+    throw WorldError(e.what());
   }
 }
 

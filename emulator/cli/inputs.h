@@ -27,6 +27,9 @@ bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading
 bool load_reading(const Arguments& arguments, const InputFile& tools, SourceSet& sources,
                   gcode::Reading& reading, Diagnostics& diagnostics);
 
+/// @throws WorldError if an --offset is that of an axis which the machine lacks; 0 is none
+void refuse_offsets(const Arguments& arguments, const machine::MachineModel& machine);
+
 /// Opens a program as a file of the sources: `-` is standard input. TOML is refused by its name.
 /// @throws WorldError with path and reason
 std::uint32_t load_program(const InputFile& file, const gcode::ReadingBounds& bounds, SourceSet& sources);

@@ -38,6 +38,8 @@ void refuse_bad_log_path(const std::string& log, Console& console) {
   console.claim_output(log);
 }
 
+constexpr std::size_t kStringFrame_bytes = 5;  // LCM's length and terminating 0
+
 /// Prints the expected size of the log before the run, and the free space if that is too little.
 /// @throws WorldError if it is more than --limit log_bytes allows
 void tell_expected_size(const cycle::Job& job, const Arguments& arguments, const std::string& log,
@@ -50,9 +52,13 @@ void tell_expected_size(const cycle::Job& job, const Arguments& arguments, const
       static_cast<double>(answers::estimate_pulses(answers::axis_travel(job.read.path), model));
   const std::size_t text_bytes = header.program_text.size() + header.machine_toml.size() +
                                  header.scenario_toml.size() + header.settings_toml.size();
-  const std::int64_t bytes = log::estimate_log_bytes(
-      model, run_s, static_cast<std::int64_t>(pulses * part),
-      static_cast<std::size_t>(static_cast<double>(job.read.blocks) * part), arguments.plant, text_bytes);
+  std::size_t list_bytes = 0;
+  for (const log::ReadFile& file : header.files)
+    list_bytes += kStringFrame_bytes + log::file_text(file).size();
+  const std::int64_t bytes =
+      log::estimate_log_bytes(model, run_s, static_cast<std::int64_t>(pulses * part),
+                              static_cast<std::size_t>(static_cast<double>(job.read.blocks) * part),
+                              arguments.plant, text_bytes, list_bytes);
   if (arguments.log_bytes > 0 && static_cast<std::uint64_t>(bytes) > arguments.log_bytes)
     throw WorldError(fmt::format(
         "{}: the log would be about {}, more than log_bytes allows ({}); --limit log_bytes=N allows "
@@ -136,6 +142,7 @@ void read_inputs(RunInputs& in) {
   if (in.diagnostics.has_errors()) return;
   in.machine_good =
       load_machine(in.machine, in.arguments.settings, in.sources, in.given.machine, in.diagnostics);
+  if (in.machine_good) refuse_offsets(in.arguments, in.given.machine.model);
   if (!in.program_file.path.empty()) {
     in.given.program = load_program(in.program_file, in.arguments.bounds, in.sources);
     in.program = program_text(in.program_file.path);

@@ -97,12 +97,14 @@ class Messages {
 }  // namespace
 
 std::int64_t estimate_log_bytes(const machine::MachineModel& machine, double planned_s, std::int64_t pulses,
-                                std::size_t blocks, bool plant, std::size_t text_bytes) {
+                                std::size_t blocks, bool plant, std::size_t text_bytes,
+                                std::size_t list_bytes) {
   Messages message(machine, plant);
   const double ticks = std::ceil(std::max(0.0, planned_s) / machine.clock.tau_s());
   const double messages =
       std::ceil(ticks / static_cast<double>(std::max<std::int64_t>(1, machine.log.block_ticks.value)));
-  double bytes = message.frame() + static_cast<double>(std::min(text_bytes, kEmbeddedTextLimit)) +
+  double bytes = message.frame() +
+                 static_cast<double>(std::min(text_bytes, kEmbeddedTextLimit) + list_bytes) +
                  static_cast<double>(blocks) * message.block() +
                  // a block that ends within the control tick of its beginning has no KADR_BLOCK_END
                  std::min(static_cast<double>(blocks), ticks) * message.block_end();

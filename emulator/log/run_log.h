@@ -33,8 +33,10 @@ class RunLog {
 /// written then.
 /// @param plant       the run has a plant (its states are logged)
 /// @param text_bytes  program, machine, scenario and settings texts together
+/// @param list_bytes  of the list of files read
 std::int64_t estimate_log_bytes(const machine::MachineModel& machine, double planned_s, std::int64_t pulses,
-                                std::size_t blocks, bool plant = true, std::size_t text_bytes = 0);
+                                std::size_t blocks, bool plant = true, std::size_t text_bytes = 0,
+                                std::size_t list_bytes = 0);
 
 struct LcmLogOptions {
   std::string path;  ///< event log to write ("" : none), by the rules of OutputFile: as path + ".part", which

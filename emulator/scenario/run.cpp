@@ -184,7 +184,7 @@ bool open_job(const Scenario& scenario, cycle::JobInputs& given, SourceSet& sour
   SourceText program =
       scenario.program_file.empty()
           ? SourceText(scenario.program_name, scenario.generated_program)
-          : SourceText::open(scenario.input(scenario.program_file), given.reading.bounds.file_bytes);
+          : gcode::open_program(scenario.input(scenario.program_file), given.reading.bounds.file_bytes);
   auto file = machine::read_machine(std::move(machine_text), sources, scenario.settings);
   given.program = sources.add(std::move(program));
   given.reading.dialect = scenario.dialect;

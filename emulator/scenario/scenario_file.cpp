@@ -109,7 +109,7 @@ class ScenarioReader {
   void look_for(const machine::Reading<std::string>& name) {
     const InputFile file = scenario_.input(name.value);
     if (machine::look_for(file, name.span, context_.diagnostics) == InputPlace::missing)
-      tell(Code::scenario_file_missing, name.span, fmt::format("there is no file {}", file.path));
+      tell(Code::scenario_file_missing, name.span, missing_text(file));
   }
 
   void read_winding(const Node& node) {

@@ -110,6 +110,7 @@ class Interpreter {
 
   // startup.cpp: before the first line, and what the program does not say
   bool startup_allowed(const Line& line);
+  std::uint32_t length_words() const;
   void note_length();
   void tell_units();
   void warn_axis_words_move();

@@ -58,11 +58,26 @@ bool Interpreter::startup_allowed(const Line& line) {
   return report_.errors() == errors;
 }
 
+/// The words of the line that are lengths.
+std::uint32_t Interpreter::length_words() const {
+  const bool arc = is_arc(motion_of_line()) && moves();
+  std::uint32_t lengths = letter_bits(arc ? "XYZUVW@IJKR" : "XYZUVW@");
+  const auto add = [&](bool reads, char letter) {
+    if (reads) lengths |= letter_bit(letter);
+  };
+  const int compensation = words_.g(GGroup::compensation);
+  add(words_.g(GGroup::path) == code::g64, 'P');
+  add(compensation == code::g41_1 || compensation == code::g42_1, 'D');
+  add(words_.g(GGroup::nonmodal) == code::g10 && words_.has('L') && words_.value('L') != 2 &&
+          words_.value('L') != 20,
+      'R');
+  return lengths & words_.present;
+}
+
 /// Keeps the first length of a program that has not said its units.
 void Interpreter::note_length() {
   if (words_.g(GGroup::units) != kNoCode) return;  // taken with the line
-  const bool arc = is_arc(motion_of_line()) && moves();
-  const std::uint32_t lengths = letter_bits(arc ? "XYZUVW@IJKR" : "XYZUVW@") & words_.present;
+  const std::uint32_t lengths = length_words();
   if ((lengths & kAxisBits & ~axes_on_machine_) != 0) return;
   for (const char letter : kWordLetters) {
     if ((lengths & letter_bit(letter)) == 0 || words_.value(letter) == 0) continue;

@@ -21,14 +21,22 @@ FoundText refuse(std::string reason, std::string help =
 
 FoundText open_text(const InputFile& file, std::uint64_t most_bytes) {
   try {
-    return {SourceText::open(file, most_bytes), {}, {}, {}, false};
+    return {open_program(file, most_bytes), {}, {}, {}, false};
   } catch (const UnreadableText& e) {
-    const bool too_large = e.code() == std::errc::file_too_large;
-    return {{}, fmt::format("{}{}", e.what(), too_large ? " (--limit file_bytes=N)" : ""), {}, {}, too_large};
+    return {{}, e.what(), {}, {}, e.code() == std::errc::file_too_large};
   }
 }
 
 }  // namespace
+
+SourceText open_program(const InputFile& file, std::uint64_t most_bytes) {
+  try {
+    return SourceText::open(file, most_bytes);
+  } catch (const UnreadableText& e) {
+    if (e.code() != std::errc::file_too_large) throw;
+    throw UnreadableText(file.path, std::errc::file_too_large, e.reason() + " (--limit file_bytes=N)");
+  }
+}
 
 FolderTexts FolderTexts::beside(const std::string& program, const std::vector<std::string>& others,
                                 std::uint64_t most_bytes, std::vector<std::string> allowed) {

@@ -11,6 +11,10 @@
 
 namespace kadr::gcode {
 
+/// Opens the text of a program, or of a file that it calls.
+/// @throws UnreadableText  whose reason names the bound, if it is longer than that
+SourceText open_program(const InputFile& file, std::uint64_t most_bytes);
+
 /// Result of looking for the text of a name: a text, a refusal, or neither if there is none.
 struct FoundText {
   std::optional<SourceText> text;

@@ -73,6 +73,17 @@ InputPlace place_of(const InputFile& file) {
   return regular ? InputPlace::inside : InputPlace::missing;
 }
 
+std::string missing_text(const InputFile& file) {
+  std::error_code error;
+  const fs::file_type type = fs::status(file.path, error).type();
+  const bool found = type != fs::file_type::none && type != fs::file_type::not_found;
+  if (!found || type == fs::file_type::unknown) return "there is no file " + file.path;
+  const char* kind = type == fs::file_type::directory ? "folder"
+                     : type == fs::file_type::fifo    ? "pipe"
+                                                      : "device or socket";
+  return fmt::format("{} is a {}, not a file", file.path, kind);
+}
+
 int open_without_links(const std::string& path) {
   int at = ::open("/", O_PATH | O_DIRECTORY | O_CLOEXEC);
   const fs::path parts = fs::path(path).relative_path();

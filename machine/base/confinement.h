@@ -33,6 +33,9 @@ enum class InputPlace : std::uint8_t { inside, outside, missing };
 /// Where a file lies; `missing` if it lies inside and is no regular file. It is not opened.
 InputPlace place_of(const InputFile& file);
 
+/// Why a file of InputPlace::missing is none: "there is no file a.ngc", "a.ngc is a pipe, not a file".
+std::string missing_text(const InputFile& file);
+
 /// Opens a file to read, without waiting for the writer of a pipe. The file that is opened is the one whose place was
 /// looked at: whatever links are put on the way meanwhile.
 /// @return the descriptor; -1: errno says why

@@ -125,6 +125,25 @@ TEST_CASE("a log that is broken behind what is read of it is not read without a 
   }
 }
 
+TEST_CASE("what -q leaves of an answer of info and diff says why it is no") {
+  const Logs logs;
+  Bytes cut = logs.bytes;
+  cut.resize(cut.size() * 4 / 5);
+  logs.save("cut.lcmlog", cut);
+  logs.save("true.lcmlog", logs.bytes);
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"info", "-q", "cut.lcmlog"},
+           {"diff", "-q", "true.lcmlog", "cut.lcmlog"},
+           {"diff", "-q", "true.lcmlog", "cut.lcmlog", "--align", "path"}}) {
+    CAPTURE(command);
+    const Finished done = logs.kadr(command);
+    CHECK(done.code == 1);
+    CHECK(done.out.empty());
+    CHECK(contains(done.err, "kadr: cut.lcmlog: "));
+    CHECK(contains(done.err, "cut off"));
+  }
+}
+
 TEST_CASE("no command says yes to a log with a flipped bit, and none leaves an output") {
   const Logs logs;
   // in a number of each channel, and at the end of the summary

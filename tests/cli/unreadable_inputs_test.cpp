@@ -73,6 +73,30 @@ TEST_CASE("an input far larger than any of its kind is refused before it is read
                  "at most 1073741824 are read (--limit file_bytes=N)"));
   CHECK(contains(call({"check", "p.ngc", "--limit", "file_bytes=5"}, scratch.path()).err,
                  "p.ngc: 9 bytes; at most 5 are read (--limit file_bytes=N)"));
+  scratch.write("s.toml", "format = 1\nname = \"s\"\nprogram = \"p.ngc\"\nmachine = \"mill3\"\n");
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"scenario", "run", "s.toml"}, {"run", "-s", "s.toml", "--no-log"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--limit", "file_bytes=5"});
+    const Finished done = call(arguments, scratch.path());
+    CHECK(done.code != 0);
+    CHECK(contains(done.out + done.err, "p.ngc: 9 bytes; at most 5 are read (--limit file_bytes=N)"));
+  }
+}
+
+TEST_CASE("what a scenario names and is no file is told as what it is") {
+  const Scratch scratch;
+  REQUIRE(::mkfifo(scratch.file("pipe").c_str(), 0600) == 0);
+  std::filesystem::create_directory(scratch.file("folder"));
+  for (const auto& [name, reason] : {std::pair<std::string, std::string>{"pipe", "is a pipe, not a file"},
+                                     {"folder", "is a folder, not a file"},
+                                     {"none.ngc", "there is no file "}}) {
+    scratch.write("s.toml", "format = 1\nname = \"s\"\nprogram = \"" + name + "\"\nmachine = \"mill3\"\n");
+    const Finished done = call({"run", "-s", "s.toml", "--no-log"}, scratch.path());
+    CHECK(done.code == 2);
+    CHECK(contains(done.err, "[K3201]"));
+    CHECK(contains(done.err, reason));
+  }
 }
 
 TEST_CASE("of several scenarios one that can't be read leaves the others checked and listed") {

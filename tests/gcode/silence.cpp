@@ -38,14 +38,15 @@ const std::vector<Code> kNothing{};
 
 TEST_CASE("a program that gives a length before G20 and G21 is told once, what said its units is not") {
   for (const char* text : {"G0 X1\nX2\nM2\n", "G92 X1\nM2\n", "G10 L2 P1 Z-3\nM2\n", "F9 G2 I5\nM2\n",
-                           "G91\nG0 U2\nM2\n", "G0 @5 ^3\nM2\n", "G0 X1\nG21 X2\nM2\n"}) {
+                           "G91\nG0 U2\nM2\n", "G0 @5 ^3\nM2\n", "G0 X1\nG21 X2\nM2\n", "G64 P0.1\nM2\n",
+                           "G41.1 D2\nG40\nM2\n", "G10 L1 P3 R1\nM2\n"}) {
     CAPTURE(text);
     CHECK(codes_of(text, unsaid()) == std::vector<Code>{Code::units_unsaid});
     CHECK(codes_of(text) == kNothing);
   }
   // 0 is the same in both, angles have no such unit, and a line may say it
-  for (const char* text :
-       {"G28 Z0\nG0 X0 Y0\nM2\n", "G0 A90\nM2\n", "G0 X1 G20\nM2\n", "G21\nG0 X1\nM2\n", "M3 S9000\nM2\n"}) {
+  for (const char* text : {"G28 Z0\nG0 X0 Y0\nM2\n", "G0 A90\nM2\n", "G0 X1 G20\nM2\n", "G21\nG0 X1\nM2\n",
+                           "M3 S9000\nM5\nM2\n", "G10 L2 P1 R30\nM2\n", "G4 P0.1\nM2\n"}) {
     CAPTURE(text);
     CHECK(codes_of(text, unsaid()) == kNothing);
   }

@@ -254,8 +254,7 @@ class ProblemReader {
     const InputFile named(table_.value, folders_);
     const InputPlace place = machine::look_for(named, table_.span, context_.diagnostics);
     if (place == InputPlace::missing)
-      tell(Code::problem_table, table_.span, fmt::format("there is no file {}", named.path),
-           "the table is next to the problem file");
+      tell(Code::problem_table, table_.span, missing_text(named), "the table is next to the problem file");
     if (place != InputPlace::inside) return false;
     std::vector<std::string> names;
     for (const PathAxis& axis : out_.axes) names.push_back(axis.name);

@@ -85,17 +85,19 @@ bool ProgramProblem::override_axes(machine::MachineModel& machine) {
 }
 
 bool ProgramProblem::lay_out(machine::MachineFile machine, TimeLawProblem& out) {
-  const auto open = [&](const machine::Reading<std::string>& name,
+  const auto open = [&](const machine::Reading<std::string>& name, auto read,
                         std::uint64_t most_bytes) -> std::optional<SourceText> {
     const InputFile file(name.value, folders_);
     const InputPlace place = machine::look_for(file, name.span, context_.diagnostics);
-    if (place == InputPlace::inside) return SourceText::open(file, most_bytes);
-    if (place == InputPlace::missing)
-      tell(Code::problem_program, name.span, fmt::format("there is no file {}", file.path));
+    if (place == InputPlace::inside) return read(file, most_bytes);
+    if (place == InputPlace::missing) tell(Code::problem_program, name.span, missing_text(file));
     return {};
   };
-  auto program = open(program_, bounds_.file_bytes);
-  auto tools = tools_ ? open(*tools_, kMostTable_bytes) : std::nullopt;
+  auto program = open(program_, gcode::open_program, bounds_.file_bytes);
+  const auto open_table = [](const InputFile& file, std::uint64_t most_bytes) {
+    return SourceText::open(file, most_bytes);
+  };
+  auto tools = tools_ ? open(*tools_, open_table, kMostTable_bytes) : std::nullopt;
   if (!program || (tools_ && !tools)) return false;
   cycle::JobInputs given;
   given.machine = std::move(machine);
