@@ -104,6 +104,9 @@ struct ReadProgram {
   std::vector<ProgramEvent> events;         ///< ascending in after_segment
   std::uint32_t blocks = 0;                 ///< motion blocks
   std::vector<std::uint32_t> called_files;  ///< in the sources, in the order of their first call
+  /// The way from home to where the program is entered (gcode::Reading::from_line): none of the blocks, the first
+  /// segments of the path. None: the program is run from its beginning.
+  std::optional<gcode::Block> approach = {};
 };
 
 /// How the program will move: made of what was read by plan_program().

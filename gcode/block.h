@@ -104,6 +104,14 @@ struct RigidTap : Move {
   double retract_ratio = 1;  ///< speed back over speed down (I of G33.1)
 };
 
+/// To `end` at the rapid rate, where a program is entered (Reading::from_line): from the machine's home, one way
+/// after the other, at rest between them. No move of the program.
+struct Approach : Move {
+  static constexpr BlockKind kKind = BlockKind::approach;
+  /// The axes that move together: {"XY", "Z"}. Those that stand there already are left out.
+  std::vector<std::string> ways = {};
+};
+
 // --- everything else ---
 
 struct Dwell {
@@ -257,7 +265,7 @@ struct Comment {
 
 // --- the block ---
 
-using Action = std::variant<Traverse, Feed, Arc, Spline, Probe, RigidTap,                          // moves
+using Action = std::variant<Traverse, Feed, Arc, Spline, Probe, RigidTap, Approach,                // moves
                             Dwell, SetFeedRate, SetFeedMode, SetPathMode,                          //
                             SpindleSpeed, SpindleClockwise, SpindleCounterclockwise, SpindleStop,  //
                             MistOn, MistOff, FloodOn, FloodOff, SyncStart, SyncStop, SpindleMode,  //

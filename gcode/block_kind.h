@@ -15,6 +15,7 @@ enum class BlockKind : std::uint8_t {
   spline,
   probe,
   rigid_tap,
+  approach,
   // all else
   dwell,
   set_feed_rate,
@@ -48,13 +49,14 @@ enum class BlockKind : std::uint8_t {
 };
 
 /// What tables of a plan and of a run call each kind, and the words of a program that make it.
-inline constexpr Vocabulary<BlockKind, 35> kBlockKinds{{
+inline constexpr Vocabulary<BlockKind, 36> kBlockKinds{{
     {BlockKind::traverse, "rapid", "G0: straight at the rapid rate"},
     {BlockKind::feed, "line", "G1"},
     {BlockKind::arc, "arc", "G2 G3: arc or helix"},
     {BlockKind::spline, "spline", "G5 G5.1 G5.2"},
     {BlockKind::probe, "probe", "G38.2 to G38.5: straight until the probe changes"},
     {BlockKind::rigid_tap, "tap", "G33.1: to the bottom in step with the spindle, and back"},
+    {BlockKind::approach, "approach", "to the place where --from-line enters the program"},
     {BlockKind::dwell, "dwell", "G4"},
     {BlockKind::set_feed_rate, "feed rate", "F"},
     {BlockKind::set_feed_mode, "feed mode", "G93 G94 G95"},

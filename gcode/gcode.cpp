@@ -13,6 +13,7 @@ void interpret(SourceSet& sources, std::uint32_t file, const InterpretOptions& o
   Flow flow(sources, file, options, report, interpreter);
   interpreter.begin(sources);
   flow.run();
+  flow.tell_range();
   if (flow.ran_out()) interpreter.text_ran_out(file);
   if (!report.full()) interpreter.finish(flow.end());
   report.close(flow.end());

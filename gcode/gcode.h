@@ -47,6 +47,11 @@ struct Reading {
   const TextResolver* called_files = nullptr;
   std::optional<ToolTable> tools;  ///< none: tools have no length and no radius
   std::vector<WorkOffset> work_offsets;
+  /// Line of the program's own text, from 1, at which the program is entered: what comes before it is run for what it
+  /// sets alone. Its blocks are left out, but for those that set what holds; then comes an Approach.
+  std::optional<std::uint32_t> from_line;
+  /// Line of the program's own text behind which the program ends, the first time that it is run.
+  std::optional<std::uint32_t> to_line;
 };
 
 struct InterpretOptions : Reading {
@@ -57,6 +62,9 @@ struct InterpretOptions : Reading {
   AxisValues home{};    ///< machine position at start, mm and deg
   AxisValues g28{};     ///< G28 reference point, machine coordinates
   AxisValues g30{};     ///< G30 reference point, machine coordinates
+  /// Axes of an Approach that move together, one group after the other: {"XY", "Z"}. Empty: all but Z together, and Z
+  /// last where it goes down, first where it goes up.
+  std::vector<std::string> approach;
   double arc_end_tolerance_mm = 0.01;  ///< docs: PathLimits
   double arc_end_tolerance_relative = 0.001;
   std::optional<StockPlane> stock;  ///< none: a probe meets material at the end of its move

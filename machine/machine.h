@@ -31,6 +31,9 @@ struct MachineModel {
   std::optional<StockModel> stock;
   std::vector<TechnologyRule> technology;  ///< [rules], in the order of the file
   AxisValues home2{};                      ///< G30 position, machine coordinates
+  /// Axes that move together where a program is entered, one group after the other: {"XY", "Z"}; each axis once. Empty:
+  /// all but Z together, and Z last where it goes down, first where it goes up.
+  std::vector<std::string> approach;
 
   /// Index in `axis` by letter, -1 if the machine has no such axis.
   int find_axis(char letter) const;

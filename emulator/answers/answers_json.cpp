@@ -82,6 +82,14 @@ Json json_of(const std::vector<log::LimitShare>& shares) {
   return list;
 }
 
+Json json_of(const ApproachRow& row) {
+  Json j;
+  j["line"] = row.line;
+  j["time_s"] = row.time_s;
+  j["axes"] = row.ways;
+  return j;
+}
+
 Json json_of(const log::RunSummary& s, const SummaryContext& c) {
   const machine::MachineModel& model = *c.model;
   Json j;
@@ -92,6 +100,7 @@ Json json_of(const log::RunSummary& s, const SummaryContext& c) {
   j["control_ticks"] = s.control_ticks.value;
   j["motion_s"] = s.motion_s;
   j["dwell_s"] = s.dwell_s;
+  if (c.approach) j["approach"] = json_of(*c.approach);
   j["blocks"] = s.blocks;
   j["path_unit"] = c.path_unit;
   j["path_u"] = s.path_u;
@@ -128,6 +137,7 @@ Json json_of(const CheckResult& r, const machine::MachineModel& model) {
   j["motion_s"] = r.motion_s;
   j["rapid_s"] = r.rapid_s;
   j["dwell_s"] = r.dwell_s;
+  if (r.approach) j["approach"] = json_of(*r.approach);
   j["blocks"] = r.blocks;
   j["path_unit"] = r.path_unit;
   j["path_u"] = r.path_u;
@@ -163,6 +173,7 @@ Json json_of(const PlanRow& row) {
   j["peak_u_s"] = row.peak_u_s;
   j["end_u_s"] = row.end_u_s;
   j["limited_by"] = row.limited_by.empty() ? Json(nullptr) : Json(row.limited_by);
+  if (row.motion == gcode::kBlockKinds.word(gcode::BlockKind::approach)) j["axes"] = row.ways;
   if (!row.stops_for.empty()) j["stops_for"] = row.stops_for;
   if (row.blockwise) {
     j["rule"] = row.rule.empty() ? Json(nullptr) : Json(row.rule);

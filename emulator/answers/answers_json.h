@@ -14,5 +14,6 @@ text::Json json_of(const std::vector<log::LimitShare>& shares);
 text::Json json_of(const log::RunSummary& summary, const SummaryContext& context);
 text::Json json_of(const CheckResult& result, const machine::MachineModel& model);
 text::Json json_of(const PlanRow& row);
+text::Json json_of(const ApproachRow& row);
 
 }  // namespace kadr::answers

@@ -34,7 +34,8 @@ CheckResult check_result(const cycle::Job& job) {
   r.travel = axis_travel(job.read.path);
   r.path_unit = path_unit(job.read.path, job.given.machine.model);
   r.limited_by = cycle::limit_shares(job.planned.plan.law, job.given.machine.model);
-  for (std::size_t i = 0; i < job.read.path.size(); ++i) {
+  r.approach = approach_row(job);
+  for (std::size_t i = job.read.path.approach_size(); i < job.read.path.size(); ++i) {
     const planner::PathSegment& segment = job.read.path.segments[i];
     const planner::SegmentPlan& plan = job.planned.plan.segments[i];
     r.path_u += segment.feed_length_u;
@@ -54,10 +55,12 @@ CheckResult check_result(const cycle::Job& job) {
 std::string render_check(const CheckResult& r, const std::string& program, const std::string& machine_text,
                          const machine::MachineModel& model) {
   std::string out = fmt::format("{} on {}\n", text::one_line(program, 60), text::one_line(machine_text, 60));
+  const double approach_s = r.approach ? r.approach->time_s : 0.0;
   out += fmt::format("  time         {}   ({} cutting, {} rapid, {} standing)   {}\n",
-                     text::duration_text(r.time_s), text::duration_text(r.motion_s - r.rapid_s),
+                     text::duration_text(r.time_s), text::duration_text(r.motion_s - r.rapid_s - approach_s),
                      text::duration_text(r.rapid_s), text::duration_text(r.dwell_s),
                      text::counted(r.blocks, "block"));
+  if (r.approach) out += fmt::format("  approach     {}\n", approach_text(*r.approach));
   out += fmt::format("  path         {} {}   ({} rapid)", text::fixed(r.path_u, 3), r.path_unit,
                      text::fixed(r.rapid_path_u, 3));
   if (r.peak_u_s > 0)

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/answers/approach.h"
 #include "emulator/answers/travel.h"
 #include "emulator/emulator.h"
 
@@ -13,6 +14,8 @@ struct CheckResult {
   double motion_s = 0;
   double dwell_s = 0;
   double rapid_s = 0;  ///< part of motion_s spent in rapids
+  /// its time is part of motion_s, and of nothing else here but the axes' travel and the shares of time
+  std::optional<ApproachRow> approach;
   double path_u = 0;
   double rapid_path_u = 0;  ///< part of path_u that is rapid
   std::string path_unit;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/answers/approach.h"
 #include "emulator/answers/travel.h"
 #include "emulator/cycle/program_event.h"
 #include "emulator/text/text.h"
@@ -80,6 +81,17 @@ std::string stop_before(const cycle::Job& job, std::size_t next, std::size_t fir
   return {};
 }
 
+PlanRow approach_plan_row(const cycle::Job& job, const ApproachRow& approach) {
+  PlanRow row;
+  row.line = approach.line;
+  row.text = job.sources[job.given.program].line(row.line);
+  row.motion = gcode::kBlockKinds.word(gcode::BlockKind::approach);
+  row.time_s = approach.time_s;
+  row.ways = approach.ways;
+  row.blockwise = is_blockwise(job);
+  return row;
+}
+
 }  // namespace
 
 void for_each_plan_row(const cycle::Job& job, const std::function<void(const PlanRow&)>& sink) {
@@ -104,7 +116,14 @@ void for_each_plan_row(const cycle::Job& job, const std::function<void(const Pla
       sink(row);
     }
   };
-  for (std::size_t i = 0; i < job.read.path.size();) {
+  if (const auto approach = approach_row(job)) {
+    PlanRow row = approach_plan_row(job, *approach);
+    time_s = row.time_s;
+    sink(row);
+  }
+  const std::size_t begin = job.read.path.approach_size();
+  while (rapid != job.planned.plan.positioned.end() && rapid->segment < begin) ++rapid;
+  for (std::size_t i = begin; i < job.read.path.size();) {
     pauses_before(i);
     const planner::PathSegment& segment = job.read.path.segments[i];
     const cycle::BlockSummary block = cycle::block_summary(job.read.path, job.planned.plan, i);
@@ -177,6 +196,7 @@ std::string PlanTable::row(const PlanRow& r) const {
                        number(r.end_jump_u_s, speed_width_));
   if (mixed()) out += pause ? "          " : fmt::format("  {:<8}", fmt::format("{0} {0}/s", r.unit));
   out += "  " + (pause ? r.motion : r.limited_by);
+  if (r.motion == gcode::kBlockKinds.word(gcode::BlockKind::approach)) out += ": " + ways_text(r.ways);
   if (!r.stops_for.empty()) out += "; stops for " + r.stops_for;
   if (r.positioned) out += rapid_text(r);
   return out + '\n';

@@ -10,7 +10,7 @@
 
 namespace kadr::answers {
 
-/// One motion block of a planned program, or a pause between motions (dwell, tool change).
+/// One motion block of a planned program, a pause between motions (dwell, tool change), or the approach before it.
 struct PlanRow {
   std::uint32_t line = 0;
   std::string text;     ///< the program line as written
@@ -25,6 +25,7 @@ struct PlanRow {
   std::string limited_by;     ///< what limited the peak; empty for a pause
   std::string
       stops_for;  ///< the code that makes the motion stop at its end, "spindle clockwise (line 4)"; or empty
+  std::vector<std::string> ways;  ///< of the approach (ApproachRow), whose row is one of a pause otherwise
   // of a plan made block by block
   bool blockwise = false;
   std::string rule;         ///< how the block came to whole control ticks: "a" to "d", or ""

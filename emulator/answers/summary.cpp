@@ -197,6 +197,7 @@ std::string render_summary(const log::RunSummary& s, const SummaryContext& c) {
                                   text::duration_text(s.motion_s), text::duration_text(s.dwell_s),
                                   text::counted(s.control_ticks.value, "control tick"),
                                   text::counted(s.blocks, "block")));
+  if (c.approach) out += head("approach", approach_text(*c.approach));
   out += head("path", fmt::format("{} {}   feed mean {}, peak {} {}", text::fixed(s.path_u, 3), c.path_unit,
                                   text::fixed(s.mean_feed_u_s, 3), text::fixed(s.peak_feed_u_s, 3),
                                   text::speed_unit(c.path_unit)));

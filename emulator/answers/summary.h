@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/answers/approach.h"
 #include "emulator/log/records.h"
 
 namespace kadr::answers {
@@ -16,6 +17,7 @@ struct SummaryContext {
   std::string scenario;  ///< empty: none
   const machine::MachineModel* model = nullptr;
   std::string path_unit = "mm";          ///< unit of path length
+  std::optional<ApproachRow> approach;   ///< as planned; what the summary says of path and feed is without it
   bool plant = true;                     ///< false: run with --no-plant
   std::size_t program_warnings = 0;      ///< reported before the run
   std::vector<log::EventRecord> alarms;  ///< in time order, perhaps only the first

@@ -73,8 +73,9 @@ const char* segment_unit(const planner::Path& path, std::size_t segment,
 }
 
 std::string path_unit(const planner::Path& path, const machine::MachineModel& machine) {
-  bool linear = path.size() == 0, rotary = false;
-  for (std::size_t i = 0; i < path.size() && !(linear && rotary); ++i)
+  const std::size_t begin = path.approach_size();
+  bool linear = path.size() == begin, rotary = false;
+  for (std::size_t i = begin; i < path.size() && !(linear && rotary); ++i)
     (segment_unit(path, i, machine)[0] == 'm' ? linear : rotary) = true;
   return !rotary ? "mm" : !linear ? "deg" : "mm+deg";
 }

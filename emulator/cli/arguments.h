@@ -100,7 +100,8 @@ struct Arguments {
   bool ask = false;                   ///< machine new --ask
   std::string tools;                  ///< tool table; empty: none
   std::optional<gcode::Dialect> dialect;
-  std::vector<gcode::WorkOffset> offsets;    ///< --offset
+  std::vector<gcode::WorkOffset> offsets;  ///< --offset
+  std::optional<std::uint32_t> from_line, to_line;
   gcode::ReadingBounds bounds;               ///< --limit
   std::uint64_t log_bytes = 10'000'000'000;  ///< --limit log_bytes: longest log; 0: no bound
   std::vector<std::string> sub_folders;      ///< --subs

@@ -69,6 +69,8 @@ bool load_reading(const Arguments& arguments, const InputFile& tools, SourceSet&
   reading.sub_folders = arguments.sub_folders;
   reading.allowed_folders = arguments.allowed_folders;
   reading.work_offsets = arguments.offsets;
+  reading.from_line = arguments.from_line;
+  reading.to_line = arguments.to_line;
   if (tools.path.empty()) return true;
   const std::size_t errors = diagnostics.errors();
   reading.tools =

@@ -14,6 +14,7 @@ std::vector<std::string> names_with_equals(std::vector<std::string> names) {
 }
 
 constexpr std::string_view kLogBytes = "log_bytes";
+constexpr std::uint32_t kLastLine = 4'000'000'000;
 
 /// The names that --limit takes; `log`: of a command that writes a log.
 std::vector<std::string> limit_names(bool log) {
@@ -149,6 +150,28 @@ void Options::dialect(CLI::App* sub) {
              gcode::kDialects.list("|")))
       ->type_name("WORD");
   words(sub->get_option("--dialect"), gcode::kDialects.strings());
+  line_range(sub);
+}
+
+void Options::line_range(CLI::App* sub) {
+  const auto line = [sub](const char* name, std::optional<std::uint32_t>& value, const char* description) {
+    sub->add_option_function<std::string>(
+           name,
+           [name, &value](const std::string& text) {
+             std::uint32_t number = 0;
+             if (!read_number(text, number) || number < 1 || number > kLastLine)
+               throw CLI::ValidationError(
+                   fmt::format("{} takes a line number of the program, 1 or above; got '{}'", name, text));
+             value = number;
+           },
+           description)
+        ->type_name("LINE");
+  };
+  line("--from-line", arguments.from_line,
+       "Enter the program at this line of its text: what comes before it is run without motion (default: run "
+       "all)");
+  line("--to-line", arguments.to_line,
+       "End the program when this line of its text has been run for the first time (default: run all)");
 }
 
 void Options::limits(CLI::App* sub, Writes writes) {

@@ -41,6 +41,7 @@ class Options {
   void machine(CLI::App* sub);
   enum class Writes : std::uint8_t { nothing, log };
   void reading(CLI::App* sub, Writes writes = Writes::nothing);
+  void line_range(CLI::App* sub);
   /// --limit, for every command that reads programs: messages about a bound name it.
   void dialect(CLI::App* sub);
   void limits(CLI::App* sub, Writes writes = Writes::nothing);

@@ -112,6 +112,8 @@ void take_scenario(RunInputs& in) {
   if (in.tools.path.empty() && !scenario->tools_file.empty())
     in.tools = scenario->input(scenario->tools_file);
   if (!in.arguments.dialect) in.arguments.dialect = scenario->dialect;
+  if (!in.arguments.from_line) in.arguments.from_line = scenario->from_line;
+  if (!in.arguments.to_line) in.arguments.to_line = scenario->to_line;
   if (!in.program_file.path.empty()) return;
   if (!scenario->generated_program.empty()) {
     in.given.program = in.sources.add(SourceText(scenario->program_name, scenario->generated_program));
@@ -233,6 +235,7 @@ answers::SummaryContext summary_context(const RunInputs& in, const cycle::Job& j
   context.scenario = in.scenario_name;
   context.model = &model;
   context.path_unit = answers::path_unit(job.read.path, model);
+  context.approach = answers::approach_row(job);
   context.plant = in.arguments.plant;
   context.program_warnings = in.diagnostics.warnings();
   context.alarms = alarms.alarms();

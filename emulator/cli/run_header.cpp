@@ -60,6 +60,10 @@ log::RunHeader run_header(const cycle::Job& job, const cycle::RunOptions& option
   if (options.until_s != machine::kInfinity)
     header.settings_toml += fmt::format("until_s = {}\n", options.until_s);
   if (job.given.reading.block_delete) header.settings_toml += "block_delete = true\n";
+  if (job.given.reading.from_line)
+    header.settings_toml += fmt::format("from_line = {}\n", *job.given.reading.from_line);
+  if (job.given.reading.to_line)
+    header.settings_toml += fmt::format("to_line = {}\n", *job.given.reading.to_line);
   if (job.given.reading.dialect != gcode::Dialect::linuxcnc)
     header.settings_toml +=
         fmt::format("dialect = \"{}\"\n", gcode::kDialects.word(job.given.reading.dialect));

@@ -6,6 +6,9 @@
 
 namespace kadr::cycle {
 
+static_assert(gcode::kBlockKinds.word(gcode::BlockKind::approach) == log::kApproachMotion,
+              "readers of logs know the approach by its word");
+
 void BlockStarts::tick(const TickMotion& motion) {
   list_.clear();
   const planner::Path& path = job_.read.path;

@@ -29,6 +29,7 @@ gcode::InterpretOptions interpret_options(const JobInputs& given) {
   }
   options.g28 = options.home;
   options.g30 = machine.home2;
+  options.approach = machine.approach;
   options.arc_end_tolerance_mm = machine.path.arc_end_tolerance_mm;
   options.arc_end_tolerance_relative = machine.path.arc_end_tolerance_relative;
   if (machine.stock)

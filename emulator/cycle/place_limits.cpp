@@ -26,16 +26,17 @@ void limit_places(const std::vector<PlaceLimit>& points, ReadProgram& read, Diag
     return gcode::is<gcode::InputWait>(event.block);
   });
   for (const PlaceLimit& point : points) {
-    if (read.path.size() == 0 || point.at_u > read.path.length_u()) {
+    const double begin_u = read.path.program_begin_u();
+    if (read.path.size() == 0 || point.at_u > read.path.length_u() - begin_u) {
       refuse(point, fmt::format("is at {:.6g} mm of the path", point.at_u),
-             fmt::format("0 to {:.6g} mm, its length", read.path.length_u()), "");
+             fmt::format("0 to {:.6g} mm, its length", read.path.length_u() - begin_u), "");
       continue;
     }
     if (waits) {
       refuse(point, "the program waits for an input (M66)", "", "name the line of a move: at_line");
       continue;
     }
-    const std::size_t before = read.path.size(), segment = planner::cut_path(read.path, point.at_u);
+    const std::size_t before = read.path.size(), segment = planner::cut_path(read.path, begin_u + point.at_u);
     if (segment == read.path.size()) continue;  // its end, at rest
     planner::PathSegment& begins = read.path.segments[segment];
     begins.begin_limit_u_s =

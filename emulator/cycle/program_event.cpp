@@ -180,7 +180,7 @@ struct RecordOf {
   }
 
   log::EventRecord operator()(
-      const OneOf<gcode::Traverse, gcode::Feed, gcode::Arc, gcode::Spline, gcode::RigidTap,
+      const OneOf<gcode::Traverse, gcode::Feed, gcode::Arc, gcode::Spline, gcode::RigidTap, gcode::Approach,
                   gcode::SetFeedRate, gcode::SetFeedMode, gcode::SetPathMode, gcode::SpeedPoint,
                   gcode::Comment> auto&) const {
     require(false, "moves and settings are no events");

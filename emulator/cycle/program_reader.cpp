@@ -42,6 +42,7 @@ void ProgramReader::take(const Block& block) {
 }
 
 void ProgramReader::take_motion(const Block& block) {
+  if (gcode::is<gcode::Approach>(block)) return take_approach(block);
   const std::uint32_t number = builder_.blocks();
   for (std::size_t i = 0; i < given_.line_limits.size(); ++i) {
     const LineLimit& point = given_.line_limits[i];
@@ -57,6 +58,13 @@ void ProgramReader::take_motion(const Block& block) {
     outputs_.clear();
   }
   if (gcode::is<gcode::Probe>(block)) add_event(block);
+}
+
+void ProgramReader::take_approach(const Block& block) {
+  // waits before it took no time, and have no block
+  for_block_.reset();
+  builder_.add(block);
+  approach_ = block;
 }
 
 void ProgramReader::take_event(const Block& block) {
@@ -164,7 +172,7 @@ ReadProgram ProgramReader::finish() {
   outputs_.clear();
   planner::Path path = builder_.take();
   place_events(path);
-  return {std::move(path), std::move(events_), blocks_, {}};
+  return {std::move(path), std::move(events_), blocks_, {}, std::move(approach_)};
 }
 
 }  // namespace kadr::cycle

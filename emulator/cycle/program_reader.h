@@ -24,6 +24,7 @@ class ProgramReader {
 
  private:
   void take_motion(const gcode::Block& block);
+  void take_approach(const gcode::Block& block);
   void take_event(const gcode::Block& block);
   void take_wait(const gcode::Block& block, const gcode::InputWait& wait);
   void keep_output(const gcode::Block& block);
@@ -38,6 +39,7 @@ class ProgramReader {
   std::vector<ProgramEvent> events_;
   std::uint32_t blocks_ = 0;
   std::vector<bool> line_limits_met_;  ///< [given.line_limits] a motion begins there
+  std::optional<gcode::Block> approach_;
   std::vector<gcode::Block> outputs_;  ///< that change as the next motion begins
   bool sync_by_angle_ = false;         ///< moves follow the spindle's angle
   bool moved_by_angle_ = false;        ///< the last move did

@@ -98,7 +98,10 @@ class Session::Cycle {
     // pulses of a control tick whose plant failed are in no record
     hash_.add(batch_);
     watch();
-    if (motion_.s_end_u > motion_.s_begin_u) ++motion_ticks_;
+    if (motion_.s_end_u > motion_.s_begin_u) {
+      ++motion_ticks_;
+      if (motion_.s_end_u <= job_.read.path.program_begin_u()) ++approach_ticks_;
+    }
     if (auto failure = log_tick()) return failure;
     if (machine_.on_alarm == machine::OnAlarm::stop && monitor_.alarms() > 0)
       outcome_ = log::Outcome::alarm;
@@ -165,7 +168,8 @@ class Session::Cycle {
 
   /// Why a run under an operator ends before the program does, or nothing.
   std::optional<log::Outcome> ended_by_operator() {
-    const double at_u = motion_.s_end_u, length_u = job_.read.path.length_u();
+    const double begin_u = job_.read.path.program_begin_u();
+    const double at_u = motion_.s_end_u - begin_u, length_u = job_.read.path.length_u() - begin_u;
     if (source_->stopped()) {
       operator_alarm(Code::emergency_stopped, fmt::format("stands at {:.6g} of {:.6g}", at_u, length_u));
       return log::Outcome::emergency_stop;
@@ -224,7 +228,8 @@ class Session::Cycle {
   StepBatch batch_;
   TickMotion motion_{};
   ControlTicks ticks_, motion_ticks_;
-  std::size_t end_alarms_ = 0;  // that ended the run, and are no monitor's
+  ControlTicks approach_ticks_;  // of motion_ticks_, before the program's own path begins
+  std::size_t end_alarms_ = 0;   // that ended the run, and are no monitor's
   std::optional<log::Outcome> outcome_;
 };
 
@@ -263,14 +268,16 @@ log::RunSummary Session::Cycle::summary() const {
   const std::vector<double> begin_u = start_u(job_);
   for (std::size_t a = 0; a < summary.axis.size(); ++a)
     summary.axis[a].end_steps = lattice_node(begin_u[a], machine_.axis[a].step_u) + summary.axis[a].net_steps;
-  for (std::size_t i = 0; i < block_starts_.segments(); ++i) {
+  for (std::size_t i = path.approach_size(); i < block_starts_.segments(); ++i) {
     const double done =
         std::clamp((motion_.s_end_u - path.start_s_u[i]) / path.segments[i].length_u, 0.0, 1.0);
     summary.path_u += done * path.segments[i].feed_length_u;
   }
   summary.motion_s = static_cast<double>(motion_ticks_.value) * machine_.clock.tau_s();
   summary.dwell_s = job_.planned.plan.pause_s;
-  summary.mean_feed_u_s = summary.motion_s > 0 ? summary.path_u / summary.motion_s : 0.0;
+  const double program_s =
+      static_cast<double>((motion_ticks_ - approach_ticks_).value) * machine_.clock.tau_s();
+  summary.mean_feed_u_s = program_s > 0 ? summary.path_u / program_s : 0.0;
   summary.steps_hash = hash_.digest();
   summary.limited_by = limit_shares(job_.planned.plan.law, machine_);
   summary.planned_s = job_.planned.plan.motion_s;

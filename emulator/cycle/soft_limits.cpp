@@ -26,6 +26,8 @@ void report(const planner::PathSegment& segment, const machine::AxisModel& axis,
   d.notes.push_back(fmt::format("allowed {:.3f} to {:.3f} {} (axis {} range_{}, machine coordinates)",
                                 axis.soft_min_u, axis.soft_max_u, limit_unit(axis), axis.letter,
                                 limit_unit(axis)));
+  if (segment.made_by == gcode::BlockKind::approach)
+    d.notes.push_back("on the way from home to the line where the program is entered (--from-line)");
   diagnostics.add(std::move(d));
 }
 

@@ -115,6 +115,7 @@ Breach LogProof::check(const BlockRecord& block) {
     return breach("block {} begins after block {}", block.block, last_block_);
   last_block_ = block.block;
   ++blocks_;
+  if (block.motion == kApproachMotion) ++approaches_;
   return {};
 }
 

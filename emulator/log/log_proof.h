@@ -69,6 +69,7 @@ class LogProof {
   double path_u_ = 0;                        // at the end of the exact data
   std::uint32_t last_block_ = 0;             // begun last
   std::int64_t blocks_ = 0;                  // begun
+  std::int64_t approaches_ = 0;              // of these, which are none of the program's
   std::optional<std::uint32_t> last_ended_;  // block
   std::optional<std::int64_t> last_viewed_;  // control tick of the KADR_FEED read last
   int last_axis_ = -1;                       // of the viewer messages of that control tick

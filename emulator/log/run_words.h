@@ -6,6 +6,9 @@
 /// Words of the log's events and of its summary.
 namespace kadr::log {
 
+/// `motion` of the block that leads to where a program is entered: none of the program's blocks.
+inline constexpr std::string_view kApproachMotion = "approach";
+
 /// Subject of an event. Those up to `stop` are of the program.
 enum class EventKind : std::uint8_t {
   dwell,

@@ -188,6 +188,8 @@ bool open_job(const Scenario& scenario, cycle::JobInputs& given, SourceSet& sour
   auto file = machine::read_machine(std::move(machine_text), sources, scenario.settings);
   given.program = sources.add(std::move(program));
   given.reading.dialect = scenario.dialect;
+  given.reading.from_line = scenario.from_line;
+  given.reading.to_line = scenario.to_line;
   given.reading.allowed_folders = scenario.folders.allowed;
   const std::size_t errors = diagnostics.errors();
   if (!scenario.tools_file.empty()) {

@@ -99,8 +99,9 @@ struct Scenario {
   bool machine_is_file = false;
   std::string tools_file;  ///< tool table as written, empty: none
   gcode::Dialect dialect = gcode::Dialect::linuxcnc;
-  std::vector<std::string> settings;    ///< "key=value"
-  std::optional<double> most_override;  ///< JobInputs::most_override
+  std::optional<std::uint32_t> from_line, to_line;  ///< as gcode::Reading has them
+  std::vector<std::string> settings;                ///< "key=value"
+  std::optional<double> most_override;              ///< JobInputs::most_override
   std::vector<ScenarioStep> steps;
   std::vector<ScenarioTechnology> technology;
   Expectations expect;

@@ -43,6 +43,8 @@ class ScenarioReader {
     read_machine_name(table);
     read_tools(table);
     scenario_.dialect = table.choice(kDialect.name, gcode::kDialects, gcode::Dialect::linuxcnc).value;
+    scenario_.from_line = read_line(table, kFromLine);
+    scenario_.to_line = read_line(table, kToLine);
     if (const Node* settings = table.table("settings")) flatten_settings(*settings, "");
     // the stock of a scenario overrides that of the machine file
     if (const Node* stock = table.table("stock")) flatten_settings(*stock, "stock");
@@ -59,6 +61,11 @@ class ScenarioReader {
     Diagnostic d = file_diagnostic(code, span, std::move(label));
     d.help = std::move(help);
     context_.diagnostics.add(std::move(d));
+  }
+
+  static std::optional<std::uint32_t> read_line(TableReader& table, const NumberKey& key) {
+    if (!table.has(key.name)) return std::nullopt;
+    return static_cast<std::uint32_t>(read_number(table, key).value);
   }
 
   void read_technology(const Node& node) {

@@ -34,6 +34,11 @@ inline constexpr NumberKey kMostOverride{
     "most_override_pct",
     {100, 200},
     "highest override that the run is prepared for; without it that of the steps"};
+inline constexpr NumberKey kFromLine{
+    "from_line", kLine,
+    "line of the program at which it is entered: what comes before is run without motion"};
+inline constexpr NumberKey kToLine{"to_line", kLine,
+                                   "line of the program behind which it ends, the first time that it is run"};
 inline constexpr std::array kScenarioTexts{kScenarioName, kSummary, kProgram, kMachine, kTools, kDialect};
 
 // where a technology point lies, beside `on` and `max_mm_s` of the machine file

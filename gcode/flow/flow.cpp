@@ -36,13 +36,14 @@ Flow::Flow(SourceSet& sources, std::uint32_t file, const InterpretOptions& optio
 
 void Flow::run() {
   report_.watch_kind(file_, sources_[file_].text(), options_.dialect);
-  if (!readable(file_) || !add_unit(file_, {})) return;
+  if (!readable(file_) || !range_in_order() || !add_unit(file_, {})) return;
+  const bool in_range = options_.from_line || options_.to_line;
   unit_ = units_.front().get();
   while (!interpreter_.ended() && !report_.full() && !stopped_) {
     const Line* line = unit_->program.next();
     if (line != nullptr) {
       end_ = {line->file, line->number, 1, 1};
-      if (count_line(*line)) step(*line);
+      if (count_line(*line)) in_range ? step_in_range(*line) : step(*line);
       continue;
     }
     ran_out_ = calls_.empty();
@@ -52,7 +53,7 @@ void Flow::run() {
     return error(problem(Code::sub_without_end, head, "no M99 follows",
                          "end the subroutine with M99, or the program with M2 or M30"));
   }
-  const bool ends_all = straight_ || interpreter_.ended_by_percent();
+  const bool ends_all = (straight_ && !exit_) || interpreter_.ended_by_percent();
   if (interpreter_.ended() && ends_all && report_.errors() == 0) tell_words_behind_end();
 }
 

@@ -21,6 +21,8 @@ class Flow {
   Span end() const { return end_; }
   /// Whether all of the text was read and no M2, M30 or % has ended the program.
   bool ran_out() const { return ran_out_; }
+  /// Reports that the run has not met Reading::from_line or to_line.
+  void tell_range();
 
  private:
   struct Unit {
@@ -72,6 +74,28 @@ class Flow {
   void statement(const Line& line);
   void branch(const Line& line, int index);
   void pass_definition(int index);
+
+  // line_range.cpp: where the program is entered, and where it is left
+  /// What is known of the lines that were met before the program is entered.
+  struct Entry {
+    std::vector<bool> met;     ///< by line
+    std::uint32_t before = 0;  ///< the nearest lines around from_line that can be entered; 0: none
+    std::uint32_t after = 0;
+    Span place;           ///< of from_line, if it was met and
+    std::string refusal;  ///< why it can't be entered
+  };
+  /// to_line is being run: the program ends when all that it calls has returned.
+  struct Exit {
+    std::size_t depth = 0;  ///< of calls
+    Span place;
+  };
+  void step_in_range(const Line& line);
+  void arrive(const Line& line);
+  std::string not_entered(const Line& line) const;
+  void tell_entry(Span place, std::string label);
+  void tell_exit(Span place, std::string label);
+  bool range_in_order();
+  std::uint32_t lines_of_program() const;
 
   // loops.cpp
   void while_head(const Line& line, int index);
@@ -131,6 +155,8 @@ class Flow {
   bool continue_kept_ = false;  ///< a continue was met, and no end of a while or repeat was passed over since
   std::uint64_t passes_ = 0;
   std::uint64_t lines_ = 0;  ///< run, weighed
+  Entry entry_;
+  std::optional<Exit> exit_;
   Span end_;
   bool macros_ = false;    ///< of the dialect
   bool straight_ = false;  ///< no O words: nothing leads past the program's end

@@ -120,6 +120,11 @@ class CallWriter {
   bool operator()(const Spline& move) const { return moves("NURBS_FEED", move); }
   bool operator()(const Probe& move) const { return moves("STRAIGHT_PROBE", move); }
   bool operator()(const RigidTap& move) const { return moves("RIGID_TAP", move); }
+  bool operator()(const Approach& move) const {
+    moves("APPROACH", move);
+    for (const std::string& axes : move.ways) line_.text(" " + axes);
+    return true;
+  }
   bool operator()(const Arc& arc) const {
     moves("ARC_FEED", arc);
     line_.text(" ");

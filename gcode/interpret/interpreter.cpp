@@ -14,7 +14,9 @@ Interpreter::Interpreter(const InterpretOptions& options, Report& report, const 
       sink_(sink),
       advice_(state_, options, report),
       words_(options.dialect),
-      compensation_([this](Block& block) { hand_out_compensated(block); }) {
+      compensation_([this](Block& block) { hand_out_compensated(block); }),
+      passing_(options.from_line.has_value()),
+      passed_(options.home) {
   state_.position = options.home;
   state_.inches = options.inches;
   units_pending_ = !options.units_said;
@@ -175,9 +177,11 @@ void Interpreter::emit(Span span, Action action) {
 
 void Interpreter::hand_out(Block& block) {
   if (ended_ || !block_allowed(block.span, 0)) return;
-  ++blocks_;
   if (place_) block.span = *place_;
-  advice_.watch(block);
+  // how the program ends is not judged where it was cut off
+  if (!is<ProgramEnd>(block) || !(left_ || passing_)) advice_.watch(block);
+  if (passing_) return passed_.add(block);
+  ++blocks_;
   sink_(block);
 }
 

@@ -11,6 +11,7 @@
 #include "gcode/compensation/compensation.h"
 #include "gcode/gcode.h"
 #include "gcode/interpret/advice.h"
+#include "gcode/interpret/passed_blocks.h"
 #include "gcode/interpret/state.h"
 #include "gcode/interpret/words.h"
 #include "gcode/read/report.h"
@@ -88,6 +89,19 @@ class Interpreter {
   /// @param runs_once  nothing repeats or calls any of the texts
   void add_text(std::uint64_t lines, bool runs_once) { text_lines_ += lines, runs_once_ = runs_once; }
   State& state() { return state_; }
+
+  // entry.cpp: a program that is entered at a line of its own
+  /// True before that line: blocks are not handed out.
+  bool passing() const { return passing_; }
+  /// Why the program can't be entered before this line is run; empty: it can.
+  std::string not_entered(const Line& line);
+  /// Why the program can't be left now; empty: it can.
+  std::string not_left() const;
+  /// From here on blocks are handed out: first what holds, then the approach, then what waits for the next motion.
+  void enter(const Line& line);
+  /// Ends the program where it goes on: nothing is reset.
+  void leave(Span place);
+
   /// True after M2, M30, the closing % or the bound on blocks.
   bool ended() const { return ended_; }
   bool ended_by_percent() const { return ended_by_percent_; }
@@ -333,6 +347,8 @@ class Interpreter {
   void hand_out(Block& block);
   bool block_allowed(Span span, std::size_t waiting);
   bool message_allowed(Span span, std::size_t bytes);
+  std::vector<std::string> ways_to(const AxisValues& place) const;
+  bool refuse_passed_probe();
   Span line_span() const;
   Span action_span() const;
   Span g_span(GGroup group) const { return words_.span(*line_, group); }
@@ -381,7 +397,10 @@ class Interpreter {
   bool threading_ = false;         ///< feed moves follow the spindle's angle, by thread_pitch_u_rev_
   double thread_pitch_u_rev_ = 0;  ///< as written
   bool standing_told_ = false;     ///< the warning of a feed that follows a stopped spindle
-  bool silent_ = false;            ///< recovering from an error: modes are taken over, nothing is handed out
+  bool passing_ = false;           ///< the line where the program is entered is yet to come
+  bool left_ = false;              ///< the program was ended where it goes on
+  PassedBlocks passed_;
+  bool silent_ = false;  ///< recovering from an error: modes are taken over, nothing is handed out
 };
 
 }  // namespace kadr::gcode

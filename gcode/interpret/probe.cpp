@@ -74,6 +74,7 @@ bool Interpreter::probe_allowed() {
 bool Interpreter::find_contact(Probe& probe, double& travelled) {
   probe.contact = probe.end;
   if (!options_.stock) {
+    if (passing_) return refuse_passed_probe();
     if (!probe_stock_told_) {
       report_.warning(problem(Code::probe_without_stock, action_span(),
                               "the probe meets the end of each move",

@@ -71,6 +71,11 @@ enum class Code : std::uint16_t {
   system_variable = 1055,
   macro_argument = 1056,
 
+  // K1070 to K1079 where a program is entered and left (codes/line_range.inc)
+  entry_line = 1070,
+  exit_line = 1071,
+  entry_probe = 1072,
+
   // K1xxx reading a control program: words and codes (codes/reading.inc)
   word_not_run = 1101,
   unknown_code = 1102,
@@ -218,6 +223,7 @@ enum class Code : std::uint16_t {
   machine_stock_axis = 3112,
   machine_technology = 3113,
   machine_rapid_law = 3114,
+  machine_approach = 3120,
   scenario_file_missing = 3201,
   scenario_program = 3202,
   scenario_step = 3203,

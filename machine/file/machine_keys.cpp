@@ -41,7 +41,7 @@ std::vector<TableDocument> machine_keys() {
       .one(kProgramStartup)
       .one(kOnAlarm);
   d.table("[clock]", "the two clocks").one(kRate).one(kControlPeriod);
-  d.table("[path]", "what a path may be").all(kPathKeys);
+  d.table("[path]", "what a path may be").all(kPathKeys).one(kApproach);
   d.table("[feed]", "limits along the path of X Y Z, on top of those of each axis").all(kFeedKeys);
   d.table("[planner]", "how feed is planned").all(kPlannerKeys);
   d.table("[interpolator]", "how steps are made").one(kInterpolatorMethod);

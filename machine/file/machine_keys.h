@@ -39,6 +39,9 @@ inline constexpr PlainKey kAxisName{"name", "X Y Z A B C U V W", "required",
                                     "the letter by which programs call the axis"};
 inline constexpr PlainKey kRangeDocument{"range_{u}", "[lowest, highest]", "required by linear axes",
                                          "soft limits, machine coordinates; -inf, inf: none"};
+inline constexpr PlainKey kApproach{
+    "approach", "[groups of axis letters]", "all but Z, then Z; upwards Z first",
+    "--from-line: the axes of a group move together, one group after the other: [\"XY\", \"Z\"]"};
 inline constexpr PlainKey kStockAxis{"axis", "X Y Z U V W", "\"Z\"",
                                      "the linear axis along which a probe meets the material"};
 inline constexpr PlainKey kTechnologyOn{"on", "M62 P, M63 P, M67 E", "required",

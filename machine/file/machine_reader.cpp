@@ -100,10 +100,19 @@ ClockModel read_clock(const Node* table, const Span& place, ReadContext& context
   return clock;
 }
 
-PathLimits read_path_limits(const Node* path, const Node* feed, const Span& place, ReadContext& context) {
+/// Where path.approach was written: its axes are known later.
+struct WrittenApproach {
+  std::vector<std::string> groups;
+  Span span;
+};
+
+PathLimits read_path_limits(const Node* path, const Node* feed, const Span& place, WrittenApproach& approach,
+                            ReadContext& context) {
   PathLimits limits;
   TableReader p(path, "path", place, context);
   read_keys(p, limits, kPathKeys);
+  approach.span = p.place(kApproach.name);
+  for (const auto& group : p.texts(kApproach.name)) approach.groups.push_back(group.value);
   p.finish();
 
   TableReader f(feed, "feed", place, context);
@@ -228,6 +237,33 @@ void read_axes(TableReader& root, MachineModel& model) {
   }
 }
 
+/// Each axis of the machine stands in one group.
+std::vector<std::string> checked_approach(WrittenApproach approach, const MachineModel& model,
+                                          ReadContext& context) {
+  if (approach.groups.empty()) return {};
+  std::string named, fault, all;
+  for (const std::string& group : approach.groups) {
+    if (group.empty() && fault.empty()) fault = "a group is empty";
+    for (const char letter : group) {
+      const bool known = model.find_axis(letter) >= 0;
+      if (fault.empty() && !known) fault = fmt::format("the machine has no axis '{}'", letter);
+      if (fault.empty() && named.find(letter) != std::string::npos)
+        fault = fmt::format("axis {} is named twice", letter);
+      named += letter;
+    }
+  }
+  for (const AxisModel& axis : model.axis) {
+    all += axis.letter;
+    if (fault.empty() && named.find(axis.letter) == std::string::npos)
+      fault = fmt::format("axis {} is not named", axis.letter);
+  }
+  if (fault.empty()) return std::move(approach.groups);
+  Diagnostic d = file_diagnostic(Code::machine_approach, approach.span, std::move(fault));
+  d.help = fmt::format("name each axis of the machine once: {}", all);
+  context.diagnostics.add(std::move(d));
+  return {};
+}
+
 }  // namespace
 
 MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
@@ -242,7 +278,8 @@ MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
   model.startup = read_startup(root);
   read_key(root, model, kOnAlarm);
   model.clock = read_clock(root.table("clock"), top, context);
-  model.path = read_path_limits(root.table("path"), root.table("feed"), top, context);
+  WrittenApproach approach;
+  model.path = read_path_limits(root.table("path"), root.table("feed"), top, approach, context);
   model.planner = read_planner(root.table("planner"), top, context);
   read_interpolator(root.table("interpolator"), top, model, context);
   model.feed_override =
@@ -250,6 +287,7 @@ MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
   model.spindle =
       read_settings<SpindleReaction>(root.table("spindle"), "spindle", top, kSpindleKeys, context);
   read_axes(root, model);
+  model.approach = checked_approach(std::move(approach), model, context);
   model.plant = read_plant_settings(root.table("plant"), top, model.axis, context);
   model.stock = read_stock(root.table("stock"), top, model, context);
   model.technology = read_technology(root);

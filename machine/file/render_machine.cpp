@@ -116,6 +116,7 @@ void write_settings(TomlWriter& w, const MachineModel& m) {
   write_key(w, clock, kControlPeriod);
   w.table("[path]", "path");
   write_keys(w, m.path, kPathKeys);
+  if (!m.approach.empty()) w.line(kApproach.name, fmt::format("[\"{}\"]", fmt::join(m.approach, "\", \"")));
   w.table("[feed]", "feed");
   write_keys(w, m.path, kFeedKeys);
   w.table("[planner]", "planner");

@@ -89,6 +89,14 @@ class Path {
     return {nodes_u.data() + i * static_cast<std::size_t>(axes_), static_cast<std::size_t>(axes_)};
   }
   double length_u() const { return start_s_u.empty() ? 0.0 : start_s_u.back(); }
+  /// Segments of the approach to the line where the program is entered: the first ones. 0: it is run from its beginning.
+  std::size_t approach_size() const {
+    std::size_t i = 0;
+    while (i < segments.size() && segments[i].made_by == gcode::BlockKind::approach) ++i;
+    return i;
+  }
+  /// Path length at which the program's own path begins, behind the approach.
+  double program_begin_u() const { return start_s_u.empty() ? 0.0 : start_s_u[approach_size()]; }
   /// One past the last segment of the block that segment i belongs to.
   std::size_t block_end(std::size_t i) const {
     const std::uint32_t block = segments[i].block;

@@ -86,16 +86,17 @@ void PathBuilder::add_motion(const gcode::Block& block) {
     add_line(segment, tap, machine_point(tap.end));
     add_line(segment, tap, start);
   };
-  std::visit(
-      Overloaded{along_line, to_contact, down_and_up, [&](const gcode::Arc& arc) { add_arc(segment, arc); },
-                 [&](const gcode::Spline& spline) { add_spline(segment, spline); },
-                 [](const gcode::NoMove auto&) {}},
-      block.action);
+  const auto to_entry = [&](const gcode::Approach& approach) { add_approach(segment, approach); };
+  std::visit(Overloaded{along_line, to_contact, down_and_up, to_entry,
+                        [&](const gcode::Arc& arc) { add_arc(segment, arc); },
+                        [&](const gcode::Spline& spline) { add_spline(segment, spline); },
+                        [](const gcode::NoMove auto&) {}},
+             block.action);
 }
 
 PathSegment PathBuilder::segment_of(const gcode::Block& block, const gcode::Move& move) {
   PathSegment segment;
-  segment.rapid = gcode::is<gcode::Traverse>(block);
+  segment.rapid = gcode::is<gcode::Traverse, gcode::Approach>(block);
   segment.stop_at_end = move.path_mode == gcode::PathMode::exact_stop;
   if (follows_spindle_ || gcode::is<gcode::RigidTap>(block))
     segment.lock = FeedLock::thread;
@@ -106,6 +107,16 @@ PathSegment PathBuilder::segment_of(const gcode::Block& block, const gcode::Move
   segment.block = blocks_++;
   segment.span = block.span;
   return segment;
+}
+
+void PathBuilder::add_approach(const PathSegment& segment, const gcode::Approach& approach) {
+  const Point place = machine_point(approach.end);
+  for (const std::string& axes : approach.ways) {
+    Point end = last_point();
+    for (std::size_t j = 0; j < program_axis_.size(); ++j)
+      if (axes.find(machine_.axis[j].letter) != std::string::npos) end[j] = place[j];
+    add_line(segment, approach, end);
+  }
 }
 
 void PathBuilder::add_line(PathSegment segment, const gcode::Move& move, const Point& end) {

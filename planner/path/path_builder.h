@@ -11,6 +11,7 @@
 
 namespace kadr::gcode {
 enum class Plane : std::uint8_t;
+struct Approach;
 struct Arc;
 struct Block;
 struct Move;
@@ -30,7 +31,7 @@ class PathBuilder {
   /// @param start_u position of every program axis before the first block, machine coordinates
   PathBuilder(const machine::MachineModel& machine, const AxisValues& start_u);
   /// Appends the block's motion; a move of zero length adds nothing. A probing move ends at rest where the
-  /// probe changes, a tap goes to its end and back, at rest between. A cubic or quadratic spline becomes
+  /// probe changes, a tap goes to its end and back, an approach way by way, at rest between. A cubic or quadratic spline becomes
   /// curves, any other arcs (arcs_along).
   /// @pre gcode::is_move(block)
   /// @return whether path was added
@@ -61,6 +62,7 @@ class PathBuilder {
 
   void add_motion(const gcode::Block& block);
   PathSegment segment_of(const gcode::Block& block, const gcode::Move& move);
+  void add_approach(const PathSegment& segment, const gcode::Approach& approach);
   void add_line(PathSegment segment, const gcode::Move& move, const Point& end);
   void add_arc(PathSegment segment, const gcode::Arc& arc);
   void add_spline(PathSegment segment, const gcode::Spline& spline);

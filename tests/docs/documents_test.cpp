@@ -72,6 +72,10 @@ TEST_CASE("docs/gcode.md: every command gives the output that stands below it") 
   check_document("docs/gcode.md");
 }
 
+TEST_CASE("docs/from_line.md: every command gives the output that stands below it") {
+  check_document("docs/from_line.md");
+}
+
 TEST_CASE("docs/override.md: every command gives the output that stands below it") {
   check_document("docs/override.md");
 }

@@ -57,6 +57,11 @@ InterpretOptions machine_for(const std::string& program) {
   if (program.rfind("K105", 0) == 0) options.dialect = Dialect::fanuc;  // macro B
   if (program.rfind("K1125", 0) == 0) options.units_said = false;
   if (program.rfind("K1128", 0) == 0) options.startup = "G18 G64 P0.1 X5 M3 G28";
+  // where they are entered or left
+  const std::size_t range = program.find("_line_");
+  const auto line = [&] { return static_cast<std::uint32_t>(std::stoul(program.substr(range + 6))); };
+  if (program.rfind("K1070", 0) == 0 || program.rfind("K1072", 0) == 0) options.from_line = line();
+  if (program.rfind("K1071", 0) == 0) options.to_line = line();
   static const MemoryTexts two_subs = [] {
     MemoryTexts texts;
     texts.put("a", "o<a> sub\no<a> endsub\no<b> sub\no<b> endsub\n");

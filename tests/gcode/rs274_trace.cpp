@@ -259,6 +259,7 @@ struct CallOf {
   Maybe operator()(const OneOf<Traverse, Feed, Probe> auto& move) const {
     return numbers(first_numbers(move.end, 6));
   }
+  Maybe operator()(const Approach&) const { return std::nullopt; }
   Maybe operator()(const RigidTap& tap) const { return numbers(first_numbers(tap.end, 3)); }
   Maybe operator()(const Arc& arc) const {
     std::vector<double> values = first_numbers(arc.end, 6);

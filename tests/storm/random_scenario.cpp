@@ -124,6 +124,19 @@ void add_scenario(Draw& draw, const RandomMachine& machine, const RandomProgram&
   if (draw.chance(0.7)) storm_case.files[kOtherFile] = head + TimelineDraw(draw, machine, most_pct).make();
 }
 
+void enter_within(Draw& draw, StormCase& storm_case) {
+  const std::string program = storm_case.text(kProgramFile);
+  const auto lines = static_cast<int>(std::count(program.begin(), program.end(), '\n'));
+  const int from = draw.whole(1, std::max(lines, 1));
+  std::string keys = fmt::format("from_line = {}\n", from);
+  if (draw.chance(0.3)) keys += fmt::format("to_line = {}\n", draw.whole(from, std::max(lines, from)));
+  for (const char* file : {kScenarioFile, kOtherFile}) {
+    if (!storm_case.has(file)) continue;
+    std::string& text = storm_case.files[file];
+    text.insert(text.find('\n') + 1, keys);
+  }
+}
+
 std::string random_fault(Draw& draw) {
   const auto share = [&] { return plain(draw.real(0, 1), 3); };
   switch (draw.whole(0, 8)) {

@@ -90,6 +90,7 @@ void add_timeline(const std::string& text, std::set<std::string>& features) {
     if (equal == std::string::npos) continue;
     const std::string key = line.substr(0, equal);
     if (step && key != "value" && key != "for_s" && key != "pass") features.insert("step " + key);
+    if (key == "from_line" || key == "to_line") features.insert(key);
     if (key == "dialect") features.insert("dialect " + line.substr(equal + 4, line.size() - equal - 5));
   }
 }
@@ -155,6 +156,8 @@ StormCase make_case(std::uint64_t seed, bool with_fault) {
   storm_case.files.merge(program.files);
   add_scenario(draw, machine, program, storm_case);
   if (with_fault) storm_case.files[kFaultFile] = random_fault(draw);
+  // drawn last: the other cases are as before there was a choice
+  if (draw.chance(0.08)) enter_within(draw, storm_case);
   return storm_case;
 }
 

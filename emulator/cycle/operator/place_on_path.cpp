@@ -17,9 +17,12 @@ namespace {
 class MotionStarts {
  public:
   MotionStarts(const planner::Path& path, std::uint32_t program) {
-    for (std::size_t i = 0; i < path.size(); i = path.block_end(i)) {
+    const std::size_t begin = path.approach_size();
+    // the approach is none of the program's blocks
+    const std::uint32_t first = begin > 0 ? path.segments[begin - 1].block + 1 : 0;
+    for (std::size_t i = begin; i < path.size(); i = path.block_end(i)) {
       const planner::PathSegment& s = path.segments[i];
-      of_block_.try_emplace(s.block, i);
+      of_block_.try_emplace(s.block - first, i);
       if (s.span.file == program) of_line_[s.span.line].push_back(i);
     }
   }
@@ -77,7 +80,7 @@ std::vector<double> place_on_path(const std::vector<OperatorStep>& steps, const 
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (!steps[i].place) continue;
     const PathPlace& place = *steps[i].place;
-    std::optional<std::size_t> segment = 0;
+    std::optional<std::size_t> segment = path.approach_size();
     double distance_u = place.after_u;
     if (place.kind == PathPlace::Kind::length)
       distance_u += place.number;
@@ -92,8 +95,8 @@ std::vector<double> place_on_path(const std::vector<OperatorStep>& steps, const 
         Code::scenario_step, steps[i].span,
         segment ? fmt::format("{} and {:.6g} after it is beyond the path", place_text(place), place.after_u)
                 : fmt::format("{} of the program starts no motion", place_text(place)));
-    d.notes.push_back(
-        fmt::format("the program has {} motion blocks and a path of {:.6g}", blocks, path.length_u()));
+    d.notes.push_back(fmt::format("the program has {} motion blocks and a path of {:.6g}", blocks,
+                                  path.length_u() - path.program_begin_u()));
     d.help = "kadr plan shows the lines that move";
     diagnostics.add(std::move(d));
   }

@@ -58,7 +58,8 @@ std::vector<bool> rapids(const PageData& data, const PathCorners& corners) {
     while (begun < data.blocks.size() &&
            data.blocks[begun].begin.value <= control_tick * data.header.control_tick_ticks)
       ++begun;
-    out[i] = begun > 0 && data.blocks[begun - 1].motion == "rapid";
+    const std::string_view motion = begun > 0 ? std::string_view(data.blocks[begun - 1].motion) : "";
+    out[i] = motion == "rapid" || motion == log::kApproachMotion;
   }
   return out;
 }

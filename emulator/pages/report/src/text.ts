@@ -13,7 +13,7 @@ const RU: Record<string, string> = {
   'vibration, peak': 'колебания, наибольшие', 'rms': 'скз', 'at': 'когда', 'line': 'строка', 'residual': 'остаточные', 'following error, peak': 'ошибка слежения, наибольшая',
   'lost steps': 'потеря шагов', 'work, driving': 'работа привода', 'braking': 'торможения', 'rigid (not modelled)': 'жёсткая (не моделируется)',
   'Alarms and messages': 'Аварии и сообщения', 'No alarms, no messages.': 'Аварий и сообщений нет.', 'severity': 'вид', 'code': 'код', 'what': 'что', 'error': 'ошибка',
-  'alarm': 'авария', 'warning': 'предупреждение', 'note': 'замечание', 'program': 'программа', 'rapid': 'ускоренный ход', 'length': 'длина', 'stop': 'стоянка',
+  'alarm': 'авария', 'warning': 'предупреждение', 'note': 'замечание', 'program': 'программа', 'rapid': 'ускоренный ход', 'approach': 'подвод', 'length': 'длина', 'stop': 'стоянка',
   'Feed': 'Подача', 'Feed override': 'Коррекция подачи', 'Acceleration along the path': 'Ускорение вдоль пути', 'Jerk along the path': 'Рывок вдоль пути',
   'Path error': 'Ошибка контура', 'Axis speed': 'Скорость осей', 'Axis acceleration': 'Ускорение осей', 'Axis jerk': 'Рывок осей', 'Following error': 'Ошибка слежения',
   'Vibration': 'Колебания', 'Step rate': 'Частота шагов', 'feed': 'подача', 'path error': 'ошибка контура', 'vibration': 'колебания', 'text': 'текст', 'kind': 'вид',
