@@ -8,10 +8,12 @@
 
 #include "gcode/block.h"
 #include "gcode/dialect/dialect.h"
+#include "gcode/read/ini_file.h"
 #include "gcode/read/text_resolver.h"
 #include "gcode/read/tool_table.h"
 #include "gcode/reading_bounds.h"
 #include "machine/base/diagnostic.h"
+#include "machine/owner_codes.h"
 
 /// The G-code front end: text -> parse tree (what was written, with spans) -> Blocks (what it means).
 /// Dialect: RS-274/NGC. Every mistake of a program is reported in one run; an unknown word is never skipped.
@@ -47,6 +49,9 @@ struct Reading {
   const TextResolver* called_files = nullptr;
   std::optional<ToolTable> tools;  ///< none: tools have no length and no radius
   std::vector<WorkOffset> work_offsets;
+  std::vector<machine::CodeName> ignored;  ///< codes that are passed over, besides those of the machine
+  std::optional<IniFile> ini;              ///< --ini: what #<_ini[SECTION]NAME> reads
+  std::vector<HalValue> hal;               ///< --hal: what #<_hal[NAME]> reads
 };
 
 struct InterpretOptions : Reading {
@@ -57,6 +62,7 @@ struct InterpretOptions : Reading {
   AxisValues home{};    ///< machine position at start, mm and deg
   AxisValues g28{};     ///< G28 reference point, machine coordinates
   AxisValues g30{};     ///< G30 reference point, machine coordinates
+  machine::OwnerCodes codes;           ///< G and M codes of the machine's owner
   double arc_end_tolerance_mm = 0.01;  ///< docs: PathLimits
   double arc_end_tolerance_relative = 0.001;
   std::optional<StockPlane> stock;  ///< none: a probe meets material at the end of its move

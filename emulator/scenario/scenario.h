@@ -99,8 +99,11 @@ struct Scenario {
   bool machine_is_file = false;
   std::string tools_file;  ///< tool table as written, empty: none
   gcode::Dialect dialect = gcode::Dialect::linuxcnc;
-  std::vector<std::string> settings;    ///< "key=value"
-  std::optional<double> most_override;  ///< JobInputs::most_override
+  std::string ini_file;                    ///< INI file as written, empty: none
+  std::vector<machine::CodeName> ignored;  ///< codes that are passed over
+  std::vector<gcode::HalValue> hal;        ///< values of HAL pins
+  std::vector<std::string> settings;       ///< "key=value"
+  std::optional<double> most_override;     ///< JobInputs::most_override
   std::vector<ScenarioStep> steps;
   std::vector<ScenarioTechnology> technology;
   Expectations expect;

@@ -11,7 +11,8 @@ Interpreter::Interpreter(const InterpretOptions& options, Report& report, const 
       report_(report),
       sink_(sink),
       advice_(state_, options, report),
-      words_(options.dialect),
+      owner_table_(options.codes, options.ignored),
+      words_(options.dialect, owner_table_),
       compensation_([this](Block& block) { hand_out_compensated(block); }) {
   state_.position = options.home;
   state_.inches = options.inches;
@@ -24,6 +25,7 @@ Interpreter::Interpreter(const InterpretOptions& options, Report& report, const 
   for (const WorkOffset& given : options.work_offsets)
     write_axis_parameters(state_, work_offset_parameter(given.system), given.zero_u);
   state_.use_work_system(1);
+  take_machine_values();
 }
 
 void Interpreter::run(const Line& line) {
@@ -43,6 +45,7 @@ void Interpreter::run(const Line& line) {
   if (line.failed) return recover(true);
   if (state_.diameter_mode || words_.g(GGroup::diameter) != kNoCode) take_diameters();
   if (words_.g(GGroup::nonmodal) == code::g4 && options_.dialect != Dialect::linuxcnc) take_dwell_words();
+  if (!words_.owner_codes().empty()) take_owner_words();
   if (units_pending_) note_length();
   if (readable && plain_move()) return motion();
   if (!readable || !polar_words() || !check()) return recover(false);
@@ -76,6 +79,7 @@ void Interpreter::execute() {
   modal_state();
   coolant();
   overrides();
+  owner_codes();
   dwell();
   plane();
   units();

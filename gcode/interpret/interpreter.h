@@ -24,6 +24,9 @@ struct CallRequest {
   std::int64_t number = 0;    ///< M98 P
   std::uint64_t repeats = 1;  ///< M98 L
   Span place;
+  /// A code of the machine's owner that runs a subroutine; null: M98 or M99.
+  const machine::OwnerCode* owner = nullptr;
+  std::vector<std::pair<char, double>> words;  ///< of that code
 };
 
 /// A required word of a code, and its meaning.
@@ -298,6 +301,15 @@ class Interpreter {
   void run_words(const std::string& words, Span place);
   void diameter_mode();
 
+  // owner_codes.cpp: codes of the machine's owner
+  void take_machine_values();
+  std::uint32_t owner_letters() const;
+  void take_owner_words();
+  void check_owner_call();
+  void owner_codes();
+  void run_owner_code(const machine::OwnerCode& own, Span span);
+  void take_time(int code, Span span);
+
   // interpreter.cpp
   bool plain_move() const;
   bool calls_only() const;
@@ -319,7 +331,9 @@ class Interpreter {
   const Sink& sink_;
   State state_;
   Advice advice_;
+  OwnerTable owner_table_;
   Words words_;
+  std::vector<std::pair<char, double>> owner_words_;  ///< of the line, those of its codes of the owner
   std::optional<CallRequest> call_;
   std::optional<Span> place_;  ///< of blocks while modes are restored
   Compensation compensation_;

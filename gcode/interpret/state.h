@@ -8,9 +8,11 @@
 
 #include "gcode/block.h"
 #include "gcode/dialect/codes.h"
+#include "gcode/read/ini_file.h"
 #include "gcode/read/names.h"
 #include "gcode/read/tool_table.h"
 #include "machine/base/axes.h"
+#include "machine/owner_codes.h"
 
 namespace kadr::gcode {
 
@@ -138,6 +140,7 @@ struct CallLevel {
   bool own_numbered = true;                        ///< false: M98, which shares the caller's
   std::optional<ModalState> modal;                 ///< kept by M70 or M73
   bool restores_modal = false;                     ///< M73: restored at the return
+  std::optional<machine::CodeName> code;           ///< of the machine's owner, that made the call
   std::unordered_map<std::int32_t, double> named;  ///< local named parameters by number of the name
 };
 
@@ -201,6 +204,7 @@ struct State {
   double returned_value = 0;  ///< of the last subroutine
   bool value_returned = false;
   Uncertain uncertain;
+  const IniFile* ini = nullptr;  ///< of the machine; null: none is given
 
   /// G41 or G42 is in force, even with a radius of 0.
   bool compensating() const { return compensation_code != code::g40; }
