@@ -63,6 +63,8 @@ std::string key_section() {
   t.add(kScenarioFormat);
   t.rows(kScenarioTexts);
   t.add(kMostOverride);
+  t.header("`[hal]`:");
+  t.add(kHal);
   t.header("`[[technology]]`, beside the keys of the machine file:");
   t.rows(kTechnologyKeys);
   t.header("`[[step]]`: a time or place,");
