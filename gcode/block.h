@@ -117,6 +117,7 @@ struct Approach : Move {
 struct Dwell {
   static constexpr BlockKind kKind = BlockKind::dwell;
   double time_s = 0;
+  bool by_machine = false;  ///< what a code takes on this machine, not a word of the program
 };
 
 struct SetFeedRate {

@@ -8,10 +8,12 @@
 
 #include "gcode/block.h"
 #include "gcode/dialect/dialect.h"
+#include "gcode/read/ini_file.h"
 #include "gcode/read/text_resolver.h"
 #include "gcode/read/tool_table.h"
 #include "gcode/reading_bounds.h"
 #include "machine/base/diagnostic.h"
+#include "machine/owner_codes.h"
 
 /// The G-code front end: text -> parse tree (what was written, with spans) -> Blocks (what it means).
 /// Dialect: RS-274/NGC. Every mistake of a program is reported in one run; an unknown word is never skipped.
@@ -52,6 +54,9 @@ struct Reading {
   std::optional<std::uint32_t> from_line;
   /// Line of the program's own text behind which the program ends, the first time that it is run.
   std::optional<std::uint32_t> to_line;
+  std::vector<machine::CodeName> ignored;  ///< codes that are passed over, besides those of the machine
+  std::optional<IniFile> ini;              ///< --ini: what #<_ini[SECTION]NAME> reads
+  std::vector<HalValue> hal;               ///< --hal: what #<_hal[NAME]> reads
 };
 
 struct InterpretOptions : Reading {
@@ -65,6 +70,7 @@ struct InterpretOptions : Reading {
   /// Axes of an Approach that move together, one group after the other: {"XY", "Z"}. Empty: all but Z together, and Z
   /// last where it goes down, first where it goes up.
   std::vector<std::string> approach;
+  machine::OwnerCodes codes;           ///< G and M codes of the machine's owner
   double arc_end_tolerance_mm = 0.01;  ///< docs: PathLimits
   double arc_end_tolerance_relative = 0.001;
   std::optional<StockPlane> stock;  ///< none: a probe meets material at the end of its move

@@ -6,6 +6,7 @@
 #include "machine/axis.h"
 #include "machine/base/axes.h"
 #include "machine/clock.h"
+#include "machine/owner_codes.h"
 #include "machine/settings.h"
 #include "machine/step_method.h"
 
@@ -30,6 +31,7 @@ struct MachineModel {
   OnAlarm on_alarm = OnAlarm::report;
   std::optional<StockModel> stock;
   std::vector<TechnologyRule> technology;  ///< [rules], in the order of the file
+  OwnerCodes codes;                        ///< G and M codes of the owner
   AxisValues home2{};                      ///< G30 position, machine coordinates
   /// Axes that move together where a program is entered, one group after the other: {"XY", "Z"}; each axis once. Empty:
   /// all but Z together, and Z last where it goes down, first where it goes up.

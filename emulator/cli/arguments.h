@@ -102,6 +102,9 @@ struct Arguments {
   std::optional<gcode::Dialect> dialect;
   std::vector<gcode::WorkOffset> offsets;  ///< --offset
   std::optional<std::uint32_t> from_line, to_line;
+  std::vector<machine::CodeName> ignored;    ///< --ignore
+  std::string ini;                           ///< --ini: INI file; empty: none
+  std::vector<gcode::HalValue> hal;          ///< --hal
   gcode::ReadingBounds bounds;               ///< --limit
   std::uint64_t log_bytes = 10'000'000'000;  ///< --limit log_bytes: longest log; 0: no bound
   std::vector<std::string> sub_folders;      ///< --subs

@@ -63,7 +63,7 @@ int canon_program(const Arguments& arguments, Console& console) {
   gcode::InterpretOptions options;
   options.units_said = false;
   if (!load_reading(arguments, sources, options, diagnostics)) {
-    console.diagnostics(diagnostics, sources, arguments.tools, Console::Where::errors);
+    console.diagnostics(diagnostics, sources, file_in_error(diagnostics, sources), Console::Where::errors);
     return kNotStarted;
   }
 

@@ -46,7 +46,7 @@ int check_one(const Arguments& arguments, const std::string& path, Console& cons
     return kNotStarted;
   }
   if (!load_reading(arguments, sources, given.reading, diagnostics)) {
-    console.diagnostics(diagnostics, sources, arguments.tools, Console::Where::errors);
+    console.diagnostics(diagnostics, sources, file_in_error(diagnostics, sources), Console::Where::errors);
     return kNotStarted;
   }
   const auto job = cycle::prepare(given, sources, diagnostics);
@@ -140,7 +140,7 @@ int plan_program(const Arguments& arguments, Console& console) {
   refuse_offsets(arguments, given.machine.model);
   given.program = load_program(path, arguments.bounds, sources);
   if (!load_reading(arguments, sources, given.reading, diagnostics)) {
-    console.diagnostics(diagnostics, sources, arguments.tools, Console::Where::errors);
+    console.diagnostics(diagnostics, sources, file_in_error(diagnostics, sources), Console::Where::errors);
     return kNotStarted;
   }
   // a plan shows the program as written, even if the machine is too small: `kadr check` refuses that

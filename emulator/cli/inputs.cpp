@@ -58,10 +58,10 @@ std::string machine_text(const std::string& name, const machine::MachineModel& m
 
 bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading& reading,
                   Diagnostics& diagnostics) {
-  return load_reading(arguments, arguments.tools, sources, reading, diagnostics);
+  return load_reading(arguments, {arguments.tools, arguments.ini}, sources, reading, diagnostics);
 }
 
-bool load_reading(const Arguments& arguments, const InputFile& tools, SourceSet& sources,
+bool load_reading(const Arguments& arguments, const ReadingFiles& files, SourceSet& sources,
                   gcode::Reading& reading, Diagnostics& diagnostics) {
   if (arguments.dialect) reading.dialect = *arguments.dialect;
   reading.block_delete = arguments.block_delete;
@@ -71,11 +71,22 @@ bool load_reading(const Arguments& arguments, const InputFile& tools, SourceSet&
   reading.work_offsets = arguments.offsets;
   reading.from_line = arguments.from_line;
   reading.to_line = arguments.to_line;
-  if (tools.path.empty()) return true;
+  reading.ignored = arguments.ignored;
+  reading.hal = arguments.hal;
   const std::size_t errors = diagnostics.errors();
-  reading.tools =
-      gcode::read_tool_table(sources, sources.add(open_text(tools, kMostTable_bytes)), diagnostics);
+  if (!files.tools.path.empty())
+    reading.tools =
+        gcode::read_tool_table(sources, sources.add(open_text(files.tools, kMostTable_bytes)), diagnostics);
+  if (!files.ini.path.empty())
+    reading.ini =
+        gcode::read_ini_file(sources, sources.add(open_text(files.ini, kMostSettings_bytes)), diagnostics);
   return diagnostics.errors() == errors;
+}
+
+std::string file_in_error(const Diagnostics& diagnostics, const SourceSet& sources) {
+  for (const Diagnostic& d : diagnostics.list())
+    if (d.severity == Severity::error && d.span.file < sources.size()) return sources[d.span.file].name();
+  return {};
 }
 
 void refuse_offsets(const Arguments& arguments, const machine::MachineModel& machine) {

@@ -18,14 +18,21 @@ bool load_machine(const InputFile& name, const std::vector<std::string>& setting
 /// "mill3 (shipped, the default; -m names another)", "shop (shop.toml)"
 std::string machine_text(const std::string& name, const machine::MachineModel& model);
 
-/// Reads the tool table and takes over the dialect, if the command line gives them.
-/// @return false if the table has errors (in `diagnostics`)
-/// @throws WorldError for a table that can't be read
+/// Files of the machine that a program is read with; an empty path: none.
+struct ReadingFiles {
+  InputFile tools, ini;
+};
+
+/// Reads tool table and INI file and takes over the dialect, if the command line gives them.
+/// @return false if one has errors (in `diagnostics`)
+/// @throws WorldError for a file that can't be read
 bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading& reading,
                   Diagnostics& diagnostics);
-/// The same with a tool table from elsewhere (empty: none); it is the next file of the sources.
-bool load_reading(const Arguments& arguments, const InputFile& tools, SourceSet& sources,
+/// The same with files from elsewhere; they are the next files of the sources, in their order.
+bool load_reading(const Arguments& arguments, const ReadingFiles& files, SourceSet& sources,
                   gcode::Reading& reading, Diagnostics& diagnostics);
+/// The file of the first error.
+std::string file_in_error(const Diagnostics& diagnostics, const SourceSet& sources);
 
 /// @throws WorldError if an --offset is that of an axis which the machine lacks; 0 is none
 void refuse_offsets(const Arguments& arguments, const machine::MachineModel& machine);

@@ -54,6 +54,36 @@ gcode::WorkOffset work_offset(const std::string& text) {
   return offset;
 }
 
+/// "M31,M33" into the list of codes, each of them once.
+tl::expected<void, std::string> take_ignored(const std::string& text,
+                                             std::vector<machine::CodeName>& ignored) {
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const std::string word = text.substr(at, end - at);
+    const auto code = machine::parse_code_name(word);
+    if (!code) return tl::unexpected(fmt::format("takes G and M codes, e.g. M31,M33; got '{}'", word));
+    if (std::find(ignored.begin(), ignored.end(), *code) != ignored.end())
+      return tl::unexpected(fmt::format("names {} twice", machine::code_text(*code)));
+    ignored.push_back(*code);
+    at = end + 1;
+  }
+  return {};
+}
+
+/// "spindle.0.at-speed=1" into the list of pins, each of them once.
+tl::expected<void, std::string> take_hal(const std::string& text, std::vector<gcode::HalValue>& hal) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const std::string name = text.substr(0, equals);
+  const std::optional<double> value =
+      equals < text.size() ? parse_number(std::string_view(text).substr(equals + 1)) : std::nullopt;
+  if (name.empty() || !value || !gcode::is_hal_name(name))
+    return tl::unexpected(fmt::format("takes NAME=VALUE, e.g. plasmac.cut-feed-rate=1500; got '{}'", text));
+  for (const gcode::HalValue& other : hal)
+    if (other.name == name) return tl::unexpected(fmt::format("gives {} twice", name));
+  hal.push_back({name, *value});
+  return {};
+}
+
 }  // namespace
 
 CLI::App* Options::command(CLI::App& parent, const std::string& name, Run value,
@@ -133,6 +163,15 @@ void Options::reading(CLI::App* sub, Writes writes) {
       ->type_name("SYSTEM=LIST")
       ->allow_extra_args(false)
       ->take_all();
+  repeated(
+      sub, "--ignore", "LIST",
+      "G and M codes of the machine's owner to pass over, with the words that belong to them, e.g. M31,M33; "
+      "repeatable",
+      [this](const std::string& text) { return take_ignored(text, arguments.ignored); });
+  sub->add_option("--ini", arguments.ini, "LinuxCNC's INI file of the machine, for #<_ini[SECTION]NAME>")
+      ->type_name("FILE");
+  repeated(sub, "--hal", "NAME=VALUE", "Value of a HAL pin, for #<_hal[NAME]>; repeatable",
+           [this](const std::string& text) { return take_hal(text, arguments.hal); });
   dialect(sub);
 }
 

@@ -87,7 +87,8 @@ struct RunInputs {
   std::string scenario_name;
   std::optional<scenario::Scenario> scenario;
   /// Of the command line, or else of the scenario; an empty path: none is named.
-  InputFile program_file{""}, machine{""}, tools{""};
+  InputFile program_file{""}, machine{""};
+  ReadingFiles reading{InputFile(""), InputFile("")};
   std::vector<log::ReadFile> files;  ///< that were read
   std::uint32_t scenario_file = 0;   ///< in the sources
   bool machine_good = false;
@@ -109,8 +110,14 @@ void take_scenario(RunInputs& in) {
   in.arguments.settings = std::move(settings);
   if (in.machine.path.empty())
     in.machine = scenario->machine_is_file ? scenario->input(scenario->machine) : scenario->machine;
-  if (in.tools.path.empty() && !scenario->tools_file.empty())
-    in.tools = scenario->input(scenario->tools_file);
+  if (in.reading.tools.path.empty() && !scenario->tools_file.empty())
+    in.reading.tools = scenario->input(scenario->tools_file);
+  if (in.reading.ini.path.empty() && !scenario->ini_file.empty())
+    in.reading.ini = scenario->input(scenario->ini_file);
+  std::vector<machine::CodeName>& ignored = in.arguments.ignored;
+  ignored.insert(ignored.end(), scenario->ignored.begin(), scenario->ignored.end());
+  // of two values of a pin the last one counts
+  in.arguments.hal.insert(in.arguments.hal.begin(), scenario->hal.begin(), scenario->hal.end());
   if (!in.arguments.dialect) in.arguments.dialect = scenario->dialect;
   if (!in.arguments.from_line) in.arguments.from_line = scenario->from_line;
   if (!in.arguments.to_line) in.arguments.to_line = scenario->to_line;
@@ -123,20 +130,23 @@ void take_scenario(RunInputs& in) {
   }
 }
 
-/// @param tools  file of the tool table, if there is one
-void list_files(RunInputs& in, std::uint32_t tools) {
+/// @param next  the file of the sources from which those of the reading stand
+void list_files(RunInputs& in, std::uint32_t next) {
   if (in.scenario) in.files.push_back(read_file("scenario", in.scenario->file, in.scenario_toml));
   const bool shipped = !in.machine.folders && !machine::shipped_machine(in.machine.path).empty();
   if (!in.machine.path.empty() && !shipped)
     in.files.push_back(read_file("machine", in.machine, in.given.machine.text));
   if (!in.program_file.path.empty())
     in.files.push_back(read_file("program", in.program_file, in.sources[in.given.program].text()));
-  if (!in.tools.path.empty()) in.files.push_back(read_file("tools", in.tools, in.sources[tools].text()));
+  if (!in.reading.tools.path.empty())
+    in.files.push_back(read_file("tools", in.reading.tools, in.sources[next++].text()));
+  if (!in.reading.ini.path.empty())
+    in.files.push_back(read_file("ini", in.reading.ini, in.sources[next].text()));
 }
 
 void read_inputs(RunInputs& in) {
   in.machine = in.arguments.machine;
-  in.tools = in.arguments.tools;
+  in.reading = {in.arguments.tools, in.arguments.ini};
   if (!in.arguments.files.empty()) in.program_file = in.arguments.files.front();
   if (!in.arguments.scenario.empty()) take_scenario(in);
   if (in.diagnostics.has_errors()) return;
@@ -147,11 +157,11 @@ void read_inputs(RunInputs& in) {
     in.given.program = load_program(in.program_file, in.arguments.bounds, in.sources);
     in.program = program_text(in.program_file.path);
   }
-  const auto tools = static_cast<std::uint32_t>(in.sources.size());
+  const auto next = static_cast<std::uint32_t>(in.sources.size());
   in.started =
-      load_reading(in.arguments, in.tools, in.sources, in.given.reading, in.diagnostics) && in.machine_good;
+      load_reading(in.arguments, in.reading, in.sources, in.given.reading, in.diagnostics) && in.machine_good;
   if (!in.started) return;
-  list_files(in, tools);
+  list_files(in, next);
   if (!in.scenario) return;
   // also of a timeline without steps: it has a highest override
   scenario::place_inputs(*in.scenario, in.scenario_file, in.given, in.diagnostics);
@@ -178,7 +188,7 @@ int refuse(const RunInputs& in, int exit_code, Console& console) {
     console.document(j);
   } else {
     const std::string subject = in.started        ? in.program
-                                : in.machine_good ? in.tools.path
+                                : in.machine_good ? file_in_error(in.diagnostics, in.sources)
                                                   : "the machine or scenario file";
     console.diagnostics(in.diagnostics, in.sources, subject, Console::Where::errors);
   }

@@ -39,6 +39,35 @@ std::string numbers(const AxisValues& values) {
   return out;
 }
 
+/// A name in quotes of TOML: bytes that are no plain characters as %41.
+std::string quoted_name(std::string_view name) {
+  std::string out = "'";
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte >= 0x7F || c == '\'' || c == '%')
+      out += fmt::format("%{:02x}", byte);
+    else
+      out += c;
+  }
+  return out + "'";
+}
+
+/// Codes that are passed over besides those of the machine file, and what #<_hal[...]> and #<_ini[...]> read.
+std::string machine_values(const gcode::Reading& reading) {
+  std::string out, list;
+  for (const machine::CodeName& code : reading.ignored)
+    list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", machine::code_text(code));
+  if (!list.empty()) out += fmt::format("ignore = [{}]\n", list);
+  for (const gcode::HalValue& value : reading.hal)
+    out += fmt::format("[[hal]]\nname = {}\nvalue = {}\n", quoted_name(value.name), number_text(value.value));
+  if (!reading.ini) return out;
+  for (const gcode::IniValue& value : reading.ini->values)
+    if (const auto number = gcode::ini_number(value.text))
+      out += fmt::format("[[ini]]\nname = {}\nvalue = {}\n",
+                         quoted_name("[" + value.section + "]" + value.name), number_text(*number));
+  return out;
+}
+
 }  // namespace
 
 log::ReadFile read_file(std::string role, const InputFile& file, std::string_view text) {
@@ -73,6 +102,7 @@ log::RunHeader run_header(const cycle::Job& job, const cycle::RunOptions& option
   if (job.given.reading.tools)
     header.settings_toml +=
         fmt::format("tools = \"\"\"\n{}\"\"\"\n", gcode::render_tool_table(*job.given.reading.tools));
+  header.settings_toml += machine_values(job.given.reading);
   for (const std::uint32_t file : job.read.called_files) {
     const SourceText& called = job.sources[file];
     files.push_back(read_file("called", called.name(), called.text()));

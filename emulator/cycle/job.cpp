@@ -22,6 +22,7 @@ gcode::InterpretOptions interpret_options(const JobInputs& given) {
   options.inches = machine.units == machine::StartUnits::inch;
   options.units_said = machine.units.has_value();
   options.startup = machine.startup;
+  options.codes = machine.codes;
   options.axis_letters.clear();
   for (const machine::AxisModel& axis : machine.axis) {
     options.axis_letters += axis.letter;

@@ -19,7 +19,7 @@ namespace kadr::log {
 
 /// A file that a run has read.
 struct ReadFile {
-  std::string role;  ///< "program", "machine", "scenario", "tools", "called"
+  std::string role;  ///< "program", "machine", "scenario", "tools", "ini", "called"
   std::string name;  ///< as the file that names it has it; without folders if the user names it
   std::uint64_t bytes = 0;
   std::uint64_t hash = 0;  ///< XXH3

@@ -191,11 +191,18 @@ bool open_job(const Scenario& scenario, cycle::JobInputs& given, SourceSet& sour
   given.reading.from_line = scenario.from_line;
   given.reading.to_line = scenario.to_line;
   given.reading.allowed_folders = scenario.folders.allowed;
+  given.reading.ignored = scenario.ignored;
+  given.reading.hal = scenario.hal;
   const std::size_t errors = diagnostics.errors();
   if (!scenario.tools_file.empty()) {
     const std::uint32_t tools =
         sources.add(SourceText::open(scenario.input(scenario.tools_file), kMostTable_bytes));
     given.reading.tools = gcode::read_tool_table(sources, tools, diagnostics);
+  }
+  if (!scenario.ini_file.empty()) {
+    const std::uint32_t ini =
+        sources.add(SourceText::open(scenario.input(scenario.ini_file), kMostSettings_bytes));
+    given.reading.ini = gcode::read_ini_file(sources, ini, diagnostics);
   }
   if (!file) {
     diagnostics.add(file.error());

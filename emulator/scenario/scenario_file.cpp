@@ -7,6 +7,7 @@
 #include "emulator/scenario/scenario.h"
 #include "emulator/scenario/scenario_keys.h"
 #include "machine/base/hash.h"
+#include "machine/file/code_table.h"
 #include "machine/file/named_file.h"
 #include "machine/file/table_reader.h"
 #include "machine/file/technology.h"
@@ -45,6 +46,9 @@ class ScenarioReader {
     scenario_.dialect = table.choice(kDialect.name, gcode::kDialects, gcode::Dialect::linuxcnc).value;
     scenario_.from_line = read_line(table, kFromLine);
     scenario_.to_line = read_line(table, kToLine);
+    read_ini(table);
+    scenario_.ignored = machine::read_code_names(table.texts(kIgnore.name), {}, context_.diagnostics);
+    if (const Node* hal = table.table("hal")) read_hal(*hal, "");
     if (const Node* settings = table.table("settings")) flatten_settings(*settings, "");
     // the stock of a scenario overrides that of the machine file
     if (const Node* stock = table.table("stock")) flatten_settings(*stock, "stock");
@@ -155,6 +159,33 @@ class ScenarioReader {
     if (!name.valid) return;
     scenario_.tools_file = name.value;
     look_for(name);
+  }
+
+  void read_ini(TableReader& table) {
+    if (!table.has(kIni.name)) return;
+    const auto name = table.text(kIni.name);
+    if (!name.valid) return;
+    scenario_.ini_file = name.value;
+    look_for(name);
+  }
+
+  /// plasmac.feed = 1 is the pin plasmac.feed, as "plasmac.feed" = 1 is.
+  void read_hal(const Node& node, const std::string& prefix) {
+    TableReader table(&node, prefix.empty() ? "hal" : "hal." + prefix, node.span, context_);
+    for (const machine::Entry& entry : node.entries) {
+      const std::string name = prefix.empty() ? entry.key : prefix + "." + entry.key;
+      if (entry.value.kind == Node::Kind::table) {
+        read_hal(*table.table(entry.key), name);
+        continue;
+      }
+      const auto value = table.number(entry.key, kAny);
+      if (!gcode::is_hal_name(name)) {
+        tell(Code::scenario_value, entry.key_span, fmt::format("'{}' is no name of a pin", name));
+      } else if (value.valid) {
+        scenario_.hal.push_back({name, value.value});
+      }
+    }
+    table.finish();
   }
 
   /// planner.axis_limits = "report" becomes the setting planner.axis_limits="report".

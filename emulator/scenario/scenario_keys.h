@@ -26,6 +26,13 @@ inline constexpr machine::PlainKey kMachine{
     "a machine that ships with kadr, or a file in the scenario's folder or below"};
 inline constexpr machine::PlainKey kTools{"tools", "a file", "tools have no length",
                                           "a tool table in the scenario's folder or below"};
+inline constexpr machine::PlainKey kIni{
+    "ini", "a file", "no #<_ini[...]> has a value",
+    "LinuxCNC's INI file of the machine, in the scenario's folder or below"};
+inline constexpr machine::PlainKey kIgnore{"ignore", "[\"M31\", ...]", "none",
+                                           "G and M codes to pass over, besides those of the machine"};
+inline constexpr machine::PlainKey kHal{"NAME", "a number", "",
+                                        "value of the HAL pin NAME, for #<_hal[NAME]>"};
 inline constexpr machine::PlainKey kDialect{"dialect", "one of --dialect", "\"linuxcnc\"",
                                             "codes that controllers read differently"};
 inline constexpr NumberKey kScenarioFormat{
@@ -39,7 +46,8 @@ inline constexpr NumberKey kFromLine{
     "line of the program at which it is entered: what comes before is run without motion"};
 inline constexpr NumberKey kToLine{"to_line", kLine,
                                    "line of the program behind which it ends, the first time that it is run"};
-inline constexpr std::array kScenarioTexts{kScenarioName, kSummary, kProgram, kMachine, kTools, kDialect};
+inline constexpr std::array kScenarioTexts{kScenarioName, kSummary, kProgram, kMachine,
+                                           kTools,        kDialect, kIni,     kIgnore};
 
 // where a technology point lies, beside `on` and `max_mm_s` of the machine file
 inline constexpr NumberKey kPointLine{"at_line", kLine, "where the first motion of that line begins"};

@@ -50,6 +50,7 @@ void Flow::call_statement(const Line& line) {
 
 void Flow::call_code(const CallRequest& request) {
   if (request.returns) return return_code(request);
+  if (request.owner != nullptr) return call_owner(request);
   if (request.repeats == 0) return;
   if (request.to_line) return call_line(request);
   const Target target = find(state_.names.number(std::to_string(request.number)), true, request.place);
@@ -57,6 +58,15 @@ void Flow::call_code(const CallRequest& request) {
   if (target.unit == nullptr || !enter(target, kind, request.place, request.arguments))
     return interpreter_.lose_track();
   calls_.back().repeats_left = request.repeats - 1;
+}
+
+/// The subroutine of an owner's code; it reads the words of the line as #<p>, #<q>, ...
+void Flow::call_owner(const CallRequest& request) {
+  const Target target = find(state_.names.number(request.owner->call), false, request.place);
+  if (target.unit == nullptr || !enter(target, false, request.place, {})) return interpreter_.lose_track();
+  state_.levels.back().code = request.owner->code;
+  for (const auto& [letter, value] : request.words)
+    set_named(state_, state_.names.number(std::string_view(&letter, 1)), value);
 }
 
 void Flow::make_known(Unit& unit) {

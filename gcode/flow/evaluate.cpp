@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "gcode/flow/arithmetic.h"
 #include "gcode/interpret/predefined.h"
+#include "gcode/interpret/words.h"
+#include "gcode/read/scanner.h"
 
 namespace kadr::gcode {
 namespace {
@@ -125,7 +128,8 @@ bool Evaluator::read_named(const Line& line, const ExpressionNode& node, const S
     value = read_predefined(state, node.left, line.number);
     return true;
   }
-  if (state.uncertain.parameters) doubtful_ = true;
+  const bool of_machine = is_machine_value(state.names[node.left]);
+  if (state.uncertain.parameters && !of_machine) doubtful_ = true;
   if (const double* found = find_named(state, node.left)) {
     value = *found;
     return true;
@@ -141,8 +145,40 @@ bool Evaluator::read_named(const Line& line, const ExpressionNode& node, const S
     }
     return true;
   }
+  if (of_machine) return tell_not_given(line, node, state);
   return fail(Code::name_not_set, line.span(node.own),
               fmt::format("#<{}> has no value here", state.names[node.left]));
+}
+
+/// #<_ini[SECTION]NAME> or #<_hal[NAME]> without a value.
+bool Evaluator::tell_not_given(const Line& line, const ExpressionNode& node, const State& state) {
+  const std::string& name = state.names[node.left];
+  const Span span = line.span(node.own);
+  const std::size_t close = name.find(']');
+  const auto tell = [&](std::string label, std::string help) {
+    if (report_ != nullptr && !doubtful_)
+      report_->error(problem(Code::value_not_given, span, std::move(label), std::move(help)));
+    return false;
+  };
+  const bool hal = name.starts_with("_hal[");
+  const std::string inside = name.substr(5, close == std::string::npos ? close : close - 5);
+  if (hal)
+    return tell(fmt::format("nothing gives the value of {}", inside),
+                fmt::format("give it: --hal {}=VALUE", inside));
+  if (state.ini == nullptr)
+    return tell("no INI file is given, which this name asks", "name the machine's file: --ini FILE");
+  std::string section = inside, key = close == std::string::npos ? "" : name.substr(close + 1);
+  for (std::string* text : {&section, &key}) std::transform(text->begin(), text->end(), text->begin(), upper);
+  const std::string wanted = fmt::format("[{}]{}", section, key);
+  for (const IniValue& value : state.ini->values) {
+    if (!same_letters(value.section, section) || !same_letters(value.name, key)) continue;
+    if (value.section == section && value.name == key)
+      return tell(fmt::format("{} of {} is '{}', which is no number", wanted, state.ini->name, value.text),
+                  {});
+    return tell(fmt::format("{} writes it [{}]{}", state.ini->name, value.section, value.name),
+                fmt::format("write {} there: LinuxCNC asks for names in capitals", wanted));
+  }
+  return tell(fmt::format("{} has no {}", state.ini->name, wanted), {});
 }
 
 bool Evaluator::fail(Code code, Span span, std::string label) {

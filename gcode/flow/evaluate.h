@@ -42,6 +42,7 @@ class Evaluator {
   bool read_macro(const Line& line, const ExpressionNode& node, const State& state, double index,
                   double& value);
   bool read_named(const Line& line, const ExpressionNode& node, const State& state, double& value);
+  bool tell_not_given(const Line& line, const ExpressionNode& node, const State& state);
   bool fail(Code code, Span span, std::string label);
 
   bool is_declared(std::int32_t name) const {

@@ -113,6 +113,7 @@ class Flow {
 
   void call_statement(const Line& line);
   void call_code(const CallRequest& request);
+  void call_owner(const CallRequest& request);
   Target find(std::int32_t name, bool by_code, Span place);
   Target find_known(std::int32_t name, bool by_code) const;
   bool load(std::int32_t name, Span place);

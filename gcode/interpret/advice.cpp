@@ -69,7 +69,7 @@ void Advice::follow(const Block& block) {
 }
 
 void Advice::check_dwell(const Dwell& dwell, Span span) {
-  if (!seconds_ || dwell.time_s < kLongDwell_s) return;
+  if (!seconds_ || dwell.by_machine || dwell.time_s < kLongDwell_s) return;
   report_.warning(
       problem(Code::long_dwell, span, fmt::format("waits {} s", figure(dwell.time_s)),
               fmt::format("if milliseconds were meant, write P{}", figure(dwell.time_s / 1000, 6))));

@@ -23,6 +23,7 @@ bool Interpreter::check() {
   if (motion_of_line() > Motion::nurbs && moves()) check_motion_words();
   check_tools();
   check_functions();
+  if (!words_.owner_codes().empty()) check_owner_call();
   check_shared_p();
   warn_axis_words_move();
   if (state_.compensating() || words_.g(GGroup::compensation) != kNoCode) check_compensation();

@@ -12,6 +12,7 @@ void Interpreter::spindle() {
                : code == code::m4 ? Turning::counterclockwise
                                   : Turning::stopped,
                words_.span(*line_, MGroup::spindle));
+  take_time(code, words_.span(*line_, MGroup::spindle));
 }
 
 void Interpreter::turn_spindle(Turning turning, Span span) {
@@ -33,6 +34,7 @@ void Interpreter::orient_spindle() {
   if (words_.has('R')) orientation = {words_.value('R'), 0};
   if (words_.has('P')) near_integer(words_.value('P'), orientation.direction);
   emit(words_.span(*line_, MGroup::spindle), SpindleStop{orientation});
+  take_time(code::m19, words_.span(*line_, MGroup::spindle));
 }
 
 void Interpreter::coolant() {
@@ -47,6 +49,7 @@ void Interpreter::coolant() {
   }
   state_.mist = code == code::m7 || (state_.mist && code != code::m9);
   state_.flood = code == code::m8 || (state_.flood && code != code::m9);
+  take_time(code, span);
 }
 
 void Interpreter::overrides() {

@@ -13,7 +13,8 @@ Interpreter::Interpreter(const InterpretOptions& options, Report& report, const 
       report_(report),
       sink_(sink),
       advice_(state_, options, report),
-      words_(options.dialect),
+      owner_table_(options.codes, options.ignored),
+      words_(options.dialect, owner_table_),
       compensation_([this](Block& block) { hand_out_compensated(block); }),
       passing_(options.from_line.has_value()),
       passed_(options.home) {
@@ -30,6 +31,7 @@ Interpreter::Interpreter(const InterpretOptions& options, Report& report, const 
   for (const WorkOffset& given : options.work_offsets)
     write_axis_parameters(state_, work_offset_parameter(given.system), given.zero_u);
   state_.use_work_system(1);
+  take_machine_values();
 }
 
 void Interpreter::run(const Line& line) {
@@ -49,6 +51,7 @@ void Interpreter::run(const Line& line) {
   if (line.failed) return recover(true);
   if (state_.diameter_mode || words_.g(GGroup::diameter) != kNoCode) take_diameters();
   if (words_.g(GGroup::nonmodal) == code::g4 && options_.dialect != Dialect::linuxcnc) take_dwell_words();
+  if (!words_.owner_codes().empty()) take_owner_words();
   if (units_pending_) note_length();
   if (readable && plain_move()) return motion();
   if (!readable || !polar_words() || !check()) return recover(false);
@@ -82,6 +85,7 @@ void Interpreter::execute() {
   modal_state();
   coolant();
   overrides();
+  owner_codes();
   dwell();
   plane();
   units();

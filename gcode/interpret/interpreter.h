@@ -28,6 +28,9 @@ struct CallRequest {
   std::int64_t number = 0;    ///< P
   std::uint64_t repeats = 1;  ///< L
   Span place;
+  /// A code of the machine's owner that runs a subroutine; null: M98 or M99.
+  const machine::OwnerCode* owner = nullptr;
+  std::vector<std::pair<char, double>> words;  ///< of that code
 };
 
 /// A required word of a code, and its meaning.
@@ -336,6 +339,15 @@ class Interpreter {
   void run_words(const std::string& words, Span place);
   void diameter_mode();
 
+  // owner_codes.cpp: codes of the machine's owner
+  void take_machine_values();
+  std::uint32_t owner_letters() const;
+  void take_owner_words();
+  void check_owner_call();
+  void owner_codes();
+  void run_owner_code(const machine::OwnerCode& own, Span span);
+  void take_time(int code, Span span);
+
   // interpreter.cpp
   bool plain_move() const;
   bool calls_only() const;
@@ -359,7 +371,9 @@ class Interpreter {
   const Sink& sink_;
   State state_;
   Advice advice_;
+  OwnerTable owner_table_;
   Words words_;
+  std::vector<std::pair<char, double>> owner_words_;  ///< of the line, those of its codes of the owner
   std::optional<CallRequest> call_;
   std::optional<CallRequest> modal_call_;  ///< G66
   std::size_t modal_level_ = 0;            ///< the call level of G66

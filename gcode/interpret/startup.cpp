@@ -21,6 +21,7 @@ bool sets_mode(int code) {
 }  // namespace
 
 void Interpreter::begin(SourceSet& sources) {
+  owner_table_.check(options_.dialect, report_);
   if (options_.startup.empty()) return;
   SourceText text("startup", options_.startup);
   Line line;

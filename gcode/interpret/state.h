@@ -9,9 +9,11 @@
 #include "gcode/block.h"
 #include "gcode/dialect/codes.h"
 #include "gcode/dialect/dialect.h"
+#include "gcode/read/ini_file.h"
 #include "gcode/read/names.h"
 #include "gcode/read/tool_table.h"
 #include "machine/base/axes.h"
+#include "machine/owner_codes.h"
 
 namespace kadr::gcode {
 
@@ -142,6 +144,7 @@ struct CallLevel {
   bool own_numbered = true;                        ///< false: M98, which shares the caller's
   std::optional<ModalState> modal;                 ///< kept by M70 or M73
   bool restores_modal = false;                     ///< M73: restored at the return
+  std::optional<machine::CodeName> code;           ///< of the machine's owner, that made the call
   std::unordered_map<std::int32_t, double> named;  ///< local named parameters by number of the name
 };
 
@@ -206,6 +209,7 @@ struct State {
   bool value_returned = false;
   Uncertain uncertain;
   MacroRules macros;  ///< of the dialect
+  const IniFile* ini = nullptr;  ///< of the machine; null: none is given
 
   /// Parameters from #1 on that belong to a call.
   int locals() const { return macros.on ? kMacroLocals : kLocals; }

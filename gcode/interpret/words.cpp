@@ -30,6 +30,23 @@ double steps_of(char letter, bool inches) {
   return inches && !is_rotary_letter(letter) ? 1e4 : 1e3;
 }
 
+/// @param name  of the code; empty: it is no number that a code can have
+bool refuse_code(Report* report, Code code, Span span, const std::string& label, const std::string& name) {
+  if (name.empty()) return refuse(report, code, span, label);
+  if (report == nullptr) return false;
+  // G codes that LinuxCNC runs and kadr does not may move: nobody is led to pass them over
+  const bool may_be_own = code == Code::unknown_code || name.front() == 'M';
+  report->repeated_error(
+      problem(code, span, label,
+              may_be_own
+                  ? fmt::format("if {0} is one of your machine's own that moves nothing: --ignore {0}, or "
+                                "[codes] of the machine file",
+                                name)
+                  : std::string()),
+      name);
+  return false;
+}
+
 }  // namespace
 
 std::string g_name(int tenths) {
@@ -69,6 +86,7 @@ void Words::clear() {
   any = percent = refused_motion = other_codes_ = false;
   comment = -1;
   settings.clear();
+  owner_uses_.clear();
   evaluator_.begin_line();
   g_.fill(kNoCode);
   m_.fill(kNoCode);
@@ -77,6 +95,7 @@ void Words::clear() {
 
 bool Words::read(const Line& line, const State& state, Report* report) {
   clear();
+  levels_ = &state.levels;
   bool good = true;
   for (std::uint32_t at = 0; at < line.items.size(); ++at) {
     const Item& item = line.items[at];
@@ -186,13 +205,16 @@ bool Words::read_g(const Line& line, std::uint32_t at, double value, Report* rep
     if (tenths == code::g66_1 && rules_of(dialect_).macros.on)
       return refuse(report, Code::word_not_run, span, "kadr does not run G66.1: calls before every block");
   }
+  if (take_owner_code('G', tenths, at)) return true;
   const GCode code = g_code(tenths);
   if (code.standing != Standing::runs) {
     refused_motion = true;
     if (code.standing == Standing::not_run) {
-      return refuse(report, Code::word_not_run, span, fmt::format("kadr does not run {}", g_name(tenths)));
+      return refuse_code(report, Code::word_not_run, span,
+                         fmt::format("kadr does not run {}", g_name(tenths)), g_name(tenths));
     }
-    return refuse(report, Code::unknown_code, span, fmt::format("there is no G code {:.6g}", value));
+    return refuse_code(report, Code::unknown_code, span, fmt::format("there is no G code {:.6g}", value),
+                       tenths < 0 ? std::string() : g_name(tenths));
   }
   const auto group = static_cast<std::size_t>(code.group);
   if (code.group == GGroup::motion) {
@@ -223,12 +245,15 @@ bool Words::read_m(const Line& line, std::uint32_t at, double value, Report* rep
   const bool whole = near_integer(value, number);
   if (dialect_ != Dialect::linuxcnc) number = meant_code(dialect_, 'M', number);
   const bool local = number == code::m97 && rules_of(dialect_).macros.local_subs;
+  if (whole && take_owner_code('M', number, at)) return true;
   const MCode code = local ? MCode{Standing::runs, MGroup::call} : whole ? m_code(number) : MCode{};
   if (code.standing == Standing::not_run) {
-    return refuse(report, Code::word_not_run, span, fmt::format("kadr does not run M{}", number));
+    return refuse_code(report, Code::word_not_run, span, fmt::format("kadr does not run M{}", number),
+                       fmt::format("M{}", number));
   }
   if (code.standing == Standing::unknown) {
-    return refuse(report, Code::unknown_code, span, fmt::format("there is no M code {:.6g}", value));
+    return refuse_code(report, Code::unknown_code, span, fmt::format("there is no M code {:.6g}", value),
+                       whole && number >= 0 ? fmt::format("M{}", number) : std::string());
   }
   const auto group = static_cast<std::size_t>(code.group);
   if (m_[group] != kNoCode) {
@@ -247,9 +272,11 @@ bool Words::read_setting(const Line& line, const Item& item, const State& state,
   if (item.name >= 0) {
     evaluator_.declare(item.name);
     if (!evaluator_.evaluate(line, item.first, item.value, state, report, value)) return false;
-    if (is_predefined(item.name)) {
+    const bool predefined = is_predefined(item.name);
+    if (predefined || is_machine_value(state.names[item.name])) {
       return refuse(report, Code::parameter_read_only, line.span({item.bytes.begin, item.equals}),
-                    fmt::format("#<{}> tells the state of the controller", state.names[item.name]));
+                    fmt::format("#<{}> tells {}", state.names[item.name],
+                                predefined ? "the state of the controller" : "a value of the machine"));
     }
     settings.push_back({0, item.name, value});
     return true;
@@ -299,6 +326,19 @@ bool Words::read_comment(const Line& line, std::uint32_t at, Report* report) {
       !same_letters(command, "PRINT") && !same_letters(command, "ABORT") && !same_letters(command, "TECH")) {
     warn(line.items[at], fmt::format("kadr does not run ({}, ...)", command));
   }
+  return true;
+}
+
+/// A code of the owner, but for one that the subroutine of this code names: that is the code itself.
+bool Words::take_owner_code(char letter, int number, std::uint32_t at) {
+  const OwnerTable::Entry* entry = owner_->empty() ? nullptr : owner_->find(letter, number);
+  if (entry == nullptr) return false;
+  const bool inside = entry->own != nullptr && !entry->own->call.empty() &&
+                      std::any_of(levels_->begin(), levels_->end(),
+                                  [&](const CallLevel& level) { return level.code == entry->code; });
+  if (inside) return false;
+  other_codes_ = true;
+  owner_uses_.push_back({entry, at});
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include "gcode/dialect/codes.h"
 #include "gcode/dialect/dialect.h"
 #include "gcode/flow/evaluate.h"
+#include "gcode/interpret/owner_codes.h"
 #include "gcode/interpret/state.h"
 #include "gcode/read/report.h"
 #include "gcode/read/tree.h"
@@ -35,7 +36,8 @@ inline constexpr int kNoCode = -1;
 /// comments.
 class Words {
  public:
-  explicit Words(Dialect dialect) : dialect_(dialect) {}
+  /// @param owner  codes of the machine's owner; must outlive the words
+  explicit Words(Dialect dialect, const OwnerTable& owner) : dialect_(dialect), owner_(&owner) {}
 
   /// Evaluates every word with the parameters as they stand and sorts it in.
   /// @param report  null: only sort in what can be read, as after a syntax error
@@ -71,6 +73,12 @@ class Words {
   bool only_moves() const {
     return (present & ~kAxisBits) == 0 && !other_codes_ && !percent && comment < 0 && settings.empty();
   }
+  /// A code of the machine's owner on the line.
+  struct OwnerUse {
+    const OwnerTable::Entry* entry = nullptr;
+    std::uint32_t item = 0;
+  };
+  const std::vector<OwnerUse>& owner_codes() const { return owner_uses_; }
   bool has_axis() const { return (present & kAxisBits) != 0; }
   /// The text of the words that make the line's motion.
   Span motion_span(const Line& line) const { return line.span(motion_); }
@@ -100,6 +108,7 @@ class Words {
   bool read_setting(const Line& line, const Item& item, const State& state, Report* report);
   bool read_comment(const Line& line, std::uint32_t at, Report* report);
   void widen_motion(Bytes bytes);
+  bool take_owner_code(char letter, int number, std::uint32_t at);
 
   std::array<double, kWordLetters.size()> values_{};
   std::array<std::uint32_t, kWordLetters.size()> items_{};
@@ -109,7 +118,10 @@ class Words {
   std::array<std::uint32_t, kMGroups> m_items_{};
   Bytes motion_;
   Dialect dialect_;
-  bool other_codes_ = false;  ///< an M code, or a G code that is no motion
+  const OwnerTable* owner_;
+  std::vector<OwnerUse> owner_uses_;
+  const std::vector<CallLevel>* levels_ = nullptr;  ///< while a line is read
+  bool other_codes_ = false;                        ///< an M code, or a G code that is no motion
   Evaluator evaluator_;
 };
 

@@ -173,11 +173,6 @@ std::int32_t ExpressionParser::name(std::uint32_t sign) {
   }
   const std::string_view written = line_.text.substr(open + 1, close - open - 1);
   const auto end = static_cast<std::uint32_t>(close) + 1;
-  const std::string_view head = written.substr(0, std::min<std::size_t>(written.size(), 5));
-  if (same_letters(head, "_INI[") || same_letters(head, "_HAL[")) {
-    return fail(Code::name_bad, {sign, end}, "kadr has no INI file and no HAL",
-                "set a named parameter at the beginning of the program and use it here");
-  }
   for (const char c : written) {
     const bool control = !is_blank(c) && (static_cast<unsigned char>(c) < 0x20 || c == 0x7F);
     if (c == '(' || control) {

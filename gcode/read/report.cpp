@@ -37,11 +37,11 @@ bool Report::tell_kind(const Diagnostic& d) {
   return true;
 }
 
-void Report::repeated_warning(Diagnostic d, double size, std::string what) {
+void Report::repeated_warning(Diagnostic d, double size, std::string what, const std::string& subject) {
   if (place_) d.span = *place_;
   ++met_;
   d.severity = Severity::warning;
-  const auto [it, is_new] = repeated_.try_emplace(d.code);
+  const auto [it, is_new] = repeated_.try_emplace({d.code, subject});
   Repeated& kind = it->second;
   // places are remembered as far as those of other warnings; more are counted at each pass
   if (kind.count < kMaxWarnings && !first_time(d)) return;
@@ -53,6 +53,22 @@ void Report::repeated_warning(Diagnostic d, double size, std::string what) {
   if (!is_new && size <= kind.largest) return;
   kind.largest = size;
   kind.what = std::move(what);
+}
+
+void Report::repeated_error(Diagnostic d, const std::string& subject) {
+  if (place_) d.span = *place_;
+  const auto [it, is_new] = repeated_errors_.try_emplace({d.code, subject});
+  Counted& kind = it->second;
+  if (is_new) {
+    const std::size_t listed = diagnostics_.list().size();
+    error(std::move(d));
+    if (diagnostics_.list().size() > listed) kind.told = listed + 1;
+  } else {
+    ++errors_;
+    // places are remembered as far as those of warnings; more are counted at each pass
+    if (kind.count < kMaxWarnings && !first_time(d)) return;
+  }
+  ++kind.count;
 }
 
 void Report::warning(Diagnostic d) {
@@ -90,11 +106,15 @@ void Report::take_calls(Diagnostic& d) const {
 }
 
 void Report::close(Span end) {
-  for (auto& [code, kind] : repeated_) {
+  for (auto& [subject, kind] : repeated_) {
     if (kind.count > 1)
-      kind.first.notes.push_back(fmt::format("{} times in this program; {}", kind.count, kind.what));
+      kind.first.notes.push_back(
+          fmt::format("{} times in this program{}{}", kind.count, kind.what.empty() ? "" : "; ", kind.what));
     diagnostics_.add(std::move(kind.first));
   }
+  for (const auto& [subject, kind] : repeated_errors_)
+    if (kind.count > 1 && kind.told > 0)
+      diagnostics_.add_note(kind.told - 1, fmt::format("{} times in this program", kind.count));
   if (warnings_ > kMaxWarnings) diagnostics_.leave_out(Severity::warning, warnings_ - kMaxWarnings, end);
   if (told_errors_ >= kMaxErrors) diagnostics_.stop(end);
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "gcode/dialect/dialect.h"
@@ -35,7 +36,10 @@ class Report {
   /// A warning of a kind that a program makes many times: close() tells it once, at its first place, with how often it
   /// was met and where it was largest.
   /// @param size  of what is told; @param what  said behind the count, of the largest
-  void repeated_warning(Diagnostic d, double size, std::string what);
+  /// @param subject  of kinds that are told for each of several: a code of the program
+  void repeated_warning(Diagnostic d, double size, std::string what, const std::string& subject = {});
+  /// An error that a program repeats: told at the first place of each subject, and close() adds how often it was met.
+  void repeated_error(Diagnostic d, const std::string& subject);
   /// Everything found so far, told or not.
   std::size_t found() const { return errors_ + warnings_ + met_; }
   /// The text whose first error may say that it is of another kind (gcode/read/other_kind.h): that is told in its place,
@@ -85,7 +89,13 @@ class Report {
   std::size_t warnings_ = 0;
   std::size_t met_ = 0;  ///< repeated warnings
   bool stopped_ = false;
-  std::map<Code, Repeated> repeated_;
+  struct Counted {
+    std::size_t count = 0;
+    std::size_t told = 0;  ///< its place in the list and one; 0: it was not told
+  };
+  using Subject = std::pair<Code, std::string>;
+  std::map<Subject, Repeated> repeated_;
+  std::map<Subject, Counted> repeated_errors_;
   std::optional<Watched> watched_;
 };
 

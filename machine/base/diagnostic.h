@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "machine/base/codes.h"
@@ -107,6 +108,8 @@ class Diagnostics {
   static constexpr std::size_t kMostText_bytes = 4000;
 
   void add(Diagnostic d);
+  /// Adds a note to one that is in the list already.
+  void add_note(std::size_t index, std::string note) { list_.at(index).notes.push_back(std::move(note)); }
   /// Those of another list, and what that one left out.
   void add(const Diagnostics& others);
   /// Counts errors or warnings that the caller found and does not keep; `at` is the note's place.

@@ -56,6 +56,10 @@ std::vector<TableDocument> machine_keys() {
   d.table("[[technology]]", "a feed for each change of an output with the motion; optional")
       .one(kTechnologyOn)
       .one(kTechnologyLimit);
+  d.table("[codes]", "G and M codes of the machine's owner; optional").one(kCodesIgnored);
+  d.table("[codes.M10]", "one for each code that does something, also M10 = { ... } in [codes]; optional")
+      .all(kOwnerKeys)
+      .one(kOwnerCall);
   d.table("[[axis]]", "one for each axis")
       .one(kAxisName)
       .one(kAxisKindKey)

@@ -125,6 +125,19 @@ inline constexpr auto kIntegrator =
 inline constexpr auto kTolerance =
     key("tolerance_um", &PlantSettings::tolerance_um, Bounds{1e-12, 1e3}, "of the integration");
 
+inline constexpr PlainKey kCodesIgnored{"ignore", "[\"M31\", ...]", "none",
+                                        "codes that are passed over with the words that belong to them"};
+inline constexpr PlainKey kOwnerCall{
+    "call", "a name", "none",
+    "subroutine that runs in place of the code, and reads the words of its line as #<p>, #<q>, ..."};
+inline constexpr auto kOwnerKeys = keys_of(
+    key("time_s", &OwnerCode::time_s, Bounds{0, 1e6},
+        "time that the code takes; of M6 the same as planner.tool_change_s"),
+    key("output", &OwnerCode::output, Bounds{0, 63}, "digital output that it switches").default_is("none"),
+    key("on", &OwnerCode::on, "the new state of the output"),
+    key("stop", &OwnerCode::stop,
+        "whether the motion stops; otherwise the output is switched as the next motion begins"));
+
 inline constexpr auto kTechnologyLimit =
     key("max_mm_s", &TechnologyRule::max_u_s, Bounds{1e-3, 1e6}, "highest feed where the output changes")
         .required();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "machine/base/parse_number.h"
+#include "machine/file/code_table.h"
 #include "machine/file/data_sheet.h"
 #include "machine/file/machine_keys.h"
 #include "machine/file/technology.h"
@@ -280,7 +281,8 @@ MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
   model.clock = read_clock(root.table("clock"), top, context);
   WrittenApproach approach;
   model.path = read_path_limits(root.table("path"), root.table("feed"), top, approach, context);
-  model.planner = read_planner(root.table("planner"), top, context);
+  const Node* const planner = root.table("planner");
+  model.planner = read_planner(planner, top, context);
   read_interpolator(root.table("interpolator"), top, model, context);
   model.feed_override =
       read_settings<OverrideSettings>(root.table("override"), "override", top, kOverrideKeys, context);
@@ -291,6 +293,9 @@ MachineModel read_machine_model(const Node& root_node, ReadContext& context) {
   model.plant = read_plant_settings(root.table("plant"), top, model.axis, context);
   model.stock = read_stock(root.table("stock"), top, model, context);
   model.technology = read_technology(root);
+  model.codes = read_owner_codes(root.table("codes"), top,
+                                 planner != nullptr && planner->find("tool_change_s") != nullptr,
+                                 model.planner, context);
   model.log = read_log(root.table("log"), top, model.clock, context);
   root.finish();
   return model;

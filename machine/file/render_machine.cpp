@@ -108,6 +108,31 @@ void write_axis(TomlWriter& w, const AxisModel& axis, double home2_u) {
   write_keys(w, axis.plant, kPlantKeys, axis.kind);
 }
 
+void write_codes(TomlWriter& w, const OwnerCodes& codes) {
+  if (!codes.ignore.empty()) {
+    w.table("[codes]", "codes");
+    std::string list;
+    for (const CodeName& code : codes.ignore)
+      list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", code_text(code));
+    w.line(kCodesIgnored.name, "[" + list + "]");
+  }
+  for (const OwnerCode& own : codes.own) {
+    const std::string name = code_text(own.code);
+    // G12.1 with its point is a key in quotes
+    const bool point = name.find('.') != std::string::npos;
+    w.table(fmt::format("[codes.{}]", point ? "\"" + name + "\"" : name), fmt::format("codes.{}", name));
+    if (!own.call.empty()) {
+      w.line(kOwnerCall.name, quoted(own.call));
+      continue;
+    }
+    w.number("time_s", own.time_s);
+    if (own.output < 0) continue;
+    w.number("output", own.output);
+    w.line("on", own.on ? "true" : "false");
+    w.line("stop", own.stop ? "true" : "false");
+  }
+}
+
 void write_settings(TomlWriter& w, const MachineModel& m) {
   w.table("[clock]", "clock");
   const auto rate_hz = static_cast<double>(m.clock.base_hz);
@@ -141,6 +166,7 @@ void write_settings(TomlWriter& w, const MachineModel& m) {
     write_key(w, *m.stock, kStockPosition);
     write_key(w, *m.stock, kStockBelow);
   }
+  write_codes(w, m.codes);
   w.table("[log]", "log");
   write_keys(w, m.log, kLogKeys);
   write_key(w, m.log, kViewerRate);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// No program, machine, table or scenario: a line of it is in the message of whoever reads it.
-const std::string kSecret = "SECRET77 = = \n";
+const std::string kSecret = "[SECRET77 = = \n";
 
 /// A folder `in` with a scenario or problem, and beside it what it must not read.
 struct Ward {
@@ -68,6 +68,7 @@ const std::vector<Key> kKeys = {
     {"scenario program", kScenario + "program = \"@\"\nmachine = \"mill3\"\n", true},
     {"scenario machine", kScenario + "program = \"p.ngc\"\nmachine = \"@\"\n", true},
     {"scenario tools", kScenario + "program = \"p.ngc\"\nmachine = \"mill3\"\ntools = \"@\"\n", true},
+    {"scenario ini", kScenario + "program = \"p.ngc\"\nmachine = \"mill3\"\nini = \"@\"\n", true},
     {"problem program", "format = 1\n[path]\nprogram = \"@\"\nmachine = \"mill3\"\n", false},
     {"problem machine", "format = 1\n[path]\nprogram = \"p.ngc\"\nmachine = \"@\"\n", false},
     {"problem tools", "format = 1\n[path]\nprogram = \"p.ngc\"\nmachine = \"mill3\"\ntools = \"@\"\n", false},

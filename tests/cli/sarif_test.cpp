@@ -141,7 +141,7 @@ TEST_CASE("--format sarif of the other commands goes to standard error, alone th
 TEST_CASE("SARIF shows all diagnostics unless --max-errors says a number") {
   const Scratch scratch;
   std::string text;
-  for (int i = 0; i < 50; ++i) text += "G999\n";
+  for (int i = 0; i < 50; ++i) text += "G0 X1 X2\n";
   scratch.write("many.ngc", text);
   const auto results = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"check", "many.ngc", "--format", "sarif"};

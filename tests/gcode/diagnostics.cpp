@@ -31,7 +31,7 @@ std::vector<std::filesystem::path> bad_programs() {
   std::vector<std::filesystem::path> paths;
   for (const auto& entry : std::filesystem::directory_iterator(kBad)) {
     const auto extension = entry.path().extension();
-    if (extension == ".ngc" || extension == ".tbl") paths.push_back(entry.path());
+    if (extension == ".ngc" || extension == ".tbl" || extension == ".ini") paths.push_back(entry.path());
   }
   std::sort(paths.begin(), paths.end());
   return paths;
@@ -44,6 +44,13 @@ InterpretOptions small_machine() {
   options.bounds.blocks = 50;
   options.bounds.loop_passes = 1000;
   return options;
+}
+
+machine::OwnerCode owner_call(char letter, int number, const char* sub) {
+  machine::OwnerCode own;
+  own.code = {letter, number, {}};
+  own.call = sub;
+  return own;
 }
 
 /// The bounds on sizes are small where a program is to exceed them.
@@ -62,6 +69,9 @@ InterpretOptions machine_for(const std::string& program) {
   const auto line = [&] { return static_cast<std::uint32_t>(std::stoul(program.substr(range + 6))); };
   if (program.rfind("K1070", 0) == 0 || program.rfind("K1072", 0) == 0) options.from_line = line();
   if (program.rfind("K1071", 0) == 0) options.to_line = line();
+  if (program.rfind("K1140", 0) == 0) options.ignored = {{'M', 31, {}}, {'M', 42, {}}, {'G', 1870, {}}};
+  if (program.rfind("K1141", 0) == 0) options.ignored = {{'M', 8, {}}, {'G', 10, {}}};
+  if (program.rfind("K1142", 0) == 0) options.codes.own = {owner_call('M', 150, "clamp")};
   static const MemoryTexts two_subs = [] {
     MemoryTexts texts;
     texts.put("a", "o<a> sub\no<a> endsub\no<b> sub\no<b> endsub\n");
@@ -80,7 +90,7 @@ std::optional<ToolTable> tools_beside(std::filesystem::path path) {
   return read_tool_table(sources, sources.add(SourceText("tools", golden_text(path))), diagnostics);
 }
 
-/// A program, or a tool table alone.
+/// A program, or a tool table or INI file alone.
 Outcome outcome_of(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   if (path.extension() == ".ngc") {
@@ -91,7 +101,11 @@ Outcome outcome_of(const std::filesystem::path& path) {
   Outcome outcome;
   SourceSet sources;
   const std::uint32_t file = sources.add(SourceText(name, golden_text(path)));
-  read_tool_table(sources, file, outcome.diagnostics);
+  if (path.extension() == ".ini") {
+    read_ini_file(sources, file, outcome.diagnostics);
+  } else {
+    read_tool_table(sources, file, outcome.diagnostics);
+  }
   for (const Diagnostic& d : outcome.diagnostics.list()) outcome.rendered += render_human(d, sources);
   return outcome;
 }

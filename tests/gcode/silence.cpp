@@ -175,7 +175,7 @@ TEST_CASE("names are made of what LinuxCNC takes") {
     CHECK(last_point(parameter + " = 7\nG0 X" + parameter + "\n")[0] == 7);
   }
   CHECK(only_code("#<a(b)>=1\n") == Code::name_bad);
-  CHECK(only_code("#1=#<_ini[a]b>\n") == Code::name_bad);
+  CHECK(only_code("#1=#<_ini[a]b>\n") == Code::value_not_given);
 }
 
 TEST_CASE("comments may stand between the values of a call") {

@@ -173,10 +173,38 @@ class MachineMaker {
     std::shuffle(letters.begin(), letters.end(), random_);
     letters.resize(1 + pick(9));
     for (const char letter : letters) m.axis.push_back(axis(letter, m));
+    if (pick(2) == 0) m.codes = codes();
     return m;
   }
 
  private:
+  /// [codes]: names are passed over, take time, switch an output or call a subroutine.
+  OwnerCodes codes() {
+    OwnerCodes codes;
+    for (int number = 31; number < 40; ++number) {
+      OwnerCode own;
+      own.code = {pick(2) == 0 ? 'M' : 'G', number, {}};
+      switch (pick(4)) {
+        case 0:
+          codes.ignore.push_back(own.code);
+          continue;
+        case 1:
+          own.time_s = positive(100);
+          break;
+        case 2:
+          own.output = static_cast<int>(pick(64));
+          own.on = pick(2) == 0;
+          own.stop = pick(2) == 0;
+          break;
+        default:
+          own.call = pick(2) == 0 ? "clamp" : "\\зажим";
+          break;
+      }
+      codes.own.push_back(own);
+    }
+    return codes;
+  }
+
   double unit() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
   std::uint64_t pick(std::uint64_t n) { return random_() % n; }
   double positive(double scale) { return scale * (unit() + 0.001); }

@@ -65,6 +65,8 @@ std::string key_section() {
   t.add(kMostOverride);
   t.add(kFromLine);
   t.add(kToLine);
+  t.header("`[hal]`:");
+  t.add(kHal);
   t.header("`[[technology]]`, beside the keys of the machine file:");
   t.rows(kTechnologyKeys);
   t.header("`[[step]]`: a time or place,");
