@@ -100,6 +100,7 @@ struct Arguments {
   bool ask = false;                   ///< machine new --ask
   std::string tools;                  ///< tool table; empty: none
   std::optional<gcode::Dialect> dialect;
+  bool recognise_dialect = false;            ///< --dialect auto
   std::vector<gcode::WorkOffset> offsets;    ///< --offset
   gcode::ReadingBounds bounds;               ///< --limit
   std::uint64_t log_bytes = 10'000'000'000;  ///< --limit log_bytes: longest log; 0: no bound

@@ -18,14 +18,15 @@ bool load_machine(const InputFile& name, const std::vector<std::string>& setting
 /// "mill3 (shipped, the default; -m names another)", "shop (shop.toml)"
 std::string machine_text(const std::string& name, const machine::MachineModel& model);
 
-/// Reads the tool table and takes over the dialect, if the command line gives them.
+/// Reads the tool table and takes over the dialect, if the command line gives them; --dialect auto looks at the program.
+/// @param program  its file in the sources
 /// @return false if the table has errors (in `diagnostics`)
 /// @throws WorldError for a table that can't be read
-bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading& reading,
-                  Diagnostics& diagnostics);
-/// The same with a tool table from elsewhere (empty: none); it is the next file of the sources.
-bool load_reading(const Arguments& arguments, const InputFile& tools, SourceSet& sources,
+bool load_reading(const Arguments& arguments, std::uint32_t program, SourceSet& sources,
                   gcode::Reading& reading, Diagnostics& diagnostics);
+/// The same with a tool table from elsewhere (empty: none); it is the next file of the sources.
+bool load_reading(const Arguments& arguments, std::uint32_t program, const InputFile& tools,
+                  SourceSet& sources, gcode::Reading& reading, Diagnostics& diagnostics);
 
 /// @throws WorldError if an --offset is that of an axis which the machine lacks; 0 is none
 void refuse_offsets(const Arguments& arguments, const machine::MachineModel& machine);

@@ -111,7 +111,7 @@ void take_scenario(RunInputs& in) {
     in.machine = scenario->machine_is_file ? scenario->input(scenario->machine) : scenario->machine;
   if (in.tools.path.empty() && !scenario->tools_file.empty())
     in.tools = scenario->input(scenario->tools_file);
-  if (!in.arguments.dialect) in.arguments.dialect = scenario->dialect;
+  if (!in.arguments.dialect && !in.arguments.recognise_dialect) in.arguments.dialect = scenario->dialect;
   if (!in.program_file.path.empty()) return;
   if (!scenario->generated_program.empty()) {
     in.given.program = in.sources.add(SourceText(scenario->program_name, scenario->generated_program));
@@ -147,7 +147,8 @@ void read_inputs(RunInputs& in) {
   }
   const auto tools = static_cast<std::uint32_t>(in.sources.size());
   in.started =
-      load_reading(in.arguments, in.tools, in.sources, in.given.reading, in.diagnostics) && in.machine_good;
+      load_reading(in.arguments, in.given.program, in.tools, in.sources, in.given.reading, in.diagnostics) &&
+      in.machine_good;
   if (!in.started) return;
   list_files(in, tools);
   if (!in.scenario) return;

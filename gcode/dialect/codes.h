@@ -23,6 +23,11 @@ inline constexpr int m0 = 0, m1 = 1, m2 = 2, m3 = 3, m4 = 4, m5 = 5, m6 = 6, m7 
                      m72 = 72, m73 = 73, m98 = 98, m99 = 99;
 }  // namespace code
 
+/// Codes that a dialect alone has (gcode/dialect/dialect_codes.h).
+namespace code {
+inline constexpr int g31 = 310, g54_1 = 541;
+}
+
 /// Modal groups of G codes (RS-274/NGC numbers them 0 to 13); one code of a group per line.
 enum class GGroup : std::uint8_t {
   nonmodal,           ///< G4 G10 G28 G30 G52 G53 G92: hold for their line only

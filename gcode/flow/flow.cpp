@@ -116,7 +116,9 @@ bool Flow::readable(std::uint32_t file) {
 
 bool Flow::add_unit(std::uint32_t file, std::string name) {
   units_.push_back(std::make_unique<Unit>(
-      Unit{Program(sources_, file, options_.bounds, state_.names, report_), {}, std::move(name)}));
+      Unit{Program(sources_, file, options_.bounds, state_.names, report_, options_.dialect),
+           {},
+           std::move(name)}));
   Unit& unit = *units_.back();
   // a called file contains a subroutine, even if its O word looks like a program number
   const bool is_main = unit.name.empty();

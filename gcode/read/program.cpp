@@ -48,11 +48,11 @@ LineHead head_of(std::string_view line) {
 }  // namespace
 
 Program::Program(const SourceSet& sources, std::uint32_t file, const ReadingBounds& bounds, Names& names,
-                 Report& report)
+                 Report& report, Dialect dialect)
     : text_(sources[file].text()),
       file_(file),
       line_bytes_(bounds.line_bytes),
-      parser_(names, report),
+      parser_(names, report, dialect),
       report_(report) {}
 
 const Line* Program::next() {

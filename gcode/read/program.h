@@ -20,7 +20,7 @@ class Program {
   };
 
   Program(const SourceSet& sources, std::uint32_t file, const ReadingBounds& bounds, Names& names,
-          Report& report);
+          Report& report, Dialect dialect = Dialect::linuxcnc);
 
   /// Parses the next line; it holds until the next call. Null at the end of the text.
   const Line* next();

@@ -55,6 +55,15 @@ void Report::repeated_warning(Diagnostic d, double size, std::string what) {
   kind.what = std::move(what);
 }
 
+void Report::repeated_note(Diagnostic d, const std::string& key) {
+  if (place_) d.span = *place_;
+  d.severity = Severity::note;
+  Repeated& kind = noted_[key];
+  // places are remembered as far as those of warnings; more are counted at each pass
+  if (kind.count < kMaxWarnings && !first_time(d)) return;
+  if (kind.count++ == 0) kind.first = std::move(d);
+}
+
 void Report::warning(Diagnostic d) {
   if (place_) d.span = *place_;
   if (warnings_ > kMaxWarnings) {
@@ -93,6 +102,10 @@ void Report::close(Span end) {
   for (auto& [code, kind] : repeated_) {
     if (kind.count > 1)
       kind.first.notes.push_back(fmt::format("{} times in this program; {}", kind.count, kind.what));
+    diagnostics_.add(std::move(kind.first));
+  }
+  for (auto& [key, kind] : noted_) {
+    if (kind.count > 1) kind.first.notes.push_back(fmt::format("{} times in this program", kind.count));
     diagnostics_.add(std::move(kind.first));
   }
   if (warnings_ > kMaxWarnings) diagnostics_.leave_out(Severity::warning, warnings_ - kMaxWarnings, end);

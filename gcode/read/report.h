@@ -35,6 +35,9 @@ class Report {
   /// was met and where it was largest.
   /// @param size  of what is told; @param what  said behind the count, of the largest
   void repeated_warning(Diagnostic d, double size, std::string what);
+  /// A fact that a program gives many times: close() tells it once for each `key`, at its first place, with its count.
+  /// @param key  one of a bounded number of texts
+  void repeated_note(Diagnostic d, const std::string& key);
   /// Everything found so far, told or not.
   std::size_t found() const { return errors_ + warnings_ + met_; }
   /// The text whose first error may say that it is of another kind (gcode/read/other_kind.h): that is told in its place,
@@ -82,6 +85,7 @@ class Report {
   std::size_t met_ = 0;  ///< repeated warnings
   bool stopped_ = false;
   std::map<Code, Repeated> repeated_;
+  std::map<std::string, Repeated> noted_;
   std::optional<Watched> watched_;
 };
 

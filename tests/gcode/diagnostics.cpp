@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -56,6 +57,8 @@ InterpretOptions machine_for(const std::string& program) {
   if (program.rfind("K1302", 0) == 0) options.bounds.messages = 10;
   if (program.rfind("K1125", 0) == 0) options.units_said = false;
   if (program.rfind("K1128", 0) == 0) options.startup = "G18 G64 P0.1 X5 M3 G28";
+  for (const auto& dialect : kDialects)
+    if (program.find(fmt::format("_{}.", dialect.word)) != std::string::npos) options.dialect = dialect.value;
   static const MemoryTexts two_subs = [] {
     MemoryTexts texts;
     texts.put("a", "o<a> sub\no<a> endsub\no<b> sub\no<b> endsub\n");
