@@ -17,6 +17,8 @@ void interpret(SourceSet& sources, std::uint32_t file, const InterpretOptions& o
   if (flow.ran_out()) interpreter.text_ran_out(file);
   if (!report.full()) interpreter.finish(flow.end());
   report.close(flow.end());
+  if (report.errors() > 0 && options.dialect == Dialect::linuxcnc && !options.dialect_said)
+    suggest_dialect(sources, file, diagnostics);
 }
 
 }  // namespace kadr::gcode

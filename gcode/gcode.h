@@ -32,15 +32,19 @@ struct InputReading {
   double value = 0;
 };
 
+inline constexpr int kPlainWorkSystems = 9;  ///< G54 .. G59.3
+
 /// Zero point of a work system before the first line.
 struct WorkOffset {
-  int system = 1;  ///< 1 .. 9: G54 .. G59.3
+  int system = 1;  ///< 1 .. 9: G54 .. G59.3; 10 and on: G54.1 P1 and on
   AxisValues zero_u{};
 };
 
 /// The user's options for reading a program, whatever the machine.
 struct Reading {
   Dialect dialect = Dialect::linuxcnc;
+  bool dialect_said =
+      false;  ///< false: of a program with errors is told for which dialect it seems to be written
   bool block_delete = false;  ///< skip lines that begin with '/'
   ReadingBounds bounds;
   std::vector<std::string> sub_folders;  ///< where called files are looked for after the program's own folder
@@ -76,6 +80,13 @@ struct InterpretOptions : Reading {
   std::optional<StockPlane> stock;  ///< none: a probe meets material at the end of its move
   std::function<InputReading(const InputWait&)> read_input;  ///< asked at M66; none: every input reads 0
 };
+
+/// Chooses the dialect by words that one kind of controller alone has, linuxcnc without any, and adds a note that says
+/// which was taken and why.
+void recognise_dialect(const SourceSet& sources, std::uint32_t file, Reading& reading,
+                       Diagnostics& diagnostics);
+/// Of a program with errors: adds a note that names the dialect for which it seems to be written, if there is a sign.
+void suggest_dialect(const SourceSet& sources, std::uint32_t file, Diagnostics& diagnostics);
 
 /// Reads and interprets sources[file], handing each Block to `sink` in program order. Streaming: memory does
 /// not grow with the program beyond its text. After the first error blocks are still made where possible, so that later

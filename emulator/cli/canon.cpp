@@ -62,7 +62,7 @@ int canon_program(const Arguments& arguments, Console& console) {
   Diagnostics diagnostics;
   gcode::InterpretOptions options;
   options.units_said = false;
-  if (!load_reading(arguments, sources, options, diagnostics)) {
+  if (!load_reading(arguments, program, sources, options, diagnostics)) {
     console.diagnostics(diagnostics, sources, file_in_error(diagnostics, sources), Console::Where::errors);
     return kNotStarted;
   }

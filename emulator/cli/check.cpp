@@ -45,7 +45,7 @@ int check_one(const Arguments& arguments, const std::string& path, Console& cons
     console.error(e.what());
     return kNotStarted;
   }
-  if (!load_reading(arguments, sources, given.reading, diagnostics)) {
+  if (!load_reading(arguments, given.program, sources, given.reading, diagnostics)) {
     console.diagnostics(diagnostics, sources, file_in_error(diagnostics, sources), Console::Where::errors);
     return kNotStarted;
   }
@@ -139,7 +139,7 @@ int plan_program(const Arguments& arguments, Console& console) {
   }
   refuse_offsets(arguments, given.machine.model);
   given.program = load_program(path, arguments.bounds, sources);
-  if (!load_reading(arguments, sources, given.reading, diagnostics)) {
+  if (!load_reading(arguments, given.program, sources, given.reading, diagnostics)) {
     console.diagnostics(diagnostics, sources, file_in_error(diagnostics, sources), Console::Where::errors);
     return kNotStarted;
   }

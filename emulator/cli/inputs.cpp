@@ -56,14 +56,16 @@ std::string machine_text(const std::string& name, const machine::MachineModel& m
   return fmt::format("{} ({})", model.name, name);
 }
 
-bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading& reading,
-                  Diagnostics& diagnostics) {
-  return load_reading(arguments, {arguments.tools, arguments.ini}, sources, reading, diagnostics);
+bool load_reading(const Arguments& arguments, std::uint32_t program, SourceSet& sources,
+                  gcode::Reading& reading, Diagnostics& diagnostics) {
+  return load_reading(arguments, program, {arguments.tools, arguments.ini}, sources, reading, diagnostics);
 }
 
-bool load_reading(const Arguments& arguments, const ReadingFiles& files, SourceSet& sources,
-                  gcode::Reading& reading, Diagnostics& diagnostics) {
+bool load_reading(const Arguments& arguments, std::uint32_t program, const ReadingFiles& files,
+                  SourceSet& sources, gcode::Reading& reading, Diagnostics& diagnostics) {
   if (arguments.dialect) reading.dialect = *arguments.dialect;
+  reading.dialect_said = arguments.dialect.has_value();
+  if (arguments.recognise_dialect) gcode::recognise_dialect(sources, program, reading, diagnostics);
   reading.block_delete = arguments.block_delete;
   reading.bounds = arguments.bounds;
   reading.sub_folders = arguments.sub_folders;

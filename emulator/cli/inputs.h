@@ -23,14 +23,16 @@ struct ReadingFiles {
   InputFile tools, ini;
 };
 
-/// Reads tool table and INI file and takes over the dialect, if the command line gives them.
+/// Reads tool table and INI file and takes over the dialect, if the command line gives them; --dialect auto looks at the
+/// program.
+/// @param program  its file in the sources
 /// @return false if one has errors (in `diagnostics`)
 /// @throws WorldError for a file that can't be read
-bool load_reading(const Arguments& arguments, SourceSet& sources, gcode::Reading& reading,
-                  Diagnostics& diagnostics);
-/// The same with files from elsewhere; they are the next files of the sources, in their order.
-bool load_reading(const Arguments& arguments, const ReadingFiles& files, SourceSet& sources,
+bool load_reading(const Arguments& arguments, std::uint32_t program, SourceSet& sources,
                   gcode::Reading& reading, Diagnostics& diagnostics);
+/// The same with files from elsewhere; they are the next files of the sources, in their order.
+bool load_reading(const Arguments& arguments, std::uint32_t program, const ReadingFiles& files,
+                  SourceSet& sources, gcode::Reading& reading, Diagnostics& diagnostics);
 /// The file of the first error.
 std::string file_in_error(const Diagnostics& diagnostics, const SourceSet& sources);
 

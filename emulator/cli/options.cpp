@@ -23,8 +23,17 @@ std::vector<std::string> limit_names(bool log) {
   return names;
 }
 
-/// G54 .. G59.3 are 1 .. 9; 0 for any other word.
+constexpr std::string_view kAuto = "auto";  // --dialect
+
+/// G54 .. G59.3 are 1 .. 9, G54.1P1 or G154P1 and on 10 and on; 0 for any other word.
 int work_system(std::string_view word) {
+  constexpr int kMostFurther = 300;
+  for (const std::string_view head : {"G54.1P", "G154P"}) {
+    if (word.substr(0, head.size()) != head) continue;
+    const std::optional<double> number = parse_number(word.substr(head.size()));
+    const bool whole = number && *number >= 1 && *number <= kMostFurther && *number == std::floor(*number);
+    return whole ? gcode::kPlainWorkSystems + static_cast<int>(*number) : 0;
+  }
   constexpr std::string_view kSystems[] = {"G54", "G55",   "G56",   "G57",  "G58",
                                            "G59", "G59.1", "G59.2", "G59.3"};
   for (std::size_t i = 0; i < std::size(kSystems); ++i)
@@ -36,9 +45,11 @@ int work_system(std::string_view word) {
 gcode::WorkOffset work_offset(const std::string& text) {
   constexpr double kFarthest_u = 1e8;
   const auto refuse = [&] {
-    return CLI::ValidationError(fmt::format(
-        "--offset takes a work system G54 to G59.3 and up to {} numbers, e.g. G54=10,10,-30; got '{}'",
-        kProgramAxes, text));
+    return CLI::ValidationError(
+        fmt::format("--offset takes a work system G54 to G59.3, G54.1P1 or G154P1 and up to {} numbers, e.g. "
+                    "G54=10,10,-30; "
+                    "got '{}'",
+                    kProgramAxes, text));
   };
   const std::size_t equals = text.find('=');
   gcode::WorkOffset offset{work_system(std::string_view(text).substr(0, equals)), {}};
@@ -180,15 +191,18 @@ void Options::dialect(CLI::App* sub) {
          "--dialect",
          [this](const std::string& text) {
            arguments.dialect = gcode::kDialects.find(text);
-           if (!arguments.dialect)
-             throw CLI::ValidationError(
-                 fmt::format("--dialect takes one of {}; got '{}'", gcode::kDialects.list(), text));
+           arguments.recognise_dialect = text == kAuto;
+           if (!arguments.dialect && !arguments.recognise_dialect)
+             throw CLI::ValidationError(fmt::format("--dialect takes one of {}, {}; got '{}'",
+                                                    gcode::kDialects.list(), kAuto, text));
          },
-         fmt::format(
-             "Where controllers read codes differently, read them as this one does: {} (default linuxcnc)",
-             gcode::kDialects.list("|")))
+         fmt::format("Where controllers read codes differently, read them as this one does: {}|{} (default "
+                     "linuxcnc; auto takes the one that the program's words show)",
+                     gcode::kDialects.list("|"), kAuto))
       ->type_name("WORD");
-  words(sub->get_option("--dialect"), gcode::kDialects.strings());
+  std::vector<std::string> dialects = gcode::kDialects.strings();
+  dialects.emplace_back(kAuto);
+  words(sub->get_option("--dialect"), dialects);
   line_range(sub);
 }
 

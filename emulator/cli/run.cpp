@@ -118,7 +118,7 @@ void take_scenario(RunInputs& in) {
   ignored.insert(ignored.end(), scenario->ignored.begin(), scenario->ignored.end());
   // of two values of a pin the last one counts
   in.arguments.hal.insert(in.arguments.hal.begin(), scenario->hal.begin(), scenario->hal.end());
-  if (!in.arguments.dialect) in.arguments.dialect = scenario->dialect;
+  if (!in.arguments.dialect && !in.arguments.recognise_dialect) in.arguments.dialect = scenario->dialect;
   if (!in.arguments.from_line) in.arguments.from_line = scenario->from_line;
   if (!in.arguments.to_line) in.arguments.to_line = scenario->to_line;
   if (!in.program_file.path.empty()) return;
@@ -159,7 +159,9 @@ void read_inputs(RunInputs& in) {
   }
   const auto next = static_cast<std::uint32_t>(in.sources.size());
   in.started =
-      load_reading(in.arguments, in.reading, in.sources, in.given.reading, in.diagnostics) && in.machine_good;
+      load_reading(in.arguments, in.given.program, in.reading, in.sources, in.given.reading,
+                   in.diagnostics) &&
+      in.machine_good;
   if (!in.started) return;
   list_files(in, next);
   if (!in.scenario) return;

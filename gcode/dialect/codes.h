@@ -23,9 +23,9 @@ inline constexpr int m0 = 0, m1 = 1, m2 = 2, m3 = 3, m4 = 4, m5 = 5, m6 = 6, m7 
                      m72 = 72, m73 = 73, m98 = 98, m99 = 99;
 }  // namespace code
 
-/// Codes of macro B. No other dialect has them, and kadr knows no others of their groups.
+/// Codes that a dialect alone has (gcode/dialect/dialect_codes.h), those of macro B among them.
 namespace code {
-inline constexpr int g66_1 = 661, g67 = 670, m97 = 97;
+inline constexpr int g31 = 310, g54_1 = 541, g66_1 = 661, g67 = 670, m97 = 97;
 }
 
 /// Modal groups of G codes (RS-274/NGC numbers them 0 to 13); one code of a group per line.

@@ -38,7 +38,7 @@ constexpr std::int32_t kMisplacedRank = 401;  // a line number inside a line sta
 constexpr std::int32_t kCommentRank = 500;
 constexpr std::int32_t kUnknownCode = 50;  // within G and M: after the known ones
 
-constexpr std::string_view kLetterOrder = "XYZABCUVW@^IJKRPQLDHEFS$T";
+constexpr std::string_view kLetterOrder = "XYZABCUVW@^IJKRPQLDHE,&FS$T";
 
 // groups in the order in which a line's codes act
 constexpr std::array<GGroup, kGGroups> kGOrder = {
@@ -214,6 +214,10 @@ void Formatter::append_item(std::string& out, const Line& line, std::uint32_t at
   const Item& item = line.items[at];
   switch (item.kind) {
     case ItemKind::word:
+      if (is_corner(item)) {
+        append_plain(out, line.slice(item.bytes));
+        break;
+      }
       out += item.letter;
       if (item.value < 0) {
         const bool code = kCodeLetters.find(item.letter) != std::string_view::npos;

@@ -108,7 +108,7 @@ bool Interpreter::find_arc(const AxisValues& start, const AxisValues& end, bool 
 bool Interpreter::arc_center_words(PlanePoint& center) {
   const PlaneAxes axes = plane_axes(state_.plane);
   const char across = offset_letter(axes.normal);
-  if (words_.has(across) && !rules_of(options_.dialect).offset_outside_plane_ignored) {
+  if (words_.has(across) && !rules_.offset_outside_plane_ignored) {
     const bool zero = words_.value(across) == 0;
     return error(problem(
         Code::arc_offset_outside_plane, words_.span(*line_, across),

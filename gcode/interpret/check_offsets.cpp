@@ -30,7 +30,7 @@ void Interpreter::check_axis_words() {
   const bool names_motion = motion_code != kNoCode && motion_code != code::g80;
   const bool nonmodal_takes = takes_axis_words(nonmodal_code);
   const bool tool_takes = tool_code == code::g43_1 || (tool_code == code::g43_2 && !words_.has('H'));
-  if (nonmodal_takes && names_motion) {
+  if (nonmodal_takes && names_motion && !motion_sets_mode()) {
     error(
         problem(Code::axis_words_wanted_twice, g_span(GGroup::nonmodal),
                 fmt::format("{} and {} both use the axis words", g_name(nonmodal_code), g_name(motion_code)),
@@ -113,7 +113,7 @@ void Interpreter::check_g10_tool(int l) {
 
 void Interpreter::check_g10_work_offset(int l) {
   if (!require_word('P', GGroup::nonmodal, "the work system, 0 to 9")) return;
-  check_whole('P', 0, kWorkSystems);
+  check_whole('P', 0, kWorkSystems + rules_.further_systems);
   for (const char letter : {'I', 'J', 'R'}) {
     if (!words_.has(letter) || (letter == 'R' && l == 2)) continue;
     error(problem(Code::word_unused, words_.span(*line_, letter),

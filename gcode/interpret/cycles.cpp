@@ -61,7 +61,7 @@ void Interpreter::check_cycle(int code) {
     if (pecks(code)) needed.push_back({'Q', "the depth of a peck"});
     require_words(needed, g_span(GGroup::motion), g_name(code));
   }
-  check_whole('L', 1, kLargestRepeats);
+  check_whole('L', rules_.repeats_in_k ? 0 : 1, kLargestRepeats);
   if (words_.has('P') && dwells(code) && words_.value('P') < 0) {
     error(problem(Code::word_out_of_range, words_.span(*line_, 'P'),
                   fmt::format("dwell of {} s, allowed 0 and above", figure(words_.value('P')))));
@@ -230,13 +230,23 @@ void Interpreter::tap(const Hole& hole) {
   const bool speed_override = state_.speed_override;
   enable_feed_override(false);
   enable_speed_override(false);
+  const auto turn = [&](Turning turning) {
+    turn_spindle(Turning::stopped, span);
+    turn_spindle(turning, span);
+  };
+  const double peck = state_.cycle.tap_peck;
+  for (double level = hole.retract - peck; peck > 0 && level > hole.bottom && !ended_; level -= peck) {
+    tap_to_level(hole, level);
+    turn(out);
+    tap_to_level(hole, hole.retract);
+    turn(in);
+  }
   tap_to_level(hole, hole.bottom);
   turn_spindle(Turning::stopped, span);
   turn_spindle(out, span);
   dwell_at_bottom();
   tap_to_level(hole, hole.clear);
-  turn_spindle(Turning::stopped, span);
-  turn_spindle(in, span);
+  turn(in);
   // after swapped axes the program continues as if the tool were over the hole
   state_.position = near_position(state_.to_machine(place_at(hole, hole.clear)));
   tapped_at_ = state_.position;

@@ -77,31 +77,6 @@ Span Interpreter::override_span() const {
   return words_.m(MGroup::overrides) == kNoCode ? line_span() : words_.span(*line_, MGroup::overrides);
 }
 
-void Interpreter::take_dwell_words() {
-  char counts = 0;
-  for (const DwellWord& word : rules_of(options_.dialect).dwell_words) {
-    if (!words_.has(word.letter)) continue;
-    if (counts != 0) {
-      report_.warning(problem(Code::word_without_effect, words_.span(*line_, word.letter),
-                              fmt::format("{} counts alone", counts), "write one of them"));
-    } else {
-      counts = word.letter;
-    }
-  }
-  const DwellWord* taken = nullptr;
-  double dwell_s = 0;
-  for (const DwellWord& word : rules_of(options_.dialect).dwell_words) {
-    if (!words_.has(word.letter)) continue;
-    if (taken == nullptr) {
-      taken = &word;
-      dwell_s = words_.value(word.letter) * word.unit_s;
-      words_.stand_in('P', word.letter);
-    }
-    if (word.letter != 'P') words_.remove(word.letter);
-  }
-  if (taken != nullptr) words_.set('P', dwell_s);
-}
-
 void Interpreter::dwell() {
   if (words_.g(GGroup::nonmodal) != code::g4) return;
   emit(g_span(GGroup::nonmodal), Dwell{words_.value('P')});
@@ -120,7 +95,7 @@ const Item* Interpreter::words_beside_call() const {
 
 /// LinuxCNC runs only the call of a line that begins with M98.
 bool Interpreter::calls_only() const {
-  return words_.m(MGroup::call) == code::m98 && !rules_of(options_.dialect).call_shares_line;
+  return words_.m(MGroup::call) == code::m98 && !rules_.call_shares_line;
 }
 
 void Interpreter::call() {

@@ -10,6 +10,7 @@ namespace kadr::gcode {
 
 Interpreter::Interpreter(const InterpretOptions& options, Report& report, const Sink& sink)
     : options_(options),
+      rules_(rules_of(options.dialect)),
       report_(report),
       sink_(sink),
       advice_(state_, options, report),
@@ -20,16 +21,21 @@ Interpreter::Interpreter(const InterpretOptions& options, Report& report, const 
       passed_(options.home) {
   state_.position = options.home;
   state_.inches = options.inches;
-  units_pending_ = !options.units_said;
-  state_.macros = rules_of(options.dialect).macros;
+  units_pending_ = !options.units_said && !rules_.begins_in_mm;
+  if (rules_.begins_with_rapid) state_.motion = state_.group_1 = Motion::traverse;
+  state_.retract_to_start = rules_.begins_with_g98;
+  if (rules_.rapid_at_feed_mm_min > 0) {
+    state_.feed_linear_mm_min = state_.feed_rotary_deg_min = rules_.rapid_at_feed_mm_min;
+    state_.feed_given = true;
+  }
+  state_.macros = rules_.macros;
   if (state_.macros.on) clear_macro_variables(state_);
   state_.parameters[parameter::kDebug] = 1;
   write_axis_parameters(state_, parameter::kG28, options.g28);
   write_axis_parameters(state_, parameter::kG30, options.g30);
   if (options.tools) state_.tools = *options.tools;
   for (const char letter : options.axis_letters) axes_on_machine_ |= letter_bit(letter);
-  for (const WorkOffset& given : options.work_offsets)
-    write_axis_parameters(state_, work_offset_parameter(given.system), given.zero_u);
+  for (const WorkOffset& given : options.work_offsets) state_.set_work_zero(given.system, given.zero_u);
   state_.use_work_system(1);
   take_machine_values();
 }
@@ -38,7 +44,7 @@ void Interpreter::run(const Line& line) {
   line_ = &line;
   if (line.items.empty()) return;
   if (options_.block_delete && line.items.front().kind == ItemKind::block_delete) return;
-  const bool readable = words_.read(line, state_, line.failed ? nullptr : &report_);
+  bool readable = words_.read(line, state_, line.failed ? nullptr : &report_);
   if (words_.percent) {
     // the first % opens the program, the next one ends it; only comments may precede the first
     if (started_) finish(line_span(), true);
@@ -50,7 +56,7 @@ void Interpreter::run(const Line& line) {
   worded_ = worded_ || words_.any;
   if (line.failed) return recover(true);
   if (state_.diameter_mode || words_.g(GGroup::diameter) != kNoCode) take_diameters();
-  if (words_.g(GGroup::nonmodal) == code::g4 && options_.dialect != Dialect::linuxcnc) take_dwell_words();
+  if (options_.dialect != Dialect::linuxcnc) readable = take_dialect_words() && readable;
   if (!words_.owner_codes().empty()) take_owner_words();
   if (units_pending_) note_length();
   if (readable && plain_move()) return motion();
@@ -175,8 +181,13 @@ void Interpreter::finish(Span end, bool by_percent) {
 void Interpreter::emit(Span span, Action action) {
   if (silent_ || ended_) return;
   Block block{span, std::move(action)};
+  if (corner_ || corner_wish_) return emit_at_corner(std::move(block));
+  pass_on(block);
+}
+
+void Interpreter::pass_on(Block& block) {
   if (!compensation_.active()) return hand_out(block);
-  if (block_allowed(span, compensation_.waiting())) compensate(block);
+  if (block_allowed(block.span, compensation_.waiting())) compensate(block);
 }
 
 void Interpreter::hand_out(Block& block) {

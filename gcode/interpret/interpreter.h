@@ -11,6 +11,7 @@
 #include "gcode/compensation/compensation.h"
 #include "gcode/gcode.h"
 #include "gcode/interpret/advice.h"
+#include "gcode/interpret/corners.h"
 #include "gcode/interpret/passed_blocks.h"
 #include "gcode/interpret/state.h"
 #include "gcode/interpret/words.h"
@@ -193,6 +194,7 @@ class Interpreter {
   Motion motion_of_line() const;
   bool axis_words_taken() const;
   bool moves() const;
+  bool motion_sets_mode() const;
   void take_motion(int code);
   AxisValues target() const;
   AxisValues near_position(const AxisValues& wanted) const;
@@ -330,7 +332,33 @@ class Interpreter {
   bool polar_words();
   bool resolve_polar();
   void take_diameters();
-  void take_dwell_words();  ///< those of the dialect become P in seconds
+
+  // corner_words.cpp: ,R ,C
+  /// A move with ,R or ,C, and what comes between it and the next move.
+  struct WaitingCorner {
+    CornerWish wish;
+    Block move;
+    AxisValues start{};
+    Plane plane = Plane::xy;
+    std::vector<Block> behind;
+  };
+  void take_corner_word();
+  void refuse_corner(Span span, std::string label);
+  void emit_at_corner(Block block);
+  AxisValues join_at_corner(Block& second);
+  void release_corner();
+
+  // dialect_words.cpp: words of the dialect become those of LinuxCNC
+  bool take_dialect_words();
+  void take_codes_of_dialect();
+  void check_dialect_words();
+  void take_dwell_words();
+  void take_cycle_words();
+  void end_cycle();
+  void take_radius();
+  void take_further_offset();
+  void take_extruder();
+  double dwell_unit_s(char letter, double unit_s) const;
 
   // modal_state.cpp: M70 to M73, G7 G8
   void modal_state();
@@ -356,6 +384,7 @@ class Interpreter {
   void apply_modes();
   void recover(bool syntax);
   void emit(Span span, Action action);
+  void pass_on(Block& block);
   void hand_out(Block& block);
   bool block_allowed(Span span, std::size_t waiting);
   bool message_allowed(Span span, std::size_t bytes);
@@ -367,6 +396,7 @@ class Interpreter {
   bool error(Diagnostic d);
 
   const InterpretOptions& options_;
+  const DialectRules& rules_;
   Report& report_;
   const Sink& sink_;
   State state_;
@@ -378,7 +408,10 @@ class Interpreter {
   std::optional<CallRequest> modal_call_;  ///< G66
   std::size_t modal_level_ = 0;            ///< the call level of G66
   Evaluator evaluator_;                    ///< of settings and arguments of macro B
-  std::optional<Span> place_;              ///< of blocks while modes are restored
+  std::optional<CornerWish> corner_wish_;  ///< of this line
+  std::optional<WaitingCorner> corner_;
+  AxisValues move_from_{};     ///< where the motion of this line begins, in dialects with corners
+  std::optional<Span> place_;  ///< of blocks while modes are restored
   Compensation compensation_;
   bool compensation_tilted_ = false;     ///< it runs in program coordinates: G18 in a rotated work system
   Span compensation_span_;               ///< the G41 or G42 in force

@@ -17,13 +17,14 @@ struct CodeLetters {
 };
 
 constexpr CodeLetters kGLetters[] = {
-    {code::g2, "IJKRP"},   {code::g3, "IJKRP"}, {code::g4, "P"},           {code::g5, "IJPQ"},
-    {code::g5_1, "IJ"},    {code::g5_2, "PL"},  {code::g10, "LPRQIJ"},     {code::g33, "KE$"},
-    {code::g33_1, "KIE$"}, {code::g41, "DL"},   {code::g41_1, "DL"},       {code::g42, "DL"},
-    {code::g42_1, "DL"},   {code::g43, "H"},    {code::g43_2, "H"},        {code::g64, "PQ"},
-    {code::g73, "RLQ"},    {code::g74, "RP"},   {code::g76, "PIJRKQHEL$"}, {code::g81, "RL"},
-    {code::g82, "RLP"},    {code::g83, "RLQ"},  {code::g84, "RLP"},        {code::g85, "RL"},
-    {code::g86, "RLP"},    {code::g89, "RLP"},  {code::g96, "D$"},         {code::g97, "$"}};
+    {code::g2, "IJKRP"},   {code::g3, "IJKRP"}, {code::g4, "P"},       {code::g5, "IJPQ"},
+    {code::g5_1, "IJ"},    {code::g5_2, "PL"},  {code::g10, "LPRQIJ"}, {code::g33, "KE$"},
+    {code::g33_1, "KIE$"}, {code::g41, "DL"},   {code::g41_1, "DL"},   {code::g42, "DL"},
+    {code::g42_1, "DL"},   {code::g43, "H"},    {code::g43_2, "H"},    {code::g54_1, "P"},
+    {code::g64, "PQ"},     {code::g73, "RLQ"},  {code::g74, "RP"},     {code::g76, "PIJRKQHEL$"},
+    {code::g81, "RL"},     {code::g82, "RLP"},  {code::g83, "RLQ"},    {code::g84, "RLP"},
+    {code::g85, "RL"},     {code::g86, "RLP"},  {code::g89, "RLP"},    {code::g96, "D$"},
+    {code::g97, "$"}};
 
 /// Except output codes, which have their own table (kOutputCodes).
 constexpr CodeLetters kMLetters[] = {{code::m3, "$"},     {code::m4, "$"},  {code::m5, "$"},

@@ -149,7 +149,7 @@ void Interpreter::run_words(const std::string& words, Span place) {
   own.file = place.file;
   own.number = place.line;
   own.text = words;
-  Parser(state_.names, report_).parse(own);
+  Parser(state_.names, report_, options_.dialect).parse(own);
   place_ = place;
   report_.set_place(place);
   run(own);

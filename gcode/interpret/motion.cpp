@@ -38,6 +38,7 @@ Motion Interpreter::motion_of_line() const {
     case code::g38_3:
     case code::g38_4:
     case code::g38_5:
+    case code::g31:
       return Motion::probe;
     case code::g76:
       return Motion::thread_cycle;
@@ -59,12 +60,21 @@ bool Interpreter::axis_words_taken() const {
 
 bool Interpreter::moves() const {
   const int code = words_.g(GGroup::motion);
-  if (code != kNoCode) return code != code::g80 && code != code::g5_3;
+  if (code != kNoCode) return code != code::g80 && code != code::g5_3 && !motion_sets_mode();
   if (axis_words_taken()) return false;
   return words_.has_axis() || (is_arc(state_.motion) && (words_.present & letter_bits("IJK")) != 0);
 }
 
+/// Whether the motion code of the line moves nothing: G0 beside G28, G2 without words, where a dialect has it so.
+bool Interpreter::motion_sets_mode() const {
+  const int code = words_.g(GGroup::nonmodal);
+  if (rules_.home_beside_motion && (code == code::g28 || code == code::g30)) return true;
+  constexpr std::uint32_t kArcBits = kAxisBits | letter_bits("IJKRP@^");
+  return rules_.bare_arc_sets_mode && is_arc(motion_of_line()) && (words_.present & kArcBits) == 0;
+}
+
 void Interpreter::motion() {
+  if (rules_.text.corners) move_from_ = state_.position;
   const int code = words_.g(GGroup::motion);
   if (code != kNoCode) {
     if (nurbs_.open && code != code::g5_2 && code != code::g5_3) drop_nurbs(g_span(GGroup::motion));
@@ -107,6 +117,8 @@ void Interpreter::motion() {
 void Interpreter::take_motion(int code) {
   state_.motion = motion_of_line();
   state_.uncertain.motion = false;
+  if (state_.motion == Motion::traverse || state_.motion == Motion::feed || is_arc(state_.motion))
+    state_.group_1 = state_.motion;
   if (state_.motion == Motion::cycle) {
     state_.cycle.code = code;
     return;
@@ -159,7 +171,8 @@ void Interpreter::move_to(const AxisValues& end) {
 }
 
 void Interpreter::straight(Motion motion) {
-  const Rate rate = motion == Motion::feed ? Rate::feed : Rate::rapid;
+  const bool at_feed = motion == Motion::feed || rules_.rapid_at_feed_mm_min > 0;
+  const Rate rate = at_feed ? Rate::feed : Rate::rapid;
   state_.straight_move_due = false;
   const bool ready = rate == Rate::rapid || feed_ready();
   Move move = straight_to(target());

@@ -3,14 +3,16 @@
 #include <algorithm>
 
 #include "gcode/dialect/codes.h"
+#include "gcode/dialect/dialect_codes.h"
 #include "gcode/interpret/owner_codes.h"
 
 namespace kadr::gcode {
 namespace {
 
 bool is_run(Dialect dialect, const machine::CodeName& code) {
-  const int meant = meant_code(dialect, code.letter, code.number);
-  return (code.letter == 'G' ? g_code(meant).standing : m_code(meant).standing) == Standing::runs;
+  if (const DialectCode* row = dialect_code(dialect, code.letter, code.number))
+    return row->reading == CodeReading::runs || row->reading == CodeReading::ends_nothing;
+  return (code.letter == 'G' ? g_code(code.number).standing : m_code(code.number).standing) == Standing::runs;
 }
 
 /// True for M codes behind which the machine may stand for a while.

@@ -64,10 +64,10 @@ void Interpreter::go_to_reference(int parameters) {
   // first the point that the axis words name, then those axes (all, if none is named) on to the reference:
   // along the axes of the work system, which may be rotated
   const bool named = words_.has_axis();
-  const AxisValues by = target();
+  const AxisValues by = rules_.homes_directly ? state_.position : target();
   if (named && !silent_) advice_.way_to_reference(state_.position, by, action_span());
   move_to(by);
-  emit(action_span(), Traverse{make_move(state_.position)});
+  if (!rules_.homes_directly) emit(action_span(), Traverse{make_move(state_.position)});
   AxisValues end = state_.position;
   const AxisValues reference = read_axis_parameters(state_, parameters);
   const bool turned = named && state_.rotation_deg != 0 && (words_.has('X') || words_.has('Y'));
@@ -97,21 +97,21 @@ void Interpreter::set_work_offset() {
   near_integer(words_.value('P'), system);
   near_integer(words_.value('L'), l);
   if (system == 0) system = state_.work_system;
-  const int first = work_offset_parameter(system);
   if (words_.has('R')) {
     state_.parameters[static_cast<std::size_t>(work_rotation_parameter(system))] = words_.value('R');
     if (system == state_.work_system) turn_under_g92(words_.value('R'));
   }
+  AxisValues zero = state_.work_zero(system);
   if (l == 20) {
-    write_axis_parameters(state_, first, measured_work_offset(system));
+    zero = measured_work_offset(system);
   } else {
     for (int axis = 0; axis < kProgramAxes; ++axis) {
-      const char letter = kAxisLetters[static_cast<std::size_t>(axis)];
-      if (!words_.has(letter)) continue;
-      state_.parameters[static_cast<std::size_t>(first + axis)] =
-          state_.to_base_units(axis, words_.value(letter));
+      const auto a = static_cast<std::size_t>(axis);
+      if (!words_.has(kAxisLetters[a])) continue;
+      zero[a] = state_.to_base_units(axis, words_.value(kAxisLetters[a]));
     }
   }
+  state_.set_work_zero(system, zero);
   if (system == state_.work_system) state_.use_work_system(system);
 }
 

@@ -139,8 +139,12 @@ void Interpreter::units() {
 void Interpreter::work_system() {
   const int code = words_.g(GGroup::coordinate_system);
   if (code == kNoCode) return;
-  // G54 .. G59 are 1 .. 6, G59.1 .. G59.3 are 7 .. 9
-  const int system = code <= code::g59 ? 1 + (code - code::g54) / 10 : 6 + (code - code::g59);
+  // G54 .. G59 are 1 .. 6, G59.1 .. G59.3 are 7 .. 9, G54.1 P1 is 10
+  int further = 0;
+  if (code == code::g54_1) near_integer(words_.value('P'), further);
+  const int system = code == code::g54_1 ? kWorkSystems + further
+                     : code <= code::g59 ? 1 + (code - code::g54) / 10
+                                         : 6 + (code - code::g59);
   // as RS-274/NGC: parameters that a program has set take effect with the change to their system
   if (system != state_.work_system) state_.use_work_system(system);
 }

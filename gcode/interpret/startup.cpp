@@ -29,7 +29,7 @@ void Interpreter::begin(SourceSet& sources) {
   line.number = 1;
   line.text = text.text();
   const std::size_t found = report_.found();
-  Parser(state_.names, report_).parse(line);
+  Parser(state_.names, report_, options_.dialect).parse(line);
   silent_ = true;
   if (!line.failed && startup_allowed(line)) run(line);
   silent_ = started_ = worded_ = false;

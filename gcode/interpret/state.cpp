@@ -70,8 +70,22 @@ void State::set_rotation(double degrees) {
 
 void State::use_work_system(int system) {
   work_system = system;
-  work_offset = read_axis_parameters(*this, work_offset_parameter(system));
-  set_rotation(parameters[static_cast<std::size_t>(work_rotation_parameter(system))]);
+  work_offset = work_zero(system);
+  const bool further = system > kWorkSystems;
+  set_rotation(further ? 0 : parameters[static_cast<std::size_t>(work_rotation_parameter(system))]);
+}
+
+AxisValues State::work_zero(int system) const {
+  if (system <= kWorkSystems) return read_axis_parameters(*this, work_offset_parameter(system));
+  const auto at = static_cast<std::size_t>(system - kWorkSystems - 1);
+  return at < further_offsets.size() ? further_offsets[at] : AxisValues{};
+}
+
+void State::set_work_zero(int system, const AxisValues& zero) {
+  if (system <= kWorkSystems) return write_axis_parameters(*this, work_offset_parameter(system), zero);
+  const auto at = static_cast<std::size_t>(system - kWorkSystems - 1);
+  if (further_offsets.size() <= at) further_offsets.resize(at + 1);
+  further_offsets[at] = zero;
 }
 
 int motion_code(const State& state) {

@@ -10,6 +10,7 @@
 #include "gcode/dialect/codes.h"
 #include "gcode/dialect/dialect.h"
 #include "gcode/read/ini_file.h"
+#include "gcode/gcode.h"
 #include "gcode/read/names.h"
 #include "gcode/read/tool_table.h"
 #include "machine/base/axes.h"
@@ -18,7 +19,7 @@
 namespace kadr::gcode {
 
 inline constexpr double kMillimetresPerInch = 25.4;
-inline constexpr int kWorkSystems = 9;  ///< G54 .. G59.3
+inline constexpr int kWorkSystems = kPlainWorkSystems;
 
 /// The motion code in force.
 enum class Motion : std::uint8_t {
@@ -104,6 +105,7 @@ struct CycleWords {
   double retract = 0;        ///< R
   double bottom = 0;         ///< Z, in G18 Y, in G19 X
   double peck = 0;           ///< Q
+  double tap_peck = 0;       ///< Q of a tap, in dialects that have it; 0: in one go
   double dwell_s = 0;        ///< P
 };
 
@@ -160,6 +162,7 @@ struct State {
   double rotation_cos = 1, rotation_sin = 0;
 
   Motion motion = Motion::none;
+  Motion group_1 = Motion::none;  ///< the last of G0 to G3: what G80 gives back in some dialects
   Plane plane = Plane::xy;
   bool inches = false;
   bool incremental = false;           ///< G91
@@ -199,6 +202,7 @@ struct State {
   }
   bool straight_move_due = false;  ///< no arc may follow G40
 
+  std::vector<AxisValues> further_offsets;  ///< of G54.1 P1 and on, as far as one was set
   std::vector<double> parameters = std::vector<double>(parameter::kLast + 1, 0.0);
   std::vector<bool> parameters_set = std::vector<bool>(parameter::kLast + 1);  ///< by the program
   Names names;                         ///< of parameters and of labels of O words
@@ -232,8 +236,10 @@ struct State {
   AxisValues rotated(AxisValues vector) const;
   AxisValues rotated_back(AxisValues vector) const;
   void set_rotation(double degrees);
-  /// Brings a work system's offset and rotation into force.
+  /// Brings a work system's offset and rotation into force: 1 .. 9, 10 and on for G54.1 P1 and on.
   void use_work_system(int system);
+  AxisValues work_zero(int system) const;
+  void set_work_zero(int system, const AxisValues& zero);
   /// The tool of a number; 0 means the one in the spindle. Null if the table does not have it.
   const Tool* find_tool(int number) const { return tools.find(number == 0 ? tool_in_spindle : number); }
   /// The same for one axis; X and Y only where rotation_deg is 0.

@@ -47,6 +47,11 @@ bool refuse_code(Report* report, Code code, Span span, const std::string& label,
   return false;
 }
 
+/// "G92.1" of 921, "M3" of 3
+std::string code_text(char letter, int number) {
+  return letter == 'G' ? g_name(number) : fmt::format("{}{}", letter, number);
+}
+
 }  // namespace
 
 std::string g_name(int tenths) {
@@ -87,6 +92,7 @@ void Words::clear() {
   comment = -1;
   settings.clear();
   owner_uses_.clear();
+  if (dialect_ != Dialect::linuxcnc) of_dialect.clear();
   evaluator_.begin_line();
   g_.fill(kNoCode);
   m_.fill(kNoCode);
@@ -198,15 +204,23 @@ bool Words::read_g(const Line& line, std::uint32_t at, double value, Report* rep
     const auto nearest = static_cast<int>(tenths_value + 0.5);
     if (std::fabs(tenths_value - nearest) <= kCodeTolerance) tenths = nearest;
   }
-  if (dialect_ != Dialect::linuxcnc) {
-    tenths = meant_code(dialect_, 'G', tenths);
-    // G67 has ended the calls of G66 before the line is run
-    if (tenths == code::g67 && rules_of(dialect_).macros.on) return true;
-    if (tenths == code::g66_1 && rules_of(dialect_).macros.on)
-      return refuse(report, Code::word_not_run, span, "kadr does not run G66.1: calls before every block");
-  }
   if (take_owner_code('G', tenths, at)) return true;
-  const GCode code = g_code(tenths);
+  GCode code;
+  if (dialect_ != Dialect::linuxcnc) {
+    // G67 has ended the calls of G66 before the line is run
+    const bool macros = rules_of(dialect_).macros.on;
+    if (tenths == code::g67 && macros) return true;
+    if (tenths == code::g66_1 && macros)
+      return refuse(report, Code::word_not_run, span, "kadr does not run G66.1: calls before every block");
+    bool done = false;
+    if (!read_of_dialect(line, at, tenths, done, report)) {
+      refused_motion = true;
+      return false;
+    }
+    if (done) return true;
+    code = code_of_dialects(tenths);
+  }
+  if (code.standing == Standing::unknown) code = g_code(tenths);
   if (code.standing != Standing::runs) {
     refused_motion = true;
     if (code.standing == Standing::not_run) {
@@ -239,13 +253,58 @@ bool Words::read_g(const Line& line, std::uint32_t at, double value, Report* rep
   return true;
 }
 
+/// A code as its dialect has it.
+/// @param number  becomes the code that is meant
+/// @param done  true: the code has no effect
+bool Words::read_of_dialect(const Line& line, std::uint32_t at, int& number, bool& done, Report* report) {
+  const Item& item = line.items[at];
+  const DialectRules& rules = rules_of(dialect_);
+  const DialectCode* row = dialect_code(dialect_, item.letter, number);
+  if (row == nullptr) {
+    const bool run = item.letter == 'G' ? g_code(number).standing == Standing::runs
+                                        : m_code(number).standing == Standing::runs;
+    if (!run || has_code(dialect_, item.letter, number)) return true;
+    return refuse(report, Code::dialect_refuses, line.span(item.bytes),
+                  fmt::format("{} does not have {}", rules.name, code_text(item.letter, number)));
+  }
+  const bool lathe = std::any_of(line.items.begin(), line.items.end(), [&](const Item& other) {
+    return other.kind == ItemKind::word && row->lathe_letters.find(other.letter) != std::string_view::npos;
+  });
+  if (lathe) {
+    return refuse(report, Code::dialect_refuses, line.span(item.bytes),
+                  fmt::format("{} with these words is a code of lathes (code system A)",
+                              code_text(item.letter, number)),
+                  "kadr runs no lathe cycles: let the postprocessor write the passes as moves");
+  }
+  switch (row->reading) {
+    case CodeReading::refused:
+      return refuse(report, Code::word_not_run, line.span(item.bytes),
+                    fmt::format("kadr does not run {} of {}: {}", code_text(item.letter, number), rules.name,
+                                row->what));
+    case CodeReading::runs:
+      number = row->meant;
+      if (row->given_p != 0) of_dialect.push_back({at, row});
+      return true;
+    case CodeReading::ends_nothing:
+    case CodeReading::told:
+      break;
+  }
+  done = other_codes_ = true;
+  of_dialect.push_back({at, row});
+  return true;
+}
+
 bool Words::read_m(const Line& line, std::uint32_t at, double value, Report* report) {
   const Span span = line.span(line.items[at].bytes);
   int number = -1;
   const bool whole = near_integer(value, number);
-  if (dialect_ != Dialect::linuxcnc) number = meant_code(dialect_, 'M', number);
-  const bool local = number == code::m97 && rules_of(dialect_).macros.local_subs;
   if (whole && take_owner_code('M', number, at)) return true;
+  if (dialect_ != Dialect::linuxcnc) {
+    bool done = false;
+    if (!read_of_dialect(line, at, number, done, report)) return false;
+    if (done) return true;
+  }
+  const bool local = number == code::m97 && rules_of(dialect_).macros.local_subs;
   const MCode code = local ? MCode{Standing::runs, MGroup::call} : whole ? m_code(number) : MCode{};
   if (code.standing == Standing::not_run) {
     return refuse_code(report, Code::word_not_run, span, fmt::format("kadr does not run M{}", number),

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gcode/dialect/codes.h"
-#include "gcode/dialect/dialect.h"
+#include "gcode/dialect/dialect_codes.h"
 #include "gcode/flow/evaluate.h"
 #include "gcode/interpret/owner_codes.h"
 #include "gcode/interpret/state.h"
@@ -16,11 +16,11 @@
 
 namespace kadr::gcode {
 
-/// Letters A to Z, and the signs of polar words and of a spindle's number.
-inline constexpr std::string_view kWordLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ@^$";
+/// Letters A to Z, and the signs of polar words, of a spindle's number, and of ,R and ,C.
+inline constexpr std::string_view kWordLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ@^$,&";
 constexpr std::size_t letter_index(char letter) {
   if (letter >= 'A' && letter <= 'Z') return static_cast<std::size_t>(letter - 'A');
-  return letter == '@' ? 26 : letter == '^' ? 27 : 28;
+  return letter == '@' ? 26 : letter == '^' ? 27 : letter == '$' ? 28 : letter == kCornerRadius ? 29 : 30;
 }
 constexpr std::uint32_t letter_bit(char letter) { return 1U << letter_index(letter); }
 constexpr std::uint32_t letter_bits(std::string_view letters) {
@@ -55,6 +55,13 @@ class Words {
     values_[index(letter)] = 0;
   }
   void remove(char letter) { present &= ~letter_bit(letter); }
+  /// A word as if item `at` of the line gave it.
+  void put(char letter, std::size_t at, double value) {
+    present |= letter_bit(letter);
+    items_[index(letter)] = static_cast<std::uint32_t>(at);
+    values_[index(letter)] = value;
+  }
+  void set(GGroup group, int code) { g_[static_cast<std::size_t>(group)] = static_cast<std::int16_t>(code); }
   const Item& item(const Line& line, char letter) const { return line.items[items_[index(letter)]]; }
   Span span(const Line& line, char letter) const { return line.span(item(line, letter).bytes); }
 
@@ -96,6 +103,12 @@ class Words {
     double value = 0;
   };
   std::vector<Setting> settings;  ///< in order
+  /// A code of the dialect's table that has no effect, or gives P.
+  struct OfDialect {
+    std::uint32_t item = 0;
+    const DialectCode* code = nullptr;
+  };
+  std::vector<OfDialect> of_dialect;  ///< in order
 
  private:
   static std::size_t index(char letter) { return letter_index(letter); }
@@ -103,6 +116,7 @@ class Words {
   bool read_word(const Line& line, std::uint32_t at, const State& state, Report* report);
   bool read_g(const Line& line, std::uint32_t at, double value, Report* report);
   bool read_m(const Line& line, std::uint32_t at, double value, Report* report);
+  bool read_of_dialect(const Line& line, std::uint32_t at, int& number, bool& done, Report* report);
   bool read_line_number(const Line& line, std::uint32_t at, Report* report);
   bool refuse_word(const Line& line, const Item& item, double value, Report* report) const;
   bool read_setting(const Line& line, const Item& item, const State& state, Report* report);

@@ -80,9 +80,9 @@ std::optional<OtherKind> other_kind(std::string_view text, bool macros) {
     text.remove_prefix(std::min(written.size() + 1, text.size()));
     const std::string line = plain(written);
     if (is_slicer(line))
-      return OtherKind{
-          "a slicer's file for a 3D printer: E moves the filament",
-          "kadr has no extruder; take the E words and the heater's M codes out to see the motion"};
+      return OtherKind{"a slicer's file for a 3D printer: E moves the filament",
+                       "kadr has no extruder: take the E words out to see the motion; --dialect marlin tells "
+                       "the heater's M codes once"};
     if (is_sinumerik(line))
       return OtherKind{"a program in Sinumerik's language (Siemens)",
                        "let the postprocessor write ISO code (G291 mode), or use one for LinuxCNC"};
@@ -90,8 +90,9 @@ std::optional<OtherKind> other_kind(std::string_view text, bool macros) {
       return OtherKind{"a program in Heidenhain's language",
                        "let the postprocessor write ISO code (DIN/ISO)"};
     if (!macros && is_macro(line))
-      return OtherKind{"a Fanuc or Haas macro (macro B: IF .. GOTO, WHILE .. DO)",
-                       "run it with --dialect fanuc, or --dialect haas"};
+      return OtherKind{
+          "a Fanuc or Haas macro (macro B: IF .. GOTO, WHILE .. DO)",
+          "--dialect fanuc or --dialect haas reads it; LinuxCNC has O words: O1 if [#1 LT 5] ... O1 endif"};
   }
   return std::nullopt;
 }

@@ -39,7 +39,9 @@ void Parser::parse(Line& line, std::size_t begin_at) {
   line.only_settings = line.reads_inputs = false;
   line.macro_call = MacroCall::none;
   if (carriage_return_inside(line)) return;
-  cursor_ = Cursor(line.text, static_cast<std::uint32_t>(begin_at));
+  std::size_t end = line.text.size();
+  if (looks_at_lines_ && take_dialect_line(line, end)) return;
+  cursor_ = Cursor(line.text.substr(0, end), static_cast<std::uint32_t>(begin_at));
   if (begin_at > 0) {
     line.items.emplace_back();
     line.items.back().kind = ItemKind::byte_order_mark;
@@ -48,8 +50,8 @@ void Parser::parse(Line& line, std::size_t begin_at) {
   for (;;) {
     const char c = cursor_.peek();
     if (c == '\0' && cursor_.at_end()) {
-      if (macros_.on) note_macro_line();
-      return;
+      if (rules_.macros.on) note_macro_line();
+      break;
     }
     std::uint32_t begin = cursor_.at();
     const std::size_t nodes = line.nodes.size();
@@ -65,6 +67,10 @@ void Parser::parse(Line& line, std::size_t begin_at) {
       return;
     }
   }
+  if (end == line.text.size()) return;
+  line.items.emplace_back();
+  line.items.back().kind = ItemKind::line_comment;
+  line.items.back().bytes = {static_cast<std::uint32_t>(end), static_cast<std::uint32_t>(line.text.size())};
 }
 
 /// Reports a carriage return with more behind it: lines of an old Macintosh file, which must not become one block.
@@ -100,7 +106,7 @@ bool Parser::parse_item(char c) {
     return fail(Code::text_after_o_word, {cursor_.at(), static_cast<std::uint32_t>(line_->text.size())},
                 "only a comment may follow an O word and its values");
   }
-  if (line_->has_flow && !macros_.then_runs_words && c != '(' && c != ';' && c != '#') {
+  if (line_->has_flow && !rules_.macros.then_runs_words && c != '(' && c != ';' && c != '#') {
     return fail(Code::macro_statement, {cursor_.at(), static_cast<std::uint32_t>(line_->text.size())},
                 "only a setting may follow THEN",
                 "write IF [condition] GOTO n, around what the condition decides");
@@ -135,7 +141,8 @@ bool Parser::parse_item(char c) {
 bool Parser::parse_word(char letter) {
   const std::uint32_t begin = cursor_.at();
   cursor_.advance();
-  if (letter == 'O') return parse_o_word();
+  if (letter == 'O') return !expression_refused(begin) && parse_o_word();
+  if (letter == 'M' && rules_.text.text_codes && take_text_code(begin)) return true;
   double number = 0;
   if (cursor_.read_plain_number(number)) {
     Item& word = line_->items.emplace_back();
@@ -144,7 +151,7 @@ bool Parser::parse_word(char letter) {
     word.bytes = {begin, cursor_.at()};
     return true;
   }
-  if (macros_.on && is_letter(cursor_.peek()) && begins_control(begin)) return parse_control(begin);
+  if (rules_.macros.on && is_letter(cursor_.peek()) && begins_control(begin)) return parse_control(begin);
   Item item;
   item.letter = letter;
   if (begins_number(cursor_)) {
@@ -153,10 +160,15 @@ bool Parser::parse_word(char letter) {
       if (!muted_) report_.error(number_problem(*line_, result, item.bytes, letter));
       return false;
     }
+  } else if (bare_letter()) {
+    item.bytes = {begin, begin + 1};
+    line_->items.push_back(item);
+    return true;
   } else {
     if (cursor_.at_end()) {
       return fail(Code::number_missing, {begin, begin + 1}, fmt::format("{} has no value", letter));
     }
+    if (expression_refused(cursor_.at())) return false;
     item.first = static_cast<std::int32_t>(line_->nodes.size());
     item.value = expression().value();
     if (item.value < 0) return false;
@@ -170,9 +182,10 @@ bool Parser::parse_setting() {
   Item item;
   item.kind = ItemKind::setting;
   const std::uint32_t begin = cursor_.at();
+  if (expression_refused(begin)) return false;
   cursor_.advance();
   item.first = static_cast<std::int32_t>(line_->nodes.size());
-  if (cursor_.peek() == '<' && macros_.on) {
+  if (cursor_.peek() == '<' && rules_.macros.on) {
     expression().refuse_name(begin);
   } else if (cursor_.peek() == '<') {
     item.name = expression().name(begin);
@@ -186,7 +199,7 @@ bool Parser::parse_setting() {
   }
   item.equals = cursor_.at();
   cursor_.advance();
-  item.value = macros_.on ? expression().right_side() : expression().value();
+  item.value = rules_.macros.on ? expression().right_side() : expression().value();
   if (item.value < 0) return false;
   item.bytes = {begin, cursor_.at()};
   line_->items.push_back(item);
@@ -194,14 +207,14 @@ bool Parser::parse_setting() {
 }
 
 ExpressionParser Parser::expression() {
-  return {*line_, cursor_, names_, muted_ ? nullptr : &report_, macros_.on};
+  return {*line_, cursor_, names_, muted_ ? nullptr : &report_, rules_.macros.on};
 }
 
 bool Parser::parse_comment() {
   const std::uint32_t begin = cursor_.at();
   const std::string_view text = line_->text;
   for (std::uint32_t at = begin + 1; at < text.size(); ++at) {
-    if (text[at] == '(') {
+    if (text[at] == '(' && !rules_.text.comment_ends_at_first) {
       return fail(Code::comment_nested, {at, at + 1}, "a comment within a comment",
                   "a comment ends at the first ) and may not contain (");
     }
@@ -214,6 +227,7 @@ bool Parser::parse_comment() {
     check_encoding(item.bytes);
     return true;
   }
+  if (rules_.text.comment_ends_at_first) return parse_line_comment();
   return fail(Code::comment_not_closed, {begin, begin + 1}, "no ) follows on this line");
 }
 
@@ -286,6 +300,8 @@ bool Parser::bad_character() {
 bool Parser::corner_or_comma(std::uint32_t at) {
   Cursor ahead(line_->text, at + 1);
   const char letter = upper(ahead.peek());
+  if (rules_.text.corners && (letter == 'R' || letter == 'C'))
+    return parse_corner(at, letter, ahead.at() + 1);
   if (letter != 'C' && letter != 'R' && letter != 'A')
     return fail(Code::bad_character, {at, at + 1}, ", is not allowed here",
                 "blanks or nothing stand between words");
@@ -295,6 +311,30 @@ bool Parser::corner_or_comma(std::uint32_t at) {
   return fail(Code::word_not_run, {at, ahead.at() + 1},
               fmt::format("kadr does not run ,{}: {}", letter, name),
               letter == 'A' ? "write the end point of the move" : "write the corner as a move of its own");
+}
+
+/// ,R5 and ,C5
+bool Parser::parse_corner(std::uint32_t at, char letter, std::uint32_t behind) {
+  cursor_.go_to(behind);
+  Item item;
+  item.letter = letter == 'R' ? kCornerRadius : kCornerChamfer;
+  if (begins_number(cursor_)) {
+    Bytes bytes;
+    const NumberResult result = cursor_.read_number(item.number, bytes);
+    if (result != NumberResult::good) {
+      if (!muted_) report_.error(number_problem(*line_, result, bytes, letter));
+      return false;
+    }
+  } else {
+    if (cursor_.at_end())
+      return fail(Code::number_missing, {at, behind}, fmt::format(",{} has no value", letter));
+    item.first = static_cast<std::int32_t>(line_->nodes.size());
+    item.value = ExpressionParser(*line_, cursor_, names_, muted_ ? nullptr : &report_).value();
+    if (item.value < 0) return false;
+  }
+  item.bytes = {at, cursor_.at()};
+  line_->items.push_back(item);
+  return true;
 }
 
 bool Parser::fail(Code code, Bytes bytes, std::string label, std::string help) {

@@ -17,7 +17,7 @@ class ExpressionParser;
 class Parser {
  public:
   Parser(Names& names, Report& report, Dialect dialect = Dialect::linuxcnc)
-      : names_(names), report_(report), macros_(rules_of(dialect).macros) {}
+      : names_(names), report_(report), rules_(rules_of(dialect)), looks_at_lines_(rules_.text.of_lines()) {}
   /// Takes the whole line as one item that was not read, without a message.
   void leave_unread(Line& line);
   /// Mistakes are not reported: for a line reported before, or one that is never reached.
@@ -45,18 +45,31 @@ class Parser {
   bool parse_comment();
   bool parse_line_comment();
   bool parse_percent();
+  // dialect_lines.cpp
+  bool take_dialect_line(Line& line, std::size_t& end);
+  bool controller_line(Line& line);
+  bool percent_remark(Line& line);
+  bool take_checksum(Line& line, std::size_t& end);
+  bool too_many_characters(Line& line);
+  void remark(Line& line);
+  bool take_text_code(std::uint32_t begin);
+  bool bare_letter();
+  bool expression_refused(std::uint32_t begin);
+
   void check_encoding(Bytes bytes);
   bool carriage_return_inside(Line& line);
 
   bool bad_character();
   bool corner_or_comma(std::uint32_t at);
+  bool parse_corner(std::uint32_t at, char letter, std::uint32_t behind);
   bool fail(Code code, Bytes bytes, std::string label, std::string help = {});
 
   ExpressionParser expression();
 
   Names& names_;
   Report& report_;
-  MacroRules macros_;
+  const DialectRules& rules_;
+  bool looks_at_lines_;  ///< of the dialect
   Line* line_ = nullptr;
   Cursor cursor_{{}};
   bool encoding_told_ = false;

@@ -71,6 +71,15 @@ void Report::repeated_error(Diagnostic d, const std::string& subject) {
   ++kind.count;
 }
 
+void Report::repeated_note(Diagnostic d, const std::string& key) {
+  if (place_) d.span = *place_;
+  d.severity = Severity::note;
+  Repeated& kind = noted_[key];
+  // places are remembered as far as those of warnings; more are counted at each pass
+  if (kind.count < kMaxWarnings && !first_time(d)) return;
+  if (kind.count++ == 0) kind.first = std::move(d);
+}
+
 void Report::warning(Diagnostic d) {
   if (place_) d.span = *place_;
   if (warnings_ > kMaxWarnings) {
@@ -115,6 +124,10 @@ void Report::close(Span end) {
   for (const auto& [subject, kind] : repeated_errors_)
     if (kind.count > 1 && kind.told > 0)
       diagnostics_.add_note(kind.told - 1, fmt::format("{} times in this program", kind.count));
+  for (auto& [key, kind] : noted_) {
+    if (kind.count > 1) kind.first.notes.push_back(fmt::format("{} times in this program", kind.count));
+    diagnostics_.add(std::move(kind.first));
+  }
   if (warnings_ > kMaxWarnings) diagnostics_.leave_out(Severity::warning, warnings_ - kMaxWarnings, end);
   if (told_errors_ >= kMaxErrors) diagnostics_.stop(end);
 }

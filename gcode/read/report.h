@@ -40,6 +40,9 @@ class Report {
   void repeated_warning(Diagnostic d, double size, std::string what, const std::string& subject = {});
   /// An error that a program repeats: told at the first place of each subject, and close() adds how often it was met.
   void repeated_error(Diagnostic d, const std::string& subject);
+  /// A fact that a program gives many times: close() tells it once for each `key`, at its first place, with its count.
+  /// @param key  one of a bounded number of texts
+  void repeated_note(Diagnostic d, const std::string& key);
   /// Everything found so far, told or not.
   std::size_t found() const { return errors_ + warnings_ + met_; }
   /// The text whose first error may say that it is of another kind (gcode/read/other_kind.h): that is told in its place,
@@ -96,6 +99,7 @@ class Report {
   using Subject = std::pair<Code, std::string>;
   std::map<Subject, Repeated> repeated_;
   std::map<Subject, Counted> repeated_errors_;
+  std::map<std::string, Repeated> noted_;
   std::optional<Watched> watched_;
 };
 

@@ -27,6 +27,11 @@ std::vector<Bytes> lexemes_of(const Line& line) {
     switch (item.kind) {
       case ItemKind::word:
         lexemes.push_back({begin, begin + 1});
+        if (is_corner(item) && item.value >= 0) {
+          // , and its letter
+          const std::size_t letter = line.text.find_first_of("RCrc", begin);
+          lexemes.push_back({static_cast<std::uint32_t>(letter), static_cast<std::uint32_t>(letter) + 1});
+        }
         if (item.value < 0) lexemes.push_back({begin + 1, item.bytes.end});
         collect(line, item, end_node, lexemes);
         break;

@@ -88,6 +88,9 @@ enum class ItemKind : std::uint8_t {
   unread,           ///< the rest of a line after a syntax error
 };
 
+/// Letters of the words ,R and ,C.
+inline constexpr char kCornerRadius = ',', kCornerChamfer = '&';
+
 /// One thing on a line.
 struct Item {
   ItemKind kind = ItemKind::word;
@@ -100,6 +103,11 @@ struct Item {
   std::int32_t name = -1;    ///< setting of a named parameter: number of the name
   std::uint32_t equals = 0;  ///< setting: position of `=`
 };
+
+/// True for ,R and ,C.
+constexpr bool is_corner(const Item& item) {
+  return item.kind == ItemKind::word && (item.letter == kCornerRadius || item.letter == kCornerChamfer);
+}
 
 /// Keywords of O words and of macro B.
 enum class FlowWord : std::uint8_t {

@@ -223,7 +223,7 @@ TEST_CASE("a bad or missing tool table and an unknown dialect keep every command
     CHECK(contains(missing.err, "none.tbl"));
     const Finished dialect = call({command, "square.ngc", "--dialect", "heidenhain"}, scratch.path());
     CHECK(dialect.code == 2);
-    CHECK(contains(dialect.err, "linuxcnc, grbl, mach3, marlin, fanuc, haas"));
+    CHECK(contains(dialect.err, "linuxcnc, grbl, mach3, marlin, reprap, fanuc, haas, auto"));
   }
 }
 

@@ -191,7 +191,7 @@ TEST_CASE("bash completes commands, values of vocabularies, and files of the rig
   CHECK(at("kadr run --machine = mi") == "mill3");
   CHECK(at("kadr run --color ''") == "always auto never");
   CHECK(at("kadr check --format = s") == "sarif");
-  CHECK(at("kadr canon --dialect ''") == "fanuc grbl linuxcnc marlin");
+  CHECK(at("kadr canon --dialect ''") == "auto fanuc grbl haas linuxcnc mach3 marlin reprap");
   CHECK(at("kadr run --limit ''") ==
         "blocks= call_depth= file_bytes= line_bytes= lines= log_bytes= loop_passes= messages= nurbs_order=");
   CHECK(at("kadr run --limit blocks = ''") == "");

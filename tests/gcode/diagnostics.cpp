@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -72,6 +73,8 @@ InterpretOptions machine_for(const std::string& program) {
   if (program.rfind("K1140", 0) == 0) options.ignored = {{'M', 31, {}}, {'M', 42, {}}, {'G', 1870, {}}};
   if (program.rfind("K1141", 0) == 0) options.ignored = {{'M', 8, {}}, {'G', 10, {}}};
   if (program.rfind("K1142", 0) == 0) options.codes.own = {owner_call('M', 150, "clamp")};
+  for (const auto& dialect : kDialects)
+    if (program.find(fmt::format("_{}.", dialect.word)) != std::string::npos) options.dialect = dialect.value;
   static const MemoryTexts two_subs = [] {
     MemoryTexts texts;
     texts.put("a", "o<a> sub\no<a> endsub\no<b> sub\no<b> endsub\n");

@@ -73,7 +73,7 @@ void ProgramDraw::offsets() {
       line(fmt::format("G10 L2 P{}", d_.whole(0, 9)) + words);
       break;
     case 1:
-      line(fmt::format("G10 L20 P{}", d_.whole(0, 9)) + words);
+      line(fmt::format("G10 L20 P{}", d_.whole(shop() ? 1 : 0, 9)) + words);
       break;
     case 2:
       line("G92" + words);
@@ -130,9 +130,10 @@ void ProgramDraw::dwell() {
     line("G4 S" + plain(seconds));
   else if (program_.dialect == "fanuc" && d_.chance(0.5))
     line("G4 X" + plain(seconds));
+  else if (program_.dialect == "haas")
+    line(fmt::format("G4 P{:.0f}", seconds * 1e3));  // a point would mean seconds
   else
-    line("G4 P" +
-         plain(program_.dialect == "marlin" || program_.dialect == "fanuc" ? seconds * 1e3 : seconds));
+    line("G4 P" + plain(program_.dialect == "linuxcnc" || grbl() ? seconds : seconds * 1e3));
 }
 
 void ProgramDraw::functions() {
@@ -172,6 +173,10 @@ void ProgramDraw::functions() {
                                        "$0 M5",
                                        "G61 (exact)"};
   const std::string text = kLines[d_.below(std::size(kLines))];
+  // of Haas these are others' codes
+  if (program_.dialect == "haas" &&
+      (text.rfind("M48", 0) == 0 || text.rfind("M49", 0) == 0 || text.rfind("M5", 0) == 0) && text != "M5")
+    return;
   if (text == "G91.1") modes_.absolute_centers = false;
   line(text);
 }

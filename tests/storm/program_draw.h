@@ -30,6 +30,8 @@ class ProgramDraw {
   void add(Statement statement, int times = 1) { statements_.insert(statements_.end(), times, statement); }
   void line(const std::string& text) { *out_ += text + "\n"; }
   bool has(std::string_view letters) const;
+  bool grbl() const { return program_.dialect == "grbl"; }
+  bool shop() const { return program_.dialect == "fanuc" || program_.dialect == "haas"; }
   double some_u() { return m_.scale.move_u * d_.real(-1, 1); }
   /// A length of the program: mm or degrees in its unit.
   std::string length(double value_u, char letter = 'X') const;

@@ -89,7 +89,7 @@ void ProgramDraw::define_subs() {
   const int subs = d_.chance(0.3) ? d_.whole(1, 2) : 0;
   for (int i = 1; i <= subs; ++i) {
     line(fmt::format("o{} sub", 100 + i));
-    if (d_.chance(0.3)) line("M73");
+    if (!shop() && d_.chance(0.3)) line("M73");
     moves();
     if (d_.chance(0.3)) {
       line("o90 if [#1 GT 0.5]");

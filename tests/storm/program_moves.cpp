@@ -26,7 +26,7 @@ std::string ProgramDraw::to(char letter, double delta_u) {
 }
 
 std::string ProgramDraw::spelled(char letter, double delta_u) {
-  if (!d_.chance(0.15)) return to(letter, delta_u);
+  if (grbl() || !d_.chance(0.15)) return to(letter, delta_u);
   std::string factor = d_.chance(0.5) ? "SIN[" : "COS[";
   factor += w_.expression(1) + "]";
   const std::string delta = fmt::format("{}*{}", length(delta_u, letter), factor);
@@ -82,7 +82,7 @@ void ProgramDraw::arc() {
                  : fmt::format("{}{} ", letter, length(value));
     };
     text += number(ij[0], i) + number(ij[1], j);
-    if (d_.chance(0.15)) text += fmt::format("P{} ", d_.whole(1, 3));
+    if (!grbl() && d_.chance(0.15)) text += fmt::format("P{} ", d_.whole(1, 3));
   }
   if (m_.has(p.normal) && d_.chance(0.4)) text += " " + to(p.normal, some_u() * 0.3);
   if (!m_.turning.empty() && d_.chance(0.2)) {

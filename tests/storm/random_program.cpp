@@ -1,5 +1,8 @@
 #include "tests/storm/random_program.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "tests/storm/program_draw.h"
 #include "tests/storm/storm_case.h"
 
@@ -8,10 +11,18 @@ namespace kadr::storm {
 ProgramDraw::ProgramDraw(Draw& draw, const RandomMachine& machine) : d_(draw), w_(draw), m_(machine) {
   for (const char letter : m_.letters)
     if (!m_.rotary(letter)) linear_ += letter;
+  program_.dialect =
+      d_.pick<std::string>({"linuxcnc", "linuxcnc", "linuxcnc", "grbl", "mach3", "marlin", "fanuc", "haas"});
   if (has("XY")) planes_.push_back({"G17", 'X', 'Y', 'Z'});
   if (has("XZ")) planes_.push_back({"G18", 'Z', 'X', 'Y'});
   if (has("YZ")) planes_.push_back({"G19", 'Y', 'Z', 'X'});
   add(&ProgramDraw::straight, 6);
+  if (grbl()) {
+    // no expressions, and few codes
+    add(&ProgramDraw::dwell);
+    if (!planes_.empty()) add(&ProgramDraw::arc, 3);
+    return;
+  }
   add(&ProgramDraw::chain, 2);
   add(&ProgramDraw::modes, 2);
   add(&ProgramDraw::path_mode);
@@ -31,12 +42,17 @@ ProgramDraw::ProgramDraw(Draw& draw, const RandomMachine& machine) : d_(draw), w
       &ProgramDraw::rotation,     &ProgramDraw::references,   &ProgramDraw::outputs,  &ProgramDraw::tools,
       &ProgramDraw::stored,       &ProgramDraw::condition,    &ProgramDraw::loop,     &ProgramDraw::call,
       &ProgramDraw::dialect_words};
-  for (const Statement subject : kSubjects)
-    if (d_.chance(0.3)) add(subject, 2);
+  static constexpr Statement kNotOfShops[] = {&ProgramDraw::spline, &ProgramDraw::nurbs,
+                                              &ProgramDraw::thread_cycle, &ProgramDraw::diameter,
+                                              &ProgramDraw::stored};
+  for (const Statement subject : kSubjects) {
+    const bool refused =
+        shop() && std::find(std::begin(kNotOfShops), std::end(kNotOfShops), subject) != std::end(kNotOfShops);
+    if (d_.chance(0.3) && !refused) add(subject, 2);
+  }
 }
 
 RandomProgram ProgramDraw::make() {
-  program_.dialect = d_.pick<std::string>({"linuxcnc", "linuxcnc", "linuxcnc", "grbl", "marlin", "fanuc"});
   rubbish_ = d_.chance(0.02);
   if (d_.chance(0.4)) {
     tools_given_ = true;
@@ -48,10 +64,11 @@ RandomProgram ProgramDraw::make() {
       table += fmt::format("T{} P{} {}{} D{} ;tool\n", number, number, letter, offset, plain(diameter));
     }
   }
-  define_subs();
-  if (!file_sub_ && d_.chance(0.12)) subprograms_ = d_.whole(1, 2);
+  if (!grbl()) define_subs();
+  if (!grbl() && !file_sub_ && d_.chance(0.12)) subprograms_ = d_.whole(1, 2);
   const bool fanuc = program_.dialect == "fanuc";
-  std::string head = fanuc ? "G71 G90 G94 " : "G21 G90 G94 ";
+  modes_.incremental = grbl();
+  std::string head = fanuc ? "G71 G90 G94 " : grbl() ? "G21 G91 G94 " : "G21 G90 G94 ";
   if (!planes_.empty()) {
     modes_.plane = planes_.front();
     head += modes_.plane.code + " ";
