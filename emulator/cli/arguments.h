@@ -100,7 +100,7 @@ struct Arguments {
   bool ask = false;                   ///< machine new --ask
   std::string tools;                  ///< tool table; empty: none
   std::optional<gcode::Dialect> dialect;
-  bool recognise_dialect = false;            ///< --dialect auto
+  bool recognise_dialect = false;          ///< --dialect auto
   std::vector<gcode::WorkOffset> offsets;  ///< --offset
   std::optional<std::uint32_t> from_line, to_line;
   std::vector<machine::CodeName> ignored;    ///< --ignore

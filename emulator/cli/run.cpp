@@ -158,10 +158,9 @@ void read_inputs(RunInputs& in) {
     in.program = program_text(in.program_file.path);
   }
   const auto next = static_cast<std::uint32_t>(in.sources.size());
-  in.started =
-      load_reading(in.arguments, in.given.program, in.reading, in.sources, in.given.reading,
-                   in.diagnostics) &&
-      in.machine_good;
+  in.started = load_reading(in.arguments, in.given.program, in.reading, in.sources, in.given.reading,
+                            in.diagnostics) &&
+               in.machine_good;
   if (!in.started) return;
   list_files(in, next);
   if (!in.scenario) return;

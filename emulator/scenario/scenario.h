@@ -100,11 +100,11 @@ struct Scenario {
   std::string tools_file;  ///< tool table as written, empty: none
   gcode::Dialect dialect = gcode::Dialect::linuxcnc;
   std::optional<std::uint32_t> from_line, to_line;  ///< as gcode::Reading has them
-  std::string ini_file;                    ///< INI file as written, empty: none
-  std::vector<machine::CodeName> ignored;  ///< codes that are passed over
-  std::vector<gcode::HalValue> hal;        ///< values of HAL pins
-  std::vector<std::string> settings;       ///< "key=value"
-  std::optional<double> most_override;     ///< JobInputs::most_override
+  std::string ini_file;                             ///< INI file as written, empty: none
+  std::vector<machine::CodeName> ignored;           ///< codes that are passed over
+  std::vector<gcode::HalValue> hal;                 ///< values of HAL pins
+  std::vector<std::string> settings;                ///< "key=value"
+  std::optional<double> most_override;              ///< JobInputs::most_override
   std::vector<ScenarioStep> steps;
   std::vector<ScenarioTechnology> technology;
   Expectations expect;

@@ -85,24 +85,22 @@ constexpr DialectRules kFanuc{.name = "Fanuc",
                               .macros = {.on = true, .angles_to_360 = true, .returns_to_number = true}};
 
 /// Mill operator's manual 96-8210, chapters G codes (G04, G73 to G89, G110, G154, G187) and M codes.
-constexpr DialectRules kHaas{.name = "Haas",
-                             .text = {.corners = true},
-                             .dwell_words = kMilliseconds,
-                             .cycle_dwell_s = kMillisecond_s,
-                             .point_means_seconds = true,
-                             .repeats_in_k = true,
-                             .taps_peck = true,
-                             .call_shares_line = true,
-                             .begins_with_rapid = true,
-                             .begins_with_g98 = true,
-                             .keeps_group_1 = true,
-                             .bare_arc_sets_mode = true,
-                             .home_beside_motion = true,
-                             .further_systems = 99,
-                             .macros = {.on = true,
-                                        .local_subs = true,
-                                        .then_runs_words = true,
-                                        .diameters_in_offsets = true}};
+constexpr DialectRules kHaas{
+    .name = "Haas",
+    .text = {.corners = true},
+    .dwell_words = kMilliseconds,
+    .cycle_dwell_s = kMillisecond_s,
+    .point_means_seconds = true,
+    .repeats_in_k = true,
+    .taps_peck = true,
+    .call_shares_line = true,
+    .begins_with_rapid = true,
+    .begins_with_g98 = true,
+    .keeps_group_1 = true,
+    .bare_arc_sets_mode = true,
+    .home_beside_motion = true,
+    .further_systems = 99,
+    .macros = {.on = true, .local_subs = true, .then_runs_words = true, .diameters_in_offsets = true}};
 
 constexpr std::int64_t kProgramNumbers = 10'000;  // four digits
 

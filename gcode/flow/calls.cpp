@@ -63,7 +63,8 @@ void Flow::call_code(const CallRequest& request) {
 /// The subroutine of an owner's code; it reads the words of the line as #<p>, #<q>, ...
 void Flow::call_owner(const CallRequest& request) {
   const Target target = find(state_.names.number(request.owner->call), false, request.place);
-  if (target.unit == nullptr || !enter(target, false, request.place, {})) return interpreter_.lose_track();
+  if (target.unit == nullptr || !enter(target, CallKind::o_word, request.place, {}))
+    return interpreter_.lose_track();
   state_.levels.back().code = request.owner->code;
   for (const auto& [letter, value] : request.words)
     set_named(state_, state_.names.number(std::string_view(&letter, 1)), value);

@@ -111,7 +111,6 @@ bool Interpreter::set_tool_variable(int number, double value, Span place) {
     tool = &state_.tools.tools.back();
     tool->number = tool->pocket = variable->tool;
   }
-  constexpr std::size_t kZ = 2;
   (variable->diameter ? tool->diameter_mm : tool->offset[kZ]) = value * state_.length_factor();
   return true;
 }

@@ -9,8 +9,8 @@
 #include "gcode/block.h"
 #include "gcode/dialect/codes.h"
 #include "gcode/dialect/dialect.h"
-#include "gcode/read/ini_file.h"
 #include "gcode/gcode.h"
+#include "gcode/read/ini_file.h"
 #include "gcode/read/names.h"
 #include "gcode/read/tool_table.h"
 #include "machine/base/axes.h"
@@ -212,7 +212,7 @@ struct State {
   double returned_value = 0;  ///< of the last subroutine
   bool value_returned = false;
   Uncertain uncertain;
-  MacroRules macros;  ///< of the dialect
+  MacroRules macros;             ///< of the dialect
   const IniFile* ini = nullptr;  ///< of the machine; null: none is given
 
   /// Parameters from #1 on that belong to a call.

@@ -36,7 +36,7 @@ enum class Code : std::uint16_t {
   program_empty = 1063,
   program_cut = 1064,
 
-  // K1020 to K1049 control flow: subroutines, loops, conditions, named parameters, files, bounds (codes/flow.inc)
+  // K1020 to K1059 control flow: subroutines, loops, conditions, named parameters, files, bounds, macro B (codes/flow.inc)
   o_word_place = 1020,
   text_after_o_word = 1021,
   o_keyword_unknown = 1022,

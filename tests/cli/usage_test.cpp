@@ -92,11 +92,11 @@ TEST_CASE("usage mistakes are named in the order of the arguments, with the near
     const char* line;
     const char* complaint;
   } cases[] = {
-      {"run p.ngc -m router.toml --from-line 1820", "kadr run: there is no option --from-line\n"},
+      {"run p.ngc -m router.toml --resume 1820", "kadr run: there is no option --resume\n"},
       {"plot p.lcmlog --from-line 18", "kadr plot: there is no option --from-line; did you mean --from?\n"},
       {"report p.lcmlog --out x", "kadr report: there is no option --out; did you mean --output?\n"},
       {"wind helix --diameter-mm 120 x", "kadr wind helix: there is no option --diameter-mm\n"},
-      {"check p.ngc --from-line 10", "kadr check: there is no option --from-line\n"},
+      {"check p.ngc --frm-line 10", "kadr check: there is no option --frm-line; did you mean --from-line?\n"},
       {"run p.ngc --machin x --bogus", "kadr run: there is no option --machin; did you mean --machine?\n"},
       {"export p.lcmlog --cvs", "did you mean --csv?\n"},
       {"run -xq p.ngc", "kadr run: there is no option -xq\n"},
